@@ -6,9 +6,10 @@ from collections.abc import Collection, Sequence
 
 from ...common.errors import InputError, suggestion
 from ...common.percent import percent
+from .plain_text import align_columns, short
 from .statistics import STATISTICS
 from .summary import CONFIDENCE, Summary, SummaryRow, summary_rows
-from .tables import align_columns, requirement_lines, short, who_cells, who_heads
+from .tables import requirement_lines, who_cells, who_heads
 
 ALL = "all"
 WIDTH = 100  # columns

@@ -2,28 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from ...common.percent import percent
+from .plain_text import align_columns, ordinal, short
 from .requirement_verdicts import RequirementVerdict
 from .summary import Summary, SummaryRow
 from .verdicts.acceptance import Verdict
-
-
-def align_columns(rows: list[list[str]]) -> list[str]:
-    """Rows of cells as lines, the first column to the left, the others to the right."""
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return [
-        "  ".join(
-            [row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]
-        )
-        for row in rows
-    ]
-
-
-def assumption_lines(assumptions: Iterable[str]) -> list[str]:
-    """What a result assumes since an FMU does not declare it, a line for each assumption."""
-    return [f"assumed: {assumption}" for assumption in assumptions]
 
 
 def who_heads(group: str | None) -> list[str]:
@@ -34,11 +17,6 @@ def who_heads(group: str | None) -> list[str]:
 def who_cells(row: SummaryRow, group: str | None) -> list[str]:
     """A row's variant and, where trials are grouped, its group's value, or that it is all of them."""
     return [row.variant] if group is None else [row.variant, row.group or "all"]
-
-
-def short(value: float | None) -> str:
-    """Return a number in four digits, a dash for none."""
-    return "-" if value is None else f"{value:.4g}"
 
 
 def requirement_lines(summary: Summary) -> list[str]:
@@ -63,12 +41,6 @@ def requirement_rows(summary: Summary) -> list[tuple[str, str, RequirementVerdic
     """Variant, name and verdict of every requirement of every variant, those of one requirement together."""
     names = dict.fromkeys(name for variant in summary.values() for name in variant.requirements)
     return [(variant, name, entry.requirements[name]) for name in names for variant, entry in summary.items()]
-
-
-def ordinal(number: int) -> str:
-    """1st, 2nd, 3rd, 4th, 11th."""
-    teen = number // 10 % 10 == 1
-    return f"{number}{'th' if teen else ('th', 'st', 'nd', 'rd', *['th'] * 6)[number % 10]}"
 
 
 def bound_text(result: RequirementVerdict, value: str) -> str:
@@ -112,8 +84,3 @@ def unevaluated_text(judged: RequirementVerdict) -> str:
         return ""
     names, verb = " and ".join(judged.unevaluated), "are" if len(judged.unevaluated) > 1 else "is"
     return f"{names} {verb} evaluated in none of {judged.flights} flights"
-
-
-def faults_line(faults: Iterable[object]) -> str:
-    """What results say of the faults that flew."""
-    return f"with faults: {'; '.join(map(str, faults))}"

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...common.errors import InputError
 from ..campaigns.definition.plan import BatchPlan
-from ..campaigns.tables import align_columns, assumption_lines
+from ..campaigns.plain_text import align_columns, assumption_lines
 from ..runtime.loop.elementary import elementary
 from .draw_space import DrawSpace
 from .flights import SampleFlights

@@ -10,7 +10,7 @@ from typing import Any, Unpack
 
 from ...common.errors import InputError
 from ..campaigns.execute.replay import ReplayedTrial, replay_plan, replay_trial
-from ..campaigns.tables import faults_line
+from ..campaigns.plain_text import faults_line
 from ..options.command import record_options
 from ..options.declared.campaigns import REPLAY, ReplayOptions
 from ..options.option import FilePath

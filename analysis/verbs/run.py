@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 from ...common.errors import InputError
 from ...common.visible import on_one_line
 from ..campaigns.definition.expressions import Expression
-from ..campaigns.tables import faults_line
+from ..campaigns.plain_text import faults_line
 from ..options.declared.campaigns import RUN, RunOptions
 from ..options.fault import Fault, faults_of
 from ..options.option import FilePath

@@ -16,6 +16,7 @@ from perilune.analysis.campaigns.definition.campaign import Metric
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.definition.metrics import successes
 from perilune.analysis.campaigns.definition.requirements import Requirement
+from perilune.analysis.campaigns.plain_text import ordinal
 from perilune.analysis.campaigns.requirement_verdicts import (
     ToleranceBound,
     requirement_verdict,
@@ -24,7 +25,7 @@ from perilune.analysis.campaigns.requirement_verdicts import (
 )
 from perilune.analysis.campaigns.summary import requirement_values, summarise
 from perilune.analysis.campaigns.summary_text import summary_text
-from perilune.analysis.campaigns.tables import ordinal, unmet_lines
+from perilune.analysis.campaigns.tables import unmet_lines
 from perilune.analysis.campaigns.verdicts.stopping import stopping_rule
 from perilune.common.to_json import to_json
 from tests.support.campaigns.trial_tables import trial_table

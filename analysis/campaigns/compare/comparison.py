@@ -13,9 +13,10 @@ from ....common.percent import percent
 from ....common.to_json import to_json
 from ..definition.campaign import Group, Metric
 from ..folder.stored import StoredBatch
+from ..plain_text import faults_line
 from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows
 from ..summary_text import metric_lines, rate_lines, select_metrics
-from ..tables import faults_line, who_cells, who_heads
+from ..tables import who_cells, who_heads
 from ..trials import TrialTable
 from .paired import PairedRates, PairedValues, compare_rates, compare_values
 

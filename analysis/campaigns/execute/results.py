@@ -14,10 +14,10 @@ import pyarrow
 from ....common.atomic import write_atomically
 from ....common.to_json import to_json
 from ..definition.plan import BatchPlan
+from ..plain_text import assumption_lines, faults_line
 from ..plotted_sample import PlottedSample, select_trials
 from ..summary import Summary, summarise
 from ..summary_text import select_metrics, summary_text
-from ..tables import assumption_lines, faults_line
 from ..trials import TrialTable
 from .campaign import Campaign
 from .folder import tidy

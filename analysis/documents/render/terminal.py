@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ...campaigns.tables import align_columns
+from ...campaigns.plain_text import align_columns
 from ..model import Commands, Document, Fold, KeyNumbers, Node, Section, Table, Text, Verdict
 from .words import cell_text, rich_text
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...reports.common.quantities import display_unit, in_shown_unit, number
+from ...reports.common.quantities import display_unit, in_display_unit, number
 from ..model import Cell, Code, Quantity, Rich
 
 
@@ -12,7 +12,7 @@ def cell_text(cell: Cell) -> str:
         case Code(text):
             return text
         case Quantity(value, unit, digits, is_bare):
-            text = number(in_shown_unit(value, unit), digits)
+            text = number(in_display_unit(value, unit), digits)
             return text if is_bare or not display_unit(unit) else f"{text} {display_unit(unit)}"
     return number(cell)
 

@@ -22,7 +22,7 @@ from ...campaigns.trials import TrialTable
 from ...commands.campaigns import replay_command, replay_of_folder
 from ...studies.sobol import rank_correlations
 from ..common.page import exact
-from ..common.quantities import display_unit, in_shown_unit, number
+from ..common.quantities import display_unit, in_display_unit, number
 
 HEADINGS = {name: f"{QUANTILES[name]} %" if name in QUANTILES else name for name in STATISTICS}
 
@@ -61,7 +61,7 @@ def _bound(result: RequirementVerdict, units: Mapping[str, str]) -> str:
     if result.unevaluated or result.bound is None:
         return unevaluated_text(result)
     unit = units[result.bound.metric]
-    return bound_text(result, f"{number(in_shown_unit(result.bound.value, unit))} {display_unit(unit)}".strip())
+    return bound_text(result, f"{number(in_display_unit(result.bound.value, unit))} {display_unit(unit)}".strip())
 
 
 MOST_INPUTS = 3  # of a metric

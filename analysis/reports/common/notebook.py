@@ -14,7 +14,7 @@ from ...campaigns.statistics import STATISTICS
 from ...campaigns.summary import SummaryRow
 from ...campaigns.tables import who_cells, who_heads
 from .page import render_page
-from .quantities import display_unit, in_shown_unit, number
+from .quantities import display_unit, in_display_unit, number
 from .svg import svg_bytes
 
 TEMPLATE = Path(__file__).with_name("notebook.html")
@@ -40,7 +40,7 @@ def notebook_view(title: str, words: Iterable[str], grids: Iterable[Grid], plot:
 
 def value_text(values: Iterable[Any], unit: str | None) -> str:
     """Numbers with their unit, angles in deg."""
-    text = ", ".join(number(in_shown_unit(value, unit)) for value in values)
+    text = ", ".join(number(in_display_unit(value, unit)) for value in values)
     return f"{text} {display_unit(unit)}".strip()
 
 
@@ -50,6 +50,6 @@ def metric_grid(rows: Sequence[SummaryRow], metrics: Iterable[str], group: str |
     for metric in metrics:
         for row in rows:
             statistics = row.entry.metrics[metric]
-            numbers = [number(in_shown_unit(statistics.value(name), statistics.unit)) for name in STATISTICS]
+            numbers = [number(in_display_unit(statistics.value(name), statistics.unit)) for name in STATISTICS]
             cells.append((metric, *who_cells(row, group), *numbers, display_unit(statistics.unit)))
     return Grid(("metric, successful trials", *who_heads(group), *STATISTICS, "unit"), cells)

@@ -15,14 +15,14 @@ from ....common.percent import percent
 from ..interactive.charts import Drawing
 from ..interactive.embedded import Embedded
 from .colours import colour_properties
-from .quantities import MINUS, display_unit, in_shown_unit, number
+from .quantities import MINUS, display_unit, in_display_unit, number
 
 FOLDER = Path(__file__).parent
 
 
 def exact(value: Any, unit: str | None = None, digits: int = 4) -> Markup:
     """A number for reading in its shown unit, with the exact SI value in the markup for programs."""
-    displayed = number(in_shown_unit(value, unit), digits)
+    displayed = number(in_display_unit(value, unit), digits)
     if value is None or isinstance(value, str):
         return Markup("<span>{}</span>").format(displayed)
     return data(str(value).lower() if isinstance(value, bool) else repr(value), displayed)

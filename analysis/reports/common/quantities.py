@@ -58,7 +58,7 @@ def number(value: Any, digits: int = 4) -> str:
     return text.replace("-", MINUS)
 
 
-def in_shown_unit(value: Any, unit: str | None) -> Any:
+def in_display_unit(value: Any, unit: str | None) -> Any:
     """A value in ``unit`` in the unit that is shown; Integers, Booleans and None stay as they are."""
     factor = display_factor(unit)
     return value if factor == 1.0 or value is None or isinstance(value, bool | str) else value * factor

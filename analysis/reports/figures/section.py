@@ -15,7 +15,7 @@ from ..chart.panel import chart_panel, fluid_figure
 from ..common.colours import look
 from ..common.page import Table, data, exact
 from ..common.panels import HALF_WIDTH, Panel, swatch
-from ..common.quantities import MINUS, in_shown_unit
+from ..common.quantities import MINUS, in_display_unit
 from ..interactive.charts import NO_BOX, Area, Chart, Curve, Drawing, Rule
 from .declared import Rows
 
@@ -86,12 +86,12 @@ def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:
 
 def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Markup]:
     """Numbers of a column, all with the decimals of the largest at so many significant digits."""
-    sizes = [abs(in_shown_unit(value, unit)) for value in values if value is not None and math.isfinite(value)]
+    sizes = [abs(in_display_unit(value, unit)) for value in values if value is not None and math.isfinite(value)]
     maximum = max(sizes, default=0.0)
     places = max(0, digits - 1 - math.floor(math.log10(maximum))) if maximum > 0.0 else 0
     return [
         exact(value, unit)
         if value is None or not math.isfinite(value)
-        else data(repr(value), f"{in_shown_unit(value, unit) + 0.0:.{places}f}".replace("-", MINUS))
+        else data(repr(value), f"{in_display_unit(value, unit) + 0.0:.{places}f}".replace("-", MINUS))
         for value in values
     ]

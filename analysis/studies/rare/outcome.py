@@ -11,7 +11,7 @@ from typing import NotRequired
 import numpy as np
 
 from ....common.percent import short_percent
-from ...campaigns.tables import align_columns, assumption_lines
+from ...campaigns.plain_text import align_columns, assumption_lines
 from ..failure import Failure
 from ..flown import FlightDocument, StudyResult, strict
 from ..noise import noise_line

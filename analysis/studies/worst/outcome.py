@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...campaigns.tables import align_columns, assumption_lines
+from ...campaigns.plain_text import align_columns, assumption_lines
 from ..flown import FlightDocument, StudyResult
 from ..noise import noise_line
 from ..units import unit_of_expression, with_unit

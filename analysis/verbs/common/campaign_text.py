@@ -17,8 +17,9 @@ from ...campaigns.execute.evaluation import worst_statuses
 from ...campaigns.execute.flyer import TrialResult
 from ...campaigns.execute.results import BatchResult
 from ...campaigns.lost_trials import lost_of
+from ...campaigns.plain_text import align_columns, short
 from ...campaigns.summary import requirement_values, summarise
-from ...campaigns.tables import align_columns, short, unmet_lines
+from ...campaigns.tables import unmet_lines
 from ...campaigns.trials import TrialTable
 from ...commands.campaigns import replay_of_folder
 from ...runtime.flight.results import TIMED_OUT, with_meaning

@@ -10,7 +10,7 @@ from typing import Any, Protocol, TypedDict, TypeVar
 from ....common.errors import UnwrittenError
 from ....common.targets import check_folder
 from ...campaigns.definition.expressions import Expression
-from ...campaigns.tables import assumption_lines
+from ...campaigns.plain_text import assumption_lines
 from ...options.declared.studies import ConditionOptions
 from ...reports.studies.conditions import StudyResult, conditions_of
 from .arguments import requirement_problems

@@ -6,7 +6,7 @@ import pytest
 
 from perilune.analysis.reports.common.quantities import (
     display_unit,
-    in_shown_unit,
+    in_display_unit,
     label_with_unit,
     log_tick,
     number,
@@ -38,9 +38,9 @@ def test_numbers(value, shown):
 
 
 def test_angles_are_shown_in_degrees_and_nothing_else_changes():
-    assert in_shown_unit(math.pi, "rad") == 180.0
-    assert in_shown_unit(math.pi, "m") == math.pi
-    assert in_shown_unit(None, "rad") is None
+    assert in_display_unit(math.pi, "rad") == 180.0
+    assert in_display_unit(math.pi, "m") == math.pi
+    assert in_display_unit(None, "rad") is None
     assert label_with_unit("tilt", "rad/s") == "tilt, deg/s"
     assert label_with_unit("count", None) == "count"
 

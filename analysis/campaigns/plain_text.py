@@ -1,0 +1,37 @@
+"""Lines for a terminal that need no trials: aligned columns, assumptions, faults, numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+def align_columns(rows: list[list[str]]) -> list[str]:
+    """Rows of cells as lines, the first column to the left, the others to the right."""
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    return [
+        "  ".join(
+            [row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]
+        )
+        for row in rows
+    ]
+
+
+def assumption_lines(assumptions: Iterable[str]) -> list[str]:
+    """What a result assumes since an FMU does not declare it, a line for each assumption."""
+    return [f"assumed: {assumption}" for assumption in assumptions]
+
+
+def faults_line(faults: Iterable[object]) -> str:
+    """What results say of the faults that flew."""
+    return f"with faults: {'; '.join(map(str, faults))}"
+
+
+def short(value: float | None) -> str:
+    """Return a number in four digits, a dash for none."""
+    return "-" if value is None else f"{value:.4g}"
+
+
+def ordinal(number: int) -> str:
+    """1st, 2nd, 3rd, 4th, 11th."""
+    teen = number // 10 % 10 == 1
+    return f"{number}{'th' if teen else ('th', 'st', 'nd', 'rd', *['th'] * 6)[number % 10]}"
