@@ -10,6 +10,8 @@ import { Toolbar } from "./curves/toolbar";
 import { addCopyButtons } from "./page/copying";
 import type { Axis } from "./generated/charts";
 import { type Page, readPage } from "./page/document";
+import { followLinks } from "./page/folding";
+import { addSearch } from "./page/search";
 import { announceTime, followTime } from "./page/time";
 import { Card } from "./trials/card";
 import { showChosen } from "./trials/chosen";
@@ -49,12 +51,12 @@ class Curves {
     const pictures = [...document.querySelectorAll<SVGElement>("[data-figure]")];
     const visible = pictures.filter((picture) => !this.figures.has(picture) && picture.getClientRects().length);
     for (const picture of visible) this.figures.set(picture, this.attach(picture));
-    await Promise.all(visible.map((picture) => this.figures.get(picture)));
+    await Promise.all(this.figures.values());
   }
 
   attachDiagrams(): void {
     const time = this.share({ label: TIME });
-    for (const picture of document.querySelectorAll<SVGElement>("svg.diagram")) new Diagram(picture, this.page, time);
+    for (const picture of document.querySelectorAll<SVGElement>("svg.diagram")) new Diagram(picture, this.page, time, () => this.attachVisible());
   }
 
   private async attach(picture: SVGElement): Promise<Figure | null> {
@@ -97,9 +99,11 @@ async function start(): Promise<void> {
   const page = readPage();
   if (!page?.figures.length) return;
   const curves = new Curves(page, await Trials.load(page));
+  followLinks();
   await curves.attachVisible();
   curves.attachDiagrams();
   addCopyButtons();
+  addSearch(page, () => curves.attachVisible());
   await new Promise(requestAnimationFrame); // in which the figures learn their sizes
   await new Promise(requestAnimationFrame);
   document.documentElement.dataset.ready = "curves";

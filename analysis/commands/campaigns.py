@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
 from ..campaigns.definition.campaign import Variant
@@ -13,13 +13,21 @@ from ..options.declared.campaigns import BATCH, REPLAY
 
 def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
     """The command that simulates one trial of one variant of a plan again."""
-    options = {"campaign": campaign_name(plan), **_options(plan, variant)}
+    options = {"campaign": campaign_name(plan), **_of_variant(plan, variant)}
     return write_command(REPLAY, {"source": plan.system, "trial": trial}, options)
 
 
 def campaign_command(plan: BatchPlan, variant: Variant) -> str:
     """The command that simulates a plan with one of its variants."""
-    return write_command(BATCH, {"system": plan.system, "campaign": campaign_name(plan)}, _options(plan, variant))
+    return write_command(BATCH, {"system": plan.system, "campaign": campaign_name(plan)}, _of_variant(plan, variant))
+
+
+def batch_command(plan: BatchPlan) -> str:
+    """The command that simulates a plan with all of its variants."""
+    campaign = plan.campaign
+    compare = {} if campaign.configurations else campaign.compare
+    options = {**_options(plan, campaign.selected, compare), "until_decided": plan.until_decided}
+    return write_command(BATCH, {"system": plan.system, "campaign": campaign_name(plan)}, options)
 
 
 def replay_of_folder(folder: Path, configurations: Collection[object], configuration: str, trial: int) -> str:
@@ -34,7 +42,14 @@ def campaign_name(plan: BatchPlan) -> str:
     return PurePosixPath(inside).stem if inside else plan.campaign.file
 
 
-def _options(plan: BatchPlan, variant: Variant) -> dict[str, object]:
+def _of_variant(plan: BatchPlan, variant: Variant) -> dict[str, object]:
+    """The options of a plan with one of its variants, by name."""
+    if plan.campaign.configurations:
+        return _options(plan, variant.name, {})
+    return _options(plan, None, {name: [fmu] for name, fmu in variant.use.items()})
+
+
+def _options(plan: BatchPlan, configuration: str | None, compare: Mapping[str, Sequence[str]]) -> dict[str, object]:
     """The options of a plan by name; arrays of inputs have no text, and are left out."""
     campaign, settings = plan.campaign, plan.options.by_name
     trials = {"trials": campaign.trials} if plan.given is None else {"draws": plan.given.file}
@@ -42,8 +57,8 @@ def _options(plan: BatchPlan, variant: Variant) -> dict[str, object]:
     return {
         **trials,
         "seed": campaign.seed,
-        "configuration": variant.name if campaign.configurations else None,
-        "compare": {} if campaign.configurations else {name: [fmu] for name, fmu in variant.use.items()},
+        "configuration": configuration,
+        "compare": compare,
         **{name: value for name, value in settings.items() if name != "set"},
         "set": {**campaign.sweeps, **plan.options.set},
         "faults": [str(fault) for fault in plan.faults],

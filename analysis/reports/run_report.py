@@ -1,4 +1,4 @@
-"""The page of one run: termination, final values, system-specific plots, trajectory, all signals, provenance."""
+"""The page of one run: termination, limits, scene, the system's figures, trajectory, all signals, provenance."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .common.page import write_page
 from .common.signals import distinct, signal_groups
 from .diagram.diagram import Diagram
 from .figures.declared import Figure
-from .figures.figure_sections import figure_sections, joint_findings
+from .figures.figure_sections import figure_groups, joint_findings
 from .figures.limits import Verdict, limit_document
 from .figures.scene.declared import Scene
 from .interactive.bundles import MISSING
@@ -42,19 +42,27 @@ KEY_VECTORS = ("position", "velocity")
 
 
 def write_run_report(
-    result: Result, path: Path, title: str, figures: Sequence[Figure] = (), diagram: Diagram | None = None
+    result: Result,
+    path: Path,
+    title: str,
+    figures: Sequence[Figure] = (),
+    diagram: Diagram | None = None,
+    command: str = "",
 ) -> None:
     """Write one self-contained HTML page about a run; the same result gives the same bytes.
 
-    ``figures`` are those that the SSD declares, see figures/reading.py; ``diagram`` is that of the system.
+    ``figures`` are those that the SSD declares, see figures/reading.py; ``diagram`` is that of the system. ``command``
+    simulates the run again.
     """
     limits = limits_by_verdict(figures, result)
     scene = next((figure for figure in figures if isinstance(figure, Scene)), None)
     view = scene_view(scene, result) if scene is not None else None
+    limit_sections, groups = figure_groups(figures, result, result.provenance["system"])
     write_page(
         path,
         Path(__file__).with_name("run_report.html"),
         title=title,
+        command=command,
         result=result,
         ending=ENDINGS[result.status],
         limits=limits,
@@ -70,7 +78,8 @@ def write_run_report(
         scene_pictures=draw_ends(view) if view is not None else [],
         scene_notes=scene_notes(scene, result) if scene is not None else [],
         scripts_missing=MISSING,
-        sections=figure_sections(figures, result),
+        limit_sections=limit_sections,
+        groups=groups,
         histories=time_histories(result),
         diagram=diagram,
         signals=signal_table(result),

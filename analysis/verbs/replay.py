@@ -11,6 +11,7 @@ from typing import Any, Unpack
 from ...common.errors import InputError
 from ..campaigns.execute.replay import ReplayedTrial, replay_plan, replay_trial
 from ..campaigns.plain_text import faults_line
+from ..commands.campaigns import replay_command, replay_of_folder
 from ..options.command import record_options
 from ..options.declared.campaigns import REPLAY, ReplayOptions
 from ..options.option import FilePath
@@ -81,7 +82,7 @@ class ReplayResult(Result):
         from ..reports.run_report import write_run_report  # with plots, which take as long as the rest
 
         title = f"{self.system}, {self.configuration}, trial {self.trial}"
-        write_run_report(self, Path(path), title, self.figures)
+        write_run_report(self, Path(path), title, self.figures, command=self.command)
 
     def to_json(self) -> dict[str, object]:
         """As of `Result`, with the campaign, the trial's success and metrics, and differences from the stored one."""
@@ -147,9 +148,17 @@ def replay(source: FilePath, trial: int, **options: Unpack[ReplayOptions]) -> Re
         figures=tuple(read_figures(replayed.prepared)),
         replayed=replayed,
         source=str(source),
+        command=_command(source, replayed, of_folder=options["campaign"] is None),
     )
     result.requirements = tuple(read_requirements(options["require"], result.last_values()))
     return result
+
+
+def _command(source: FilePath, replayed: ReplayedTrial, *, of_folder: bool) -> str:
+    variants = {variant.name: variant for variant in replayed.plan.campaign.variants()}
+    if of_folder:
+        return replay_of_folder(Path(source), variants, replayed.configuration, replayed.trial)
+    return replay_command(replayed.plan, variants[replayed.configuration], replayed.trial)
 
 
 def _replay(source: FilePath, trial: int, options: Mapping[str, Any]) -> ReplayedTrial:

@@ -12,6 +12,7 @@ from ...common.errors import InputError
 from ...common.visible import on_one_line
 from ..campaigns.definition.expressions import Expression
 from ..campaigns.plain_text import faults_line
+from ..options.command import write_command
 from ..options.declared.campaigns import RUN, RunOptions
 from ..options.fault import Fault, faults_of
 from ..options.option import FilePath
@@ -43,13 +44,15 @@ class Result(results.Result):
     """A simulation. ``result["plant.position"]`` is a signal over ``time``, [n] or [n, k]; see `Flight` for the rest.
 
     ``prepared`` is the system as it was simulated, ``figures`` those that its SSD declares, which `report` plots;
-    ``faults`` were injected, ``requirements`` are those of the option ``require``.
+    ``faults`` were injected, ``requirements`` are those of the option ``require``; ``command`` simulates it again, with
+    the same input over time unless that was an array.
     """
 
     prepared: PreparedSystem
     figures: tuple[Figure, ...]
     faults: tuple[Fault | str, ...] = ()
     requirements: tuple[Expression, ...] = ()
+    command: str = ""
 
     @property
     def system(self) -> str:
@@ -62,7 +65,7 @@ class Result(results.Result):
         from ..reports.run_report import write_run_report
 
         diagram = make_diagram(self.prepared, faults_of(self.faults))
-        write_run_report(self, Path(path), self.system, self.figures, diagram)
+        write_run_report(self, Path(path), self.system, self.figures, diagram, self.command)
 
     def plot(self, *names: str) -> Plot:
         """Plot signals over time, a panel for each name; a vector's elements share one.
@@ -158,10 +161,8 @@ def simulate(system: FilePath, **options: Unpack[RunOptions]) -> Result:
     ``require`` are expressions over the last values, see `Result.problems`. Raises InputError, and TimeoutError where a
     step of an FMU does not return; a simulation that fails comes back with its ``status``.
     """
-    series = options["input"]
-    prepared = prepare_system(
-        os.fspath(system), system_options(options), series=None if series is None else read_series(series)
-    )
+    series = None if options["input"] is None else read_series(options["input"])
+    prepared = prepare_system(os.fspath(system), system_options(options), series=series)
     figures, faults, level = tuple(read_figures(prepared)), faults_of(options["faults"]), options["log"]
     log = None if level is None else Log(level)
     more = find_variables(prepared.network, options["record"], is_alone=prepared.archive.is_fmu)
@@ -174,6 +175,13 @@ def simulate(system: FilePath, **options: Unpack[RunOptions]) -> Result:
             flight = fly(simulation, options["timeout"])
         except StuckError as error:
             raise StuckError(f"{prepared.network.file}: {error}; {STUCK}") from error
+    file = series.file if series is not None and series.lines else None
+    texts = {**options, "faults": [str(each) for each in faults], "input": file}
     return Result.extending(
-        flight, prepared=prepared, figures=figures, faults=tuple(faults), requirements=tuple(requirements)
+        flight,
+        prepared=prepared,
+        figures=figures,
+        faults=tuple(faults),
+        requirements=tuple(requirements),
+        command=write_command(RUN, {"system": system}, texts),
     )

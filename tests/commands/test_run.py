@@ -6,9 +6,11 @@ Truth: `perilune.simulate` with the same options; Python's json and csv modules.
 import csv
 import json
 import re
+import shlex
 import shutil
 
 import pytest
+from lxml import html
 
 import perilune
 from perilune.analysis.cli import main
@@ -79,3 +81,14 @@ def test_a_folder_of_a_shipped_systems_name_is_meant_by_its_path(tmp_path, monke
     assert "stop time reached at t = 2 s" in capsys.readouterr().out
     assert main(["batch", f"./{SYSTEM}", "--campaign", "paper", "--trials", "2", "--json", "-"]) == 0
     assert json.loads(capsys.readouterr().out)["steps"] == 20  # of 0.1 s
+
+
+def test_the_command_of_a_page_writes_the_page_again(tmp_path):
+    options = ["--use", "guidance=astar_guidance", "--set", "plant.initial_mass=900", "--stop-time", "20"]
+    faults = ["--fault", "plant.mass=bias:1@2", "--record", "plant.initial_mass", "--require", "time < 300"]
+    first, second = tmp_path / "first.html", tmp_path / "second.html"
+    assert main(["run", "lunar_terminal_guidance", *options, *faults, "--report", str(first)]) in (0, 1)
+    page = first.read_text(encoding="utf-8")
+    (command,) = html.document_fromstring(page).xpath("//p[@class='repeat']/code/text()")
+    assert main([*shlex.split(command)[1:], "--report", str(second)]) in (0, 1)
+    assert second.read_text(encoding="utf-8") == page

@@ -6,7 +6,7 @@ import pytest
 from perilune.analysis.reports.run_report import ENDINGS, write_run_report
 from perilune.analysis.reports.trajectory import trajectory_panels
 from perilune.analysis.runtime.flight.results import LOST
-from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+from tests.support.pages.checks import assert_self_contained, data_values, parse, section_of, text_of
 from tests.support.pages.samples import DIGEST, run_result
 
 
@@ -63,7 +63,10 @@ def test_parameters_and_hashes(page):
 
 
 def test_key_values(page):
-    rows = [" ".join(row.xpath(".//text()[normalize-space()]")) for row in parse(page).xpath("//section[1]//tbody/tr")]
+    rows = [
+        " ".join(row.xpath(".//text()[normalize-space()]"))
+        for row in section_of(page, "Final values").xpath(".//tbody/tr")
+    ]
     assert rows[0] == "finished true"
     assert any("".join(row.split()).startswith("ship.position\N{MINUS SIGN}990,4950.12,149.5m") for row in rows)
     assert "ship.status maximum over run 2" in rows
@@ -128,7 +131,7 @@ def test_a_system_without_any_of_what_one_looks_at_first(many, tmp_path):
         name = f"ship.extra_{index}"
         result.signals[name], result.units[name], result.types[name] = result.time + index, None, "Real"
     page = write(result, tmp_path / "run.html")
-    (section,) = parse(page).xpath("//section[h2='Final values']")
+    section = section_of(page, "Final values")
     words = " ".join(section.text_content().split())
     assert "before its first sample" not in text_of(page)
     assert ("ship.tilt" in words) != many
@@ -154,7 +157,7 @@ def test_states_and_commands_come_first_and_the_rest_is_folded(page):
     assert {"crew.cook.spike over time", "crew.cook.awake over time", "finished over time"} <= set(folded)
     assert "ship.mass" not in " ".join(displayed)  # constant: said, not drawn
     headings = [heading.text for heading in parse(page).xpath("//h2")]
-    assert headings[:4] == ["Final values", "Trajectory", "States and commands", "All signals"]
+    assert headings[:4] == ["Trajectory", "Final values", "States and commands", "Other signals"]
 
 
 def test_where_no_name_says_what_is_a_state_the_first_panels_are_open(tmp_path):

@@ -26,7 +26,7 @@ RUN = "from perilune.analysis.cli import run; run()"
 
 
 PAGES = [
-    (["run", SYSTEM, "--stop-time", "60"], b"<h2>System-specific plots"),
+    (["run", SYSTEM, "--stop-time", "60"], b'id="section-lunar-terminal-guidance"'),
     (["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", "4"], b"<h2>Failure region"),
 ]
 

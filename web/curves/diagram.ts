@@ -3,6 +3,7 @@
 import { definitions, moveBeside } from "../page/card";
 import type { Page } from "../page/document";
 import { make } from "../page/elements";
+import { reveal } from "../page/folding";
 import type { SharedAxis } from "./axis";
 import { Series } from "./series";
 
@@ -33,6 +34,7 @@ export class Diagram {
     picture: SVGElement,
     private readonly page: Page,
     private readonly time: SharedAxis,
+    private readonly attachVisible: () => Promise<void>,
   ) {
     document.body.append(this.card);
     page.figures.forEach((charts, figure) =>
@@ -69,7 +71,7 @@ export class Diagram {
     element.addEventListener("click", (event) => {
       event.stopPropagation();
       if ((event as PointerEvent).pointerType === "touch" && this.current !== element) void this.show(element, event);
-      else this.lead(element);
+      else void this.lead(element);
     });
     element.addEventListener("focus", () => {
       const { right: clientX, bottom: clientY } = element.getBoundingClientRect();
@@ -79,7 +81,7 @@ export class Diagram {
     element.addEventListener("keydown", (event) => {
       const step = STEPS[event.key];
       const next = step && this.elements[index + step];
-      if (event.key === "Enter" || event.key === " ") this.lead(element);
+      if (event.key === "Enter" || event.key === " ") void this.lead(element);
       else if (event.key === "Escape") this.hide();
       else if (next) {
         element.tabIndex = -1;
@@ -140,13 +142,13 @@ export class Diagram {
   }
 
   // Goes to the first figure that has one of an element's signals.
-  private lead(element: Element): void {
+  private async lead(element: Element): Promise<void> {
     const signal = this.signalsOf(element).find((name) => this.known.has(name));
     if (!signal) return;
     const { figure } = this.known.get(signal)!;
     const elements = [...document.querySelectorAll(`[data-figure="${figure}"]`)];
-    const folded = elements[0]?.closest("details");
-    if (folded) folded.open = true;
+    if (elements[0]) reveal(elements[0]);
+    await this.attachVisible();
     const visible = elements.find((each) => each.getClientRects().length) ?? elements[0];
     visible?.scrollIntoView({ block: "center" });
     visible?.parentElement?.querySelector<HTMLElement>(".chart")?.focus({ preventScroll: true });

@@ -12,6 +12,7 @@ import numpy as np
 from ....common.percent import percent
 from ....common.to_json import to_json
 from ..definition.campaign import Group, Metric
+from ..definition.expressions import Expression
 from ..folder.stored import StoredBatch
 from ..plain_text import faults_line
 from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows
@@ -203,12 +204,15 @@ class Comparison:
         }
 
     @cached_property
+    def judged_expressions(self) -> list[Expression]:
+        """Success and requirements of all batches."""
+        expressions = [each for batch in self.batches.values() for each in batch.judged_expressions()]
+        return list(dict.fromkeys(expressions))
+
+    @property
     def judged_names(self) -> set[str]:
         """The names in success and requirements of all batches."""
-        names: set[str] = set()
-        for batch in self.batches.values():
-            names |= batch.judged_names()
-        return names
+        return set().union(*(expression.names for expression in self.judged_expressions))
 
     def text(self, metrics: Sequence[str] = ()) -> str:
         """The comparison for a terminal: rates with intervals, then metrics of the successful trials.

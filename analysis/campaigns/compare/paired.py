@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -95,6 +96,19 @@ def compare_values(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE)
         interval=(low, high) if np.isfinite(low) and np.isfinite(high) else None,
         p_value=_even_split(smaller, larger),
     )
+
+
+def holm_adjusted(p_values: Sequence[float]) -> np.ndarray:
+    """Return p-values adjusted for all tests together: those at most 0.05 err in one of 20 families at most.
+
+    Holm (1979, Scand. J. Statist. 6, 65): the smallest times the number n of tests, the next one times n - 1, and so
+    on, none smaller than those before it.
+    """
+    p = np.asarray(p_values, dtype=float)
+    order = np.argsort(p)
+    adjusted = np.empty(p.size)
+    adjusted[order] = np.minimum(1.0, np.maximum.accumulate(p[order] * np.arange(p.size, 0, -1)))
+    return adjusted
 
 
 def _even_split(first: int, second: int) -> float:

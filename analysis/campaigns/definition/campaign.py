@@ -127,10 +127,14 @@ class Campaign:
     sweeps: Mapping[str, str] = field(default_factory=dict)
     lookups: tuple[Lookup, ...] = ()
 
+    def judged_expressions(self) -> list[Expression]:
+        """Return success and the requirements' expressions."""
+        return [self.success, *(requirement.expression for requirement in self.requirements)]
+
     def judged_names(self) -> set[str]:
         """Return the names in success and requirements."""
         bounds = {requirement.metric for requirement in self.requirements if requirement.metric is not None}
-        return bounds.union(self.success.names, *(requirement.expression.names for requirement in self.requirements))
+        return bounds.union(*(expression.names for expression in self.judged_expressions()))
 
     def __post_init__(self) -> None:
         if self.trials < 1:

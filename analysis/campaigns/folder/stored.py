@@ -91,16 +91,15 @@ class StoredBatch:
         """The faults that flew, the campaign's and the user's."""
         return self.document.get("faults", [])
 
-    def judged_names(self) -> set[str]:
-        """Return the names in success and requirements."""
+    def judged_expressions(self) -> list[Expression]:
+        """Return success and the requirements' expressions."""
         summaries: Any = self.document["variants"]  # as JSON
-        required = {
+        required = [
             verdict["text"].rpartition(", ")[0]
             for entry in summaries.values()
             for verdict in entry.get("requirements", {}).values()
-        }
-        texts = [self.document["success"], *required]
-        return set().union(*(Expression(text).names for text in texts))
+        ]
+        return [Expression(text) for text in dict.fromkeys([self.document["success"], *required])]
 
     @cached_property
     def groups(self) -> list[Group]:

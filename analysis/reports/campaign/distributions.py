@@ -57,15 +57,16 @@ def sort_metrics(batch: BatchResult) -> tuple[list[Metric], list[tuple[Metric, f
 def distribution_panels(batch: BatchResult, metrics: Sequence[Metric]) -> list[Panel]:
     """Return the empirical cumulative distributions of metrics over all trials."""
     styles = [look(index) for index in range(len(batch.rows))]
+    numbers = {metric: number for number, metric in enumerate(batch.plan.campaign.metrics)}
     return [
         chart_panel(
             metric.name,
-            f"distribution-{index}",
+            f"distribution-{numbers[metric]}",
             f"Cumulative distribution of {metric.name}",
             distribution_chart(metric, metric_values(batch, metric.name), styles),
             title=CUMULATIVE,
         )
-        for index, metric in enumerate(metrics)
+        for metric in metrics
     ]
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from markupsafe import Markup
 
-from ...campaigns.definition.campaign import Campaign
+from ...campaigns.definition.campaign import Campaign, Metric
 from ...campaigns.draws.declared import input_names
 from ...campaigns.execute.evaluation import worst_statuses
 from ...campaigns.execute.results import BatchResult
@@ -23,6 +23,7 @@ from ...commands.campaigns import replay_command, replay_of_folder
 from ...studies.sobol import rank_correlations
 from ..common.page import exact
 from ..common.quantities import display_unit, in_display_unit, number
+from .verdict_table import JudgedMetric, VerdictRow, VerdictTable
 
 HEADINGS = {name: f"{QUANTILES[name]} %" if name in QUANTILES else name for name in STATISTICS}
 
@@ -146,11 +147,37 @@ class Replay:
     trial: int
     reasons: list[Markup]
     command: str
+    anchor: str = ""
 
 
-def failures_to_replay(result: BatchResult) -> list[Replay]:
-    """The first failures of each variant."""
-    return _replays(result, _failures)
+def trials_to_replay(result: BatchResult, table: VerdictTable) -> list[Replay]:
+    """The first failures of each variant, and its worst trials of metrics with limits; rows have anchors."""
+    worst = {row.variant: worst_reasons(row, table.metrics) for row in table.rows}
+    replays = _replays(result, lambda result, variant: _failures(result, variant) + worst[variant])
+    return with_anchors(replays)
+
+
+def with_anchors(replays: Sequence[Replay]) -> list[Replay]:
+    """Return rows with an anchor each, no two of one variant and trial."""
+    return [replace(each, anchor=f"replay-{number}") for number, each in enumerate(replays)]
+
+
+def anchors_of(replays: Iterable[Replay]) -> dict[tuple[str, int], str]:
+    """Return the anchors of rows by variant and trial."""
+    return {(each.variant, each.trial): each.anchor for each in replays}
+
+
+def worst_reasons(row: VerdictRow, metrics: Sequence[JudgedMetric]) -> list[tuple[int, Markup]]:
+    """Return the worst trials of a variant, each with the metric and its value there."""
+    return [
+        (cell.trial, _reason(Markup("worst "), judged.metric, cell.worst))
+        for judged, cell in zip(metrics, row.cells, strict=True)
+        if cell.trial is not None
+    ]
+
+
+def _reason(which: Markup, metric: Metric, value: float | None) -> Markup:
+    return Markup("{}{}: {} {}").format(which, metric.name, exact(value, metric.unit), display_unit(metric.unit))
 
 
 def extremes_to_replay(result: BatchResult) -> list[Replay]:
@@ -189,8 +216,7 @@ def _extremes(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
     for metric in result.plan.campaign.metrics:
         maximum, trials = _maximum(result.rows[variant], f"metric.{metric.name}")
         if len(trials) == 1:
-            reason = Markup("{}: {} {}").format(metric.name, exact(maximum, metric.unit), display_unit(metric.unit))
-            extremes.append((trials[0], reason))
+            extremes.append((trials[0], _reason(Markup(), metric, maximum)))
     return extremes
 
 

@@ -15,6 +15,7 @@ from ....common.percent import percent
 from ..interactive.charts import Drawing
 from ..interactive.embedded import Embedded
 from .colours import colour_properties
+from .contents import Contents
 from .quantities import MINUS, display_unit, in_display_unit, number
 
 FOLDER = Path(__file__).parent
@@ -55,6 +56,7 @@ def render_page(template: Path, **content: Any) -> str:
         extensions=["jinja2.ext.do"],
     )
     embedded = Embedded()
+    environment.globals["contents"] = Contents()
     environment.filters |= {
         "answering": partial(answering, embedded=embedded),
         "exact": exact,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,13 +9,17 @@ from pathlib import Path
 import numpy as np
 
 from ...campaigns.compare.comparison import Comparison, name_of
+from ...campaigns.definition.campaign import Metric
+from ...campaigns.judged import MetricLimits, worst_row
 from ...campaigns.summary import SummaryRow
 from ..campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, names_of_record, variable_of
-from ..campaign.tables import HEADINGS, fmu_rows, group_rows, variant_rows
+from ..campaign.tables import HEADINGS, anchors_of, fmu_rows, group_rows, variant_rows
+from ..campaign.verdict_table import axis_start, verdict_table
 from ..common.colours import Look
 from ..common.page import write_page
 from ..common.panels import Panel, swatch
 from .bands import band_panels, bands_of, expectation, overlaid_bands
+from .differences import significant_differences
 from .dispersions import UNITS, Dispersion, dispersion, dispersion_panels, ends_of, overlaid_ends
 from .metrics import (
     LIMITS,
@@ -31,7 +34,7 @@ from .metrics import (
     sort_metrics,
 )
 from .recorded import Flight, Quantity, quantities, read_flights, trials_with_traces
-from .tables import failures_to_replay, metric_pairs, rate_pairs
+from .tables import metric_pairs, rate_pairs, trials_to_replay
 from .trajectories import DRAWN, bundle_of, plan_panels, side_panels
 
 KINDS = ("commands", "motion", "consistency", "other")
@@ -79,6 +82,13 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
     first = comparison.first.document
     rows, grouped = variant_rows(comparison.summary), group_rows(comparison.summary)
     paired = [metric for metric in comparison.metrics if metric in plotted]
+    rate_groups = rate_pairs(comparison)
+    metric_groups = metric_pairs(comparison, paired, successful=True)
+    verdicts = verdict_table(
+        comparison.summary, paired, comparison.judged_expressions, lambda *each: _worst(comparison, *each)
+    )
+    judged = [each.metric for each in verdicts.metrics] or plotted
+    replays = trials_to_replay(comparison, verdicts)
     write_page(
         path,
         Path(__file__).with_name("comparison.html"),
@@ -94,8 +104,10 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         statistics=HEADINGS,
         rates=[(name_of(rate), rate, _axis_start(rows, name_of(rate))) for rate in comparison.rates],
         group_rates=[(name_of(rate), rate, _axis_start(grouped, name_of(rate))) for rate in comparison.rates],
-        rate_pairs=rate_pairs(comparison),
-        metric_pairs=metric_pairs(comparison, paired, successful=True),
+        verdicts=verdicts,
+        sentences=significant_differences(comparison, rate_groups, metric_groups),
+        rate_pairs=rate_groups,
+        metric_pairs=metric_groups,
         metric_pairs_all=metric_pairs(comparison, paired, successful=False),
         side=side_panels(bundles, analyses) if bundles else [],
         plan=plan_panels(bundles, analyses) if bundles else [],
@@ -104,7 +116,10 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         flights={label: len(flight) for label, flight in flights.items()},
         most_drawn=DRAWN,
         ends=ends,
-        distributions=[distribution_panel(metric, displayed[metric], analyses) for metric in plotted],
+        distributions=[distribution_panel(metric, displayed[metric], analyses) for metric in judged],
+        other_distributions=[
+            distribution_panel(metric, displayed[metric], analyses) for metric in plotted if metric not in judged
+        ],
         still=still,
         empty=empty,
         histories={kind: [flight for flight in histories if flight.quantity.kind == kind] for kind in KINDS},
@@ -122,7 +137,8 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
             ends={end.what for end in ends},
         ),
         biased=is_biased(comparison, flights),
-        failed=failures_to_replay(comparison),
+        replays=replays,
+        anchors=anchors_of(replays),
         draws=[
             (name, float(values.min()), float(values.mean()), float(values.max()))
             for name, values in comparison.first.draws.items()
@@ -132,9 +148,14 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
 
 
 def _axis_start(rows: Iterable[SummaryRow], rate: str) -> float:
-    """Where the axis of a rate's intervals begins: at the tenth below the lowest."""
-    lowest = min((row.entry.rates[rate].interval[0] for row in rows), default=1.0)
-    return min(0.9, math.floor(10.0 * lowest) / 10.0)
+    return axis_start(row.entry.rates[rate].interval for row in rows)
+
+
+def _worst(comparison: Comparison, label: str, metric: Metric, limits: MetricLimits) -> tuple[int, float]:
+    """The worst trial of a contender, and the metric there."""
+    values = comparison.values(label, metric.name)
+    row, _ = worst_row(values, limits.excess)
+    return int(comparison.contenders[label].trials.trial[row]), float(values[row])
 
 
 def _flights(comparison: Comparison) -> dict[str, list[Flight]]:

@@ -14,7 +14,8 @@ from ...campaigns.compare.paired import PairedRates, PairedValues
 from ...campaigns.definition.campaign import Metric
 from ...campaigns.execute.manifest import FILE as MANIFEST
 from ...commands.campaigns import replay_of_folder
-from ..campaign.tables import FAILURES, Replay
+from ..campaign.tables import FAILURES, Replay, with_anchors, worst_reasons
+from ..campaign.verdict_table import VerdictTable
 
 T = TypeVar("T", PairedRates, PairedValues)
 
@@ -69,13 +70,15 @@ def _group(comparison: Comparison, name: str, unit: str, rows: list[PairRow[T]])
     return PairGroup(name, unit, first, [row for row in rows if row not in first])
 
 
-def failures_to_replay(comparison: Comparison) -> list[Replay]:
-    """The first failures of each contender, and how many of the others succeed in that trial."""
+def trials_to_replay(comparison: Comparison, table: VerdictTable) -> list[Replay]:
+    """The first failures of each contender, with how many of the others succeed, and its worst trials of metrics."""
+    worst = {row.variant: worst_reasons(row, table.metrics) for row in table.rows}
     replays: list[Replay] = []
     for label, contender in comparison.contenders.items():
         stored, trials = contender.stored, contender.trials
         if not (stored.folder / MANIFEST).is_file():
             continue
+        by_trial: dict[int, list[Markup]] = {}
         others = [other.trials.success for name, other in comparison.contenders.items() if name != label]
         for row in np.flatnonzero(~trials.success)[:FAILURES]:
             trial = int(trials.trial[row])
@@ -83,6 +86,10 @@ def failures_to_replay(comparison: Comparison) -> list[Replay]:
             if others:
                 count = sum(bool(success[row]) for success in others)
                 reasons.append(Markup("{} of {} others succeed").format(count, len(others)))
+            by_trial[trial] = reasons
+        for trial, reason in worst[label]:
+            by_trial.setdefault(trial, []).append(reason)
+        for trial, reasons in by_trial.items():
             command = replay_of_folder(stored.folder, stored.variants, contender.name, trial)
             replays.append(Replay(label, trial, reasons, command))
-    return replays
+    return with_anchors(replays)

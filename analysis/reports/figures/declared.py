@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -66,11 +66,23 @@ class Arc:
 
 
 @dataclass(frozen=True)
+class Group:
+    """Figures under a common heading, its ``title``; a page shows them at once, or folded until they are opened."""
+
+    title: str
+    is_folded: bool
+
+
+@dataclass(frozen=True)
 class Figure:
-    """The ``title`` of a figure, and ``notes`` on signals that are left out since a substituted FMU lacks them."""
+    """The ``title`` of a figure, and ``notes`` on signals that are left out since a substituted FMU lacks them.
+
+    ``group`` is None for those that stand under the system's name.
+    """
 
     title: str
     notes: tuple[str, ...]
+    group: Group | None = field(default=None, kw_only=True)
 
 
 @dataclass(frozen=True)

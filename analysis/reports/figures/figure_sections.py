@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from markupsafe import Markup
@@ -10,7 +11,7 @@ from markupsafe import Markup
 from ...runtime.flight.results import Result
 from ..common.page import Table
 from .band_figure import band_section, inside, settling_text
-from .declared import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses
+from .declared import Band, Budget, Curve, Error, Figure, Group, Limits, Path, Phases, Pulses, Unavailable
 from .history_figures import curve_section, error_section
 from .limits import Verdict, evaluate, limit_rows
 from .path_figure import path_section
@@ -21,12 +22,35 @@ from .section import Section
 from .words import condition_text, sentence
 
 
+class SectionGroup(NamedTuple):
+    """Sections under a common heading, which a page folds where ``is_folded``."""
+
+    title: str
+    is_folded: bool
+    sections: list[Section]
+
+
+def figure_groups(figures: Sequence[Figure], result: Result, system: str) -> tuple[list[Section], list[SectionGroup]]:
+    """Return the sections of limits, and those of other figures by group, without one under the ``system``'s name."""
+    limits: list[Section] = []
+    by_group: dict[Group, list[Section]] = {}
+    for figure, section in _sections(figures, result):
+        judges = isinstance(figure, Limits) or (isinstance(figure, Unavailable) and figure.has_limits)
+        members = limits if judges else by_group.setdefault(figure.group or Group(system, is_folded=False), [])
+        members.append(section)
+    return limits, [SectionGroup(group.title, group.is_folded, members) for group, members in by_group.items()]
+
+
 def figure_sections(figures: Sequence[Figure], result: Result) -> list[Section]:
     """A section for each figure but a scene, in the order of the SSD; none for a run without samples."""
+    return [section for _, section in _sections(figures, result)]
+
+
+def _sections(figures: Sequence[Figure], result: Result) -> list[tuple[Figure, Section]]:
     if not result.time.size:
         return []
     plotted = [figure for figure in figures if not isinstance(figure, Scene)]
-    return [_section(figure, result, f"figure{index}") for index, figure in enumerate(plotted)]
+    return [(figure, _section(figure, result, f"figure{index}")) for index, figure in enumerate(plotted)]
 
 
 def _section(figure: Figure, result: Result, name: str) -> Section:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 
 from lxml import etree
 
 from ...runtime.ssp.documents import tag
 from ...runtime.system.prepared import PreparedSystem
-from .declared import Figure, Unavailable
+from .declared import Figure, Group, Unavailable
 from .history_readers import read_band, read_curve, read_error, read_path, read_pulses
 from .scene.reader import read_scene
 from .signal_reader import MissingSignalError, SignalReader
@@ -16,6 +17,8 @@ from .stage_readers import read_budget, read_limits, read_phases
 
 ANNOTATION = "org.perilune.report"
 BUDGET, LIMITS = "Budget", "Limits"
+GROUP, FOLDED = "Group", "folded"
+UNGROUPED = (LIMITS, "Scene")  # which have a section by themselves
 READERS: Mapping[str, Callable[[SignalReader, etree._Element], Figure]] = {
     "Band": read_band,
     "Pulses": read_pulses,
@@ -37,14 +40,26 @@ def read_figures(prepared: PreparedSystem) -> list[Figure]:
     if annotation is None:
         return []
     reader = SignalReader(prepared)
-    report = reader.content(annotation, "Report")
-    reader.parts(report, (*READERS, BUDGET))
     figures: list[Figure] = []
-    for element in report.iterchildren(etree.Element):
+    for element, group in _elements(reader, reader.content(annotation, "Report")):
         reader.notes = []
         name = tag(element)
         try:
-            figures.append(read_budget(reader, element, figures) if name == BUDGET else READERS[name](reader, element))
+            figure = read_budget(reader, element, figures) if name == BUDGET else READERS[name](reader, element)
         except MissingSignalError as error:
-            figures.append(Unavailable(reader.title(element, name), (str(error),), name == LIMITS))
+            figure = Unavailable(reader.title(element, name), (str(error),), name == LIMITS)
+        figures.append(replace(figure, group=group))
     return figures
+
+
+def _elements(reader: SignalReader, report: etree._Element) -> Iterator[tuple[etree._Element, Group | None]]:
+    """The elements of figures in their order, each with its group."""
+    reader.parts(report, (*READERS, BUDGET, GROUP))
+    for element in report.iterchildren(etree.Element):
+        if tag(element) != GROUP:
+            yield element, None
+            continue
+        group = Group(reader.attributes(element, ("title",), (FOLDED,))["title"], reader.truth(element, FOLDED))
+        if not any(reader.parts(element, [name for name in (*READERS, BUDGET) if name not in UNGROUPED]).values()):
+            raise reader.refuse(element, "no figure", "put one or more into it, or drop it")
+        yield from ((figure, group) for figure in element.iterchildren(etree.Element))

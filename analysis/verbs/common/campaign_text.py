@@ -16,6 +16,7 @@ from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.execute.evaluation import worst_statuses
 from ...campaigns.execute.flyer import TrialResult
 from ...campaigns.execute.results import BatchResult
+from ...campaigns.judged import worst_trial
 from ...campaigns.lost_trials import lost_of
 from ...campaigns.plain_text import align_columns, short
 from ...campaigns.summary import requirement_values, summarise
@@ -81,23 +82,14 @@ def worst_lines(batch: BatchResult) -> list[str]:
         return []
     for variant, entry in batch.summary.items():
         for bound in (each.bound for each in entry.requirements.values() if each.bound is not None):
-            trial, value = _worst(batch.rows[variant], bound.metric, -1.0 if bound.side == "lower" else 1.0)
+            trial, value = worst_trial(
+                batch.rows[variant], bound.metric, np.negative if bound.side == "lower" else np.positive
+            )
             unit = entry.metrics[bound.metric].unit
             text = "none" if math.isnan(value) else f"{short(value)} {'' if unit == '1' else unit}".strip()
             replay = replay_of_folder(batch.folder, batch.rows, variant, trial)
             lines[f"{variant}: worst {bound.metric}, {text}: {replay}"] = None
     return list(lines)
-
-
-def _worst(rows: TrialTable, metric: str, sign: float) -> tuple[int, float]:
-    """The first trial with the largest of a metric times ``sign``, and the metric there; nan is as bad as infinite."""
-    column, trial, value, largest = f"metric.{metric}", 0, -sign * np.inf, -np.inf
-    for part in rows.parts("trial", column):
-        signed = np.where(np.isfinite(part[column]), sign * part[column], np.inf)
-        row = int(np.argmax(signed))
-        if signed[row] > largest:
-            trial, value, largest = int(part["trial"][row]), float(part[column][row]), float(signed[row])
-    return trial, value
 
 
 def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Iterable[Metric]) -> list[str]:

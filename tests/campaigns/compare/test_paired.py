@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.campaigns.compare.paired import compare_rates, compare_values
+from perilune.analysis.campaigns.compare.paired import compare_rates, compare_values, holm_adjusted
 
 
 def outcomes(both, only_a, only_b, neither):
@@ -110,3 +110,15 @@ def test_only_trials_where_both_are_finite_count():
     assert (actual.count, actual.smaller, actual.larger, actual.median) == (2, 1, 1, -1.0)
     nothing = compare_values(a[1:3], b[1:3])
     assert (nothing.count, nothing.median, nothing.interval, nothing.p_value) == (0, None, None, None)
+
+
+@given(st.lists(st.floats(0.0, 1.0), max_size=6))
+def test_adjusted_values_are_those_of_the_closed_test(p_values):
+    """Marcus, Peritz and Gabriel (1976): the largest Bonferroni value of all families with a test in them."""
+    indices = range(len(p_values))
+    families = [set(each) for size in indices for each in itertools.combinations(indices, size + 1)]
+    expected = [
+        min(1.0, max(len(family) * min(p_values[index] for index in family) for family in families if test in family))
+        for test in indices
+    ]
+    np.testing.assert_allclose(holm_adjusted(p_values), expected, rtol=1e-12)

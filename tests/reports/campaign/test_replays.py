@@ -10,14 +10,15 @@ import shlex
 from dataclasses import replace
 
 import pytest
+from lxml import html
 
 import perilune
 from perilune.analysis.campaigns.definition.campaign import Variant
 from perilune.analysis.cli import main
 from perilune.analysis.commands.campaigns import replay_command
 from perilune.analysis.options.fault import parse_fault
-from perilune.analysis.reports.campaign.batch_report import write_batch_report
-from perilune.analysis.reports.campaign.tables import extremes_to_replay, failures_to_replay
+from perilune.analysis.reports.campaign.batch_report import judge, write_batch_report
+from perilune.analysis.reports.campaign.tables import extremes_to_replay, trials_to_replay
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.series import read_series
 from tests.support.pages.checks import assert_self_contained, text_of
@@ -27,6 +28,10 @@ ONE = [(True, 0.1, 0.2), (False, 3.0, 0.1), (True, 0.3, 0.2), (False, math.nan, 
 TWO = [(True, 0.1, 0.0)] * 5 + [(True, 0.2, 0.0)]
 
 
+def plain(markup):
+    return html.fromstring(f"<p>{markup}</p>").text_content()
+
+
 def told(rows):
     return [(row.variant, row.trial, list(map(str, row.reasons))) for row in rows]
 
@@ -34,8 +39,12 @@ def told(rows):
 def test_the_first_failures_and_where_a_metric_is_largest():
     """Three of the four failures of one; its tilt is largest in two trials, which tells of neither."""
     result = batch_result({"one": ONE, "two": TWO}, DRAWS + METRICS)
-    ended = ["stop_time (ship.status 2)"]
-    assert told(failures_to_replay(result)) == [("one", 1, ended), ("one", 3, ended), ("one", 4, ended)]
+    ended = "stop_time (ship.status 2)"
+    actual = trials_to_replay(result, judge(result))
+    assert [(row.variant, row.trial) for row in actual] == [("one", 1), ("one", 3), ("one", 4), ("two", 5)]
+    reasons = [[plain(reason) for reason in row.reasons] for row in actual]  # miss is worst where it is no number
+    assert reasons == [[ended], [ended, "worst miss: not a number m"], [ended], ["worst miss: 0.2 m"]]
+    assert len({row.anchor for row in actual}) == 4
     actual = extremes_to_replay(result)
     assert told(actual) == [
         ("one", 1, ['miss: <data value="3.0">3</data> m']),
@@ -60,7 +69,7 @@ def test_what_never_settles_is_largest():
 
 def test_nothing_to_fly_again(tmp_path):
     result = batch_result({"default": [(True, 0.0, 0.0)] * 3}, METRICS)
-    assert failures_to_replay(result) == extremes_to_replay(result) == []
+    assert trials_to_replay(result, judge(result)) == extremes_to_replay(result) == []
     write_batch_report(result, tmp_path / "page.html", "Calm")
     assert "Replay commands" not in text_of((tmp_path / "page.html").read_text(encoding="utf-8"))
 
@@ -70,11 +79,11 @@ def test_they_are_on_the_page(tmp_path):
     write_batch_report(result, tmp_path / "page.html", "Again")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert_self_contained(page)
-    for row in (*failures_to_replay(result), *extremes_to_replay(result)):
+    for row in (*trials_to_replay(result, judge(result)), *extremes_to_replay(result)):
         assert row.command in text_of(page)
     calm = batch_result({"two": TWO}, DRAWS + METRICS)
     write_batch_report(calm, tmp_path / "calm.html", "Calm")
-    assert "No failures." in text_of((tmp_path / "calm.html").read_text(encoding="utf-8"))
+    assert "No failures: two." in text_of((tmp_path / "calm.html").read_text(encoding="utf-8"))
 
 
 def test_every_option_is_in_the_command():
@@ -134,3 +143,15 @@ def test_the_command_flies_what_the_batch_flew(capsys):
     trials = result.trials[row.variant]
     for name, value in flown["metrics"].items():
         assert value == trials.metrics[name][row.trial]
+
+
+@pytest.mark.usefixtures("fmus")
+def test_the_command_of_a_page_writes_the_page_again(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    slot = "guidance=analytic_guidance,astar_guidance"
+    options = ["--campaign", "paper", "--trials", "3", "--compare", slot, "--set", "plant.initial_mass=900"]
+    assert main(["batch", "lunar_terminal_guidance", *options, "--report", "first.html"]) in (0, 1)
+    page = (tmp_path / "first.html").read_text(encoding="utf-8")
+    (command,) = html.document_fromstring(page).xpath("//p[@class='repeat']/code/text()")
+    assert main([*shlex.split(command)[1:], "--report", "second.html"]) in (0, 1)
+    assert (tmp_path / "second.html").read_text(encoding="utf-8") == page

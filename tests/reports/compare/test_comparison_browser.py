@@ -42,7 +42,7 @@ def test_every_figure_is_laid_out(browser, page, tmp_path):
 
 
 def test_the_cursor_has_the_median_alone_and_nothing_of_ellipses(browser, page):
-    with driven(browser, page) as driver:
+    with driven(browser, page, unfolded=True) as driver:
         for label, count in (("ship.mass of alpha over time", 1), ("Final position of alpha about the target", 0)):
             frame = driver.find_element(By.XPATH, f"//*[starts-with(@aria-label, '{label}')]/..")
             area = scroll_to_plot(driver, frame)

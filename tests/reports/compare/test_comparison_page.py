@@ -16,7 +16,7 @@ import scipy.stats
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.reports.compare.metrics import looks_of
 from perilune.analysis.reports.compare.page import write_comparison_page
-from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+from tests.support.pages.checks import assert_self_contained, data_values, parse, section_of, text_of
 from tests.support.pages.comparison_samples import CAMPAIGN, DIGEST, POSITION, TARGET, VELOCITY, write_sample
 from tests.support.pages.written import COMMAND
 
@@ -48,12 +48,6 @@ def trials(folder):
         variant: {name: np.array([row[name] for row in rows if row["variant"] == variant]) for name in rows[0]}
         for variant in VARIANTS
     }
-
-
-def section(text, heading):
-    """The section below a heading of the second level, as a tree."""
-    (actual,) = (part for part in parse(text).xpath("//section") if part.xpath("h2")[0].text == heading)
-    return actual
 
 
 def numbers(element):
@@ -90,7 +84,47 @@ def test_rates_and_their_intervals(page, trials):
             low = scipy.stats.beta.ppf(0.025, yes, 40 - yes + 1)
             high = scipy.stats.beta.ppf(0.975, yes + 1, 40 - yes) if yes < 40 else 1.0
             expected.append([yes / 40, low, high, yes, 40])
-    np.testing.assert_allclose(table_rows(section(page, "Success probabilities"), 5), expected, rtol=1e-9)
+    np.testing.assert_allclose(table_rows(section_of(page, "Success probabilities"), 5), expected, rtol=1e-9)
+
+
+def test_the_first_table_has_a_row_per_variant(page, trials):
+    """Success with its interval, and the metric of success over all trials, with the worst trial against its limit."""
+    expected = []
+    for variant in VARIANTS:
+        success, miss = trials[variant]["success"], trials[variant]["metric.miss"]
+        interval = scipy.stats.binomtest(int(success.sum()), 40).proportion_ci(method="exact")
+        median = np.quantile(miss, 0.5, method="inverted_cdf")
+        expected.append([success.mean(), interval.low, interval.high, 40, median, miss.max()])
+    (table,) = parse(page).xpath("//table[contains(@class, 'verdicts')]")
+    rows = table.xpath("tbody/tr")
+    np.testing.assert_allclose([numbers(row) for row in rows], expected, rtol=1e-9)
+    worst = [int(np.argmax(trials[variant]["metric.miss"])) for variant in VARIANTS]
+    assert [int(row.xpath("td")[-1].text_content()) for row in rows] == worst
+    assert "at most 3" in table.xpath("thead")[0].text_content()
+    best = [row.xpath("td[2]/b") != [] for row in rows]
+    assert best == [row[0] == max(each[0] for each in expected) for row in expected]
+
+
+def test_a_sentence_for_each_pair_that_differs(page, trials):
+    """Truth: McNemar's and the sign test by the binomial distribution, the k-th smallest at 5 % / (n - k)."""
+    tests = []
+    for a, b in (("beta", "alpha"), ("gamma", "alpha"), ("gamma", "beta")):
+        x, y = (trials[variant]["success"].astype(bool) for variant in (a, b))
+        tests.append((scipy.stats.binomtest(int((x & ~y).sum()), int((x != y).sum())).pvalue, a, b, "success"))
+        both = x & y
+        less = trials[a]["metric.miss"][both] < trials[b]["metric.miss"][both]
+        tests.append((scipy.stats.binomtest(int(less.sum()), int(both.sum())).pvalue, a, b, "miss"))
+    expected = {}
+    for rank, (p, a, b, name) in enumerate(sorted(tests)):
+        if p > 0.05 / (len(tests) - rank):
+            break
+        expected.setdefault((a, b), set()).add(name)
+    actual = {}
+    for line in parse(page).xpath("//ul[@class='differences']/li"):
+        pair = tuple(each.text_content().strip() for each in line.xpath("span[@class='who']"))
+        actual[pair] = {name for name in ("success", "miss") if f"{name} " in line.text_content()}
+    assert actual == expected
+    assert expected
 
 
 def test_metrics_of_the_successful_and_of_all_trials(page, trials):
@@ -100,7 +134,9 @@ def test_metrics_of_the_successful_and_of_all_trials(page, trials):
             for variant in VARIANTS:
                 values = trials[variant][f"metric.{metric}"][chosen(trials[variant])]
                 expected.append(statistics_of(values))
-    np.testing.assert_allclose(table_rows(section(page, "Metrics of the successful trials"), 10), expected, rtol=1e-12)
+    np.testing.assert_allclose(
+        table_rows(section_of(page, "Metrics of the successful trials"), 10), expected, rtol=1e-12
+    )
     tilt = trials["beta"]["metric.tilt"][trials["beta"]["success"]].mean()
     assert f">{math.degrees(tilt):.4g}</data>" in page
 
@@ -109,8 +145,8 @@ def test_a_quantile_printed_twice_is_one_number(tmp_path):
     """Misses without a vertical part: the metric's table and that of the ends tell of the same numbers."""
     write_sample(tmp_path / "out", flat=True)
     page = write([tmp_path / "out"], tmp_path / "page.html")
-    metric = table_rows(section(page, "Metrics of the successful trials"), 10)[:3]
-    ends = table_rows(section(page, "At the end"), 12)[:3]
+    metric = table_rows(section_of(page, "Metrics of the successful trials"), 10)[:3]
+    ends = table_rows(section_of(page, "Ends of each variant"), 12)[:3]
     for row, end in zip(metric, ends, strict=True):
         median, most_of, largest = row[5], row[7], row[8]
         assert end[-3:] == pytest.approx([median, most_of, largest], rel=1e-12)
@@ -127,7 +163,7 @@ def test_pairs_of_rates(page, trials):
                     discordant = table[0][1] + table[1][0]
                     p = scipy.stats.binomtest(int(table[0][1]), int(discordant)).pvalue
                     rows.append([x.mean() - y.mean(), p, table[0][0], table[0][1], table[1][0], table[1][1]])
-    tree = section(page, "Paired comparison")
+    tree = section_of(page, "Paired comparison")
     first, others = tree.xpath(".//table")[:2]  # against the reference, and what is folded away
     actual = [numbers(row) for table in (first, others) for row in table.xpath(".//tr") if numbers(row)]
     np.testing.assert_allclose([[row[0], *row[3:]] for row in actual], rows, rtol=1e-9, atol=1e-12)
@@ -135,8 +171,8 @@ def test_pairs_of_rates(page, trials):
 
 
 def test_pairs_of_metrics(page, trials):
-    tree = section(page, "Paired comparison")
-    (heading,) = (part for part in tree.xpath("h3") if part.text == "Metrics, trials in which both succeed")
+    tree = section_of(page, "Paired comparison")
+    (heading,) = (part for part in tree.xpath(".//h3") if part.text == "Metrics, trials in which both succeed")
     table = heading.getnext().xpath(".//table")[0]
     expected = []
     for metric in ("miss", "propellant", "tilt"):
@@ -154,7 +190,7 @@ def test_pairs_of_metrics(page, trials):
 
 def test_intervals_without_zero_are_bold_and_others_are_not(page):
     actual = []
-    for cell in section(page, "Paired comparison").xpath(".//td[contains(@class, 'n')]"):
+    for cell in section_of(page, "Paired comparison").xpath(".//td[contains(@class, 'n')]"):
         ends = numbers(cell)
         if len(ends) == 2:
             actual.append(ends[0] > 0.0 or ends[1] < 0.0)
@@ -174,7 +210,7 @@ def test_dispersions_at_the_end(page, trials):
             axes = np.linalg.svd(centred, compute_uv=False) / math.sqrt(len(errors) - 1)
             radii = [*np.percentile(miss, [50, 99], method="inverted_cdf"), miss.max()]
             expected.append([len(errors), *errors.mean(axis=0), *errors.std(axis=0, ddof=1), *axes, *radii])
-    np.testing.assert_allclose(table_rows(section(page, "At the end"), 12), expected, rtol=1e-9)
+    np.testing.assert_allclose(table_rows(section_of(page, "Ends of each variant"), 12), expected, rtol=1e-9)
     assert "ellipses contain 39.3, 86.5 and 98.9 %" in text_of(page)  # test_comparison_figures.py: they do
 
 
@@ -184,7 +220,7 @@ def test_errors_over_sigma(page, trials):
         values = trials[variant]["metric.x_error_over_sigma"]
         fractions = [np.mean(np.abs(values) <= limit) for limit in (1, 2, 3)]
         expected.append([values.mean(), values.std(ddof=1), *fractions, 40])
-    actual = table_rows(section(page, "Normalised estimation errors"), 6)
+    actual = table_rows(section_of(page, "Normalised estimation errors"), 6)
     np.testing.assert_allclose(actual, expected, rtol=1e-9)
     assert "normal: 68.3" in text_of(page)
 
@@ -192,9 +228,10 @@ def test_errors_over_sigma(page, trials):
 def test_every_section_and_figure_is_there(page):
     headings = [part.text for part in parse(page).xpath("//h2")]
     assert headings == [
-        "Success probabilities", "Metrics of the successful trials", "Paired comparison", "Trajectories", "At the end",
-        "Distributions", "Commands and motion over time", "Normalised estimation errors", "Termination status",
-        "Dispersed parameters", "Provenance",
+        "Trajectories", "Distributions", "At the end", "Commands and motion over time",
+        "Commands and motion, each variant", "Ends of each variant", "Normalised estimation errors",
+        "Other distributions", "Success probabilities", "Metrics of the successful trials", "Paired comparison",
+        "Termination status", "Dispersed parameters", "Provenance",
     ]  # fmt: skip
     quantities = [part.text for part in parse(page).xpath("//h4")]
     assert quantities == [
@@ -256,7 +293,7 @@ def test_groups(tmp_path):
                     mine = [row for row in rows if (row["variant"], row["draw.case"]) == (variant, case)]
                     retained = [row[f"metric.{metric}"] for row in mine if row["success"] or not good_only]
                     metrics.append(statistics_of(np.array(retained)))
-    tree = section(page, "By case")
+    tree = section_of(page, "By case")
     np.testing.assert_allclose(table_rows(tree, 5), rates, rtol=1e-9)
     np.testing.assert_allclose(table_rows(tree, 10), metrics, rtol=1e-12)
     actual = compare([tmp_path / "out"])
@@ -314,8 +351,8 @@ def test_what_is_not_recorded_is_said_and_not_drawn(tmp_path):
     assert lines(page) == [
         "No trajectories and no commands over time: no flight has a trace; give the campaign's [record] the keys "
         "every, signals and trials.",
-        "No dispersion of the final position and velocity: [record] final does not keep its three elements.",
         "No propellant: no metric is in kg, and [record] final does not keep a mass.",
+        "No dispersion of the final position and velocity: [record] final does not keep its three elements.",
         "Nothing is recorded over time.",
         "No normalised estimation errors: no metric's name ends in _over_sigma.",
     ]

@@ -6,11 +6,12 @@ Truth: the declaration as written, the number of the line on which its wrong ele
 import math
 import re
 import shutil
+from dataclasses import replace
 
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.reports.figures.declared import Band, Error, Pulses, Unavailable
+from perilune.analysis.reports.figures.declared import Band, Error, Group, Pulses, Unavailable
 from perilune.analysis.reports.figures.reading import read_figures
 from perilune.analysis.runtime.flight.program import layout_of
 from perilune.analysis.runtime.flight.simulation import Simulation
@@ -96,7 +97,10 @@ def test_all_that_can_be_asked_for(folder, loaded):
 
 WRONG = {
     # the wrong element, which element the message names, words of it
-    "unknown element": ("<Bnad/>", "Bnad", "unknown element; the nearest of 9 known names: Band"),
+    "unknown element": ("<Bnad/>", "Bnad", "unknown element; the nearest of 10 known names: Band"),
+    "group without title": ("<Group><Band/></Group>", "Group", "no title"),
+    "empty group": ('<Group title="x"/>', "Group", "no figure"),
+    "fold that is no truth": ('<Group title="x" folded="yes"/>', "Group", "folded 'yes' is neither true nor false"),
     "unknown attribute": ('<Band signal="plant.angles" hi="1"/>', "Band", "unknown attribute hi"),
     "no signal": ('<Band low="1"/>', "Band", "no signal"),
     "no limit": ('<Band signal="plant.angles"/>', "Band", "neither low nor high"),
@@ -180,6 +184,21 @@ def test_everything_wrong_is_refused_with_its_line(folder, loaded, name):
     assert message.startswith(f"{folder}/SystemStructure.ssd: {element} (line {line}): ")
     assert words in message
     assert "\n" not in message
+
+
+@pytest.mark.parametrize("inside", ["<Limits/>", "<Scene/>", "<Group/>", "<Bnad/>"])
+def test_a_group_has_figures_alone(folder, loaded, inside):
+    """Limits and scenes have sections by themselves."""
+    with pytest.raises(InputError, match=r"line \d+\): unknown element"):
+        read(folder, loaded, f'<Group title="x">{inside}</Group>')
+
+
+def test_figures_have_the_group_that_they_are_in(folder, loaded):
+    inside = f'{BAND}<Group title=" Errors " folded="true">{BAND}{BAND}</Group><Group title="x">{BAND}</Group>{BAND}'
+    _, figures = read(folder, loaded, inside)
+    errors, open_one = Group("Errors", is_folded=True), Group("x", is_folded=False)
+    assert [figure.group for figure in figures] == [None, errors, errors, open_one, None]
+    assert {replace(figure, group=None) for figure in figures} == {figures[0]}
 
 
 @pytest.mark.parametrize("inside", ["", "<Reprot/>", '<Report xmlns="https://perilune.org/report"/>' * 2])

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from perilune.analysis.reports.common.colours import HUES
 from perilune.analysis.reports.figures.history_readers import BAND, CURVE
-from perilune.analysis.reports.figures.reading import BUDGET, READERS
+from perilune.analysis.reports.figures.reading import BUDGET, FOLDED, GROUP, READERS
 from perilune.analysis.reports.figures.scene.arrow_reader import ARROW_OPTIONAL, ARROW_REQUIRED
 from perilune.analysis.reports.figures.scene.body_reader import BODY, JETS, NOZZLE, PANEL
 from perilune.analysis.reports.figures.scene.declared import ARROW, GROUND, SHAPES
@@ -19,7 +19,7 @@ WORDS = set(
 
 
 def test_every_element_and_attribute_is_documented():
-    assert {*READERS, BUDGET, *BAND, *CURVE, *ROWS} <= WORDS
+    assert {*READERS, BUDGET, GROUP, FOLDED, *BAND, *CURVE, *ROWS} <= WORDS
     assert {*SCENE, *KINDS, *BODY, *JETS, *NOZZLE, *SHAPES, GROUND} <= WORDS
     assert {*SPHERE, *PANEL, *ARROW_REQUIRED, *ARROW_OPTIONAL, *HUES} <= WORDS
     assert f"{ARROW:g} of the view's height" in Path(ROOT, "docs", "reports.md").read_text()

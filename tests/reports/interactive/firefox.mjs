@@ -9,19 +9,19 @@ const puppeteer = createRequire(`${packages}/`)("puppeteer-core");
 const browser = await puppeteer.launch({ browser: "firefox", executablePath, headless: true });
 const messages = [];
 
-async function open(path) {
+async function open(path, part) {
   const page = await browser.newPage();
   page.on("console", (message) => ["error", "warn"].includes(message.type()) && messages.push(message.text()));
   page.on("pageerror", (error) => messages.push(String(error)));
   await page.setViewport({ width: 1400, height: 1200 });
-  await page.goto(pathToFileURL(path).href);
+  await page.goto(pathToFileURL(path).href + part);
   await page.waitForFunction(() => document.documentElement.dataset.ready, { timeout: 120_000 });
   return page;
 }
 
 const text = (page, selector) => page.$eval(selector, (element) => element.textContent);
 
-const flight = await open(run);
+const flight = await open(run, "#section-states-and-commands");
 const frame = await flight.$("::-p-xpath(//*[@aria-label='plant.altitude over time']/..)");
 await frame.evaluate((element) => element.scrollIntoView({ block: "center" }));
 const area = await flight.waitForFunction((element) => element.querySelector(".u-over"), {}, frame);
@@ -39,7 +39,7 @@ await flight.$eval("[data-scene]", (holder) => holder.scrollIntoView({ block: "c
 await flight.waitForFunction(() => document.querySelector("[data-drawn], [data-scene] > .empty:not([hidden])"), { timeout: 60_000 });
 const scene = await flight.$eval("[data-scene]", (holder) => holder.querySelector("[data-drawn] .scene-values, .empty:not([hidden])").textContent);
 
-const trials = await open(batch);
+const trials = await open(batch, "");
 await trials.$$eval("[data-figure]", (pictures) => {
   const picture = pictures.find((each) => each.getAttribute("aria-label").startsWith("Failures of") && each.getClientRects().length);
   picture.closest(".live").scrollIntoView({ block: "center" });

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 def test_axe_finds_no_serious_fault(browser, made, request):
     if not AXE.is_file():
         pytest.skip("no axe-core")
-    with driven(browser, request.getfixturevalue(made) / "page.html") as driver:
+    with driven(browser, request.getfixturevalue(made) / "page.html", unfolded=True) as driver:
         driver.execute_script(AXE.read_text(encoding="utf-8"))
         driver.set_script_timeout(120)
         for scheme in ("light", "dark"):

@@ -33,7 +33,8 @@ for (const key of keys) {
   const texts = {};
   for (const frame of document.querySelectorAll(".live")) {
     const label = frame.querySelector("svg").getAttribute("aria-label");
-    if (!label.endsWith(" over time") || frame.closest("details") || !frame.clientHeight) continue;
+    const section = frame.closest("section").querySelector("h2").textContent;
+    if (!label.endsWith(" over time") || section !== "States and commands") continue;
     texts[label.slice(0, -10)] = [...frame.nextElementSibling.querySelectorAll("span")].map((span) => span.textContent);
   }
   rows.push([document.querySelector(".explore output").textContent, texts]);
@@ -77,7 +78,7 @@ def values_of(table, label, row):
 def test_the_last_rows_of_a_landing(browser, flight):
     table = parquet.read_table(flight / "flight.parquet")
     time = table["time"].to_numpy()
-    with driven(browser, flight / "page.html") as driver:
+    with driven(browser, flight / "page.html", unfolded=True) as driver:
         plot, area = panel_of(driver, "plant.altitude")
         drag(driver, area, 0.95, 1.0)
         drag(driver, area, 0.905, 1.0)
@@ -104,7 +105,7 @@ def test_the_second_cursor_and_the_visible_range(browser, flight):
     table = parquet.read_table(flight / "flight.parquet")
     time, altitude = (table[name].to_numpy().astype(np.float32).astype(float) for name in ("time", "plant.altitude"))
     first, second = 50, 90
-    with driven(browser, flight / "page.html") as driver:
+    with driven(browser, flight / "page.html", unfolded=True) as driver:
         plot, area = panel_of(driver, "plant.altitude")
         keys = ["Home", *["ArrowRight"] * first, "m", *["ArrowRight"] * (second - first)]
         cursor, texts = driver.execute_script(READ, plot, keys)[-1]
@@ -137,11 +138,12 @@ def test_a_block_shows_its_signals(browser, flight):
         for index, expected in enumerate(values_of(table, "plant.position", row)[0], 1):
             assert f"plant.position[{index}]\n{expected} m" in card.text
         driver.execute_script(f"document.querySelector('{block}').dispatchEvent(new MouseEvent('click'))")
-        assert "plant." in driver.switch_to.active_element.get_attribute("aria-label")
+        focused = "return document.activeElement.closest('details[open]') && document.activeElement.ariaLabel"
+        assert "plant." in WebDriverWait(driver, 10).until(lambda _: driver.execute_script(focused))
 
 
 def test_touch_and_buttons_reach_a_row(browser, flight):
-    with driven(browser, flight / "page.html", phone=True) as driver:
+    with driven(browser, flight / "page.html", phone=True, unfolded=True) as driver:
         _, area = panel_of(driver, "plant.altitude")
         bounds = driver.execute_script(
             "const b = arguments[0].getBoundingClientRect(); return [b.x, b.y, b.width, b.height]", area
@@ -189,7 +191,7 @@ next();
 
 def test_keys_wheel_and_buttons_zoom_about_the_cursor(browser, flight):
     """Truth: the range that is left of the whole one, by arithmetic; a row is 0.1 s."""
-    with driven(browser, flight / "page.html") as driver:
+    with driven(browser, flight / "page.html", unfolded=True) as driver:
         plot, area = panel_of(driver, "plant.altitude")
         driver.execute_script("arguments[0].focus()", plot)
         actions = [
@@ -207,7 +209,7 @@ def test_keys_wheel_and_buttons_zoom_about_the_cursor(browser, flight):
 
 
 def test_the_values_under_two_fingers_follow_them(browser, flight):
-    with driven(browser, flight / "page.html", phone=True) as driver:
+    with driven(browser, flight / "page.html", phone=True, unfolded=True) as driver:
         _, area = panel_of(driver, "plant.altitude")
         left, top, width, height = driver.execute_script(
             "const b = arguments[0].getBoundingClientRect(); return [b.x, b.y, b.width, b.height]", area
@@ -241,6 +243,6 @@ def test_a_script_of_others_does_not_run(browser, flight, tmp_path):
     text = (flight / "page.html").read_text(encoding="utf-8")
     hostile = "<script>document.title = 'hostile'</script><img src='data:,' onerror=\"document.title = 'hostile'\">"
     page = tmp_path / "page.html"
-    page.write_text(text.replace("<body>", f"<body>{hostile}"), encoding="utf-8")
+    page.write_text(text.replace("<main ", f"{hostile}<main ", 1), encoding="utf-8")
     with pytest.raises(AssertionError, match="Content Security Policy"), driven(browser, page) as driver:
         assert driver.title == "landing_mission"

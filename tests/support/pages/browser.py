@@ -26,7 +26,7 @@ def find_browser() -> str:
     return collected
 
 
-def start(browser: str, page: Path, folder: Path, *arguments: str) -> str:
-    """What the browser prints of a page, with a profile of its own in ``folder``."""
-    command = [browser, *FLAGS, f"--user-data-dir={folder / 'profile'}", *arguments, page.as_uri()]
+def start(browser: str, page: Path, folder: Path, *arguments: str, fragment: str = "") -> str:
+    """Return what the browser prints of a page, with a profile in ``folder``; a ``fragment`` begins with #."""
+    command = [browser, *FLAGS, f"--user-data-dir={folder / 'profile'}", *arguments, page.as_uri() + fragment]
     return subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout

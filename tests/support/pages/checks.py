@@ -59,6 +59,12 @@ def without_policy(text):
     return re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", text)
 
 
+def section_of(text, heading):
+    """The section of a page below a heading of the second level, which may be folded, as a tree."""
+    (section,) = parse(text).xpath("//section[.//h2[. = $heading]]", heading=heading)
+    return section
+
+
 def data_values(text):
     """The exact numbers of a page: value attributes of its data elements."""
     return parse(text).xpath("//data/@value")

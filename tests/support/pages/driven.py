@@ -30,8 +30,13 @@ PATIENCE = 60  # s
 
 
 @contextmanager
-def driven(browser: str, page: Path | str, *, phone: bool = False, flags: Sequence[str] = ()) -> Iterator[Chrome]:
-    """A file or an address once its scripts are ready; at the end nothing above "info" may be in the console."""
+def driven(
+    browser: str, page: Path | str, *, phone: bool = False, unfolded: bool = False, flags: Sequence[str] = ()
+) -> Iterator[Chrome]:
+    """A file or an address once its scripts are ready; at the end nothing above "info" may be in the console.
+
+    ``unfolded`` opens all sections before scripts see them.
+    """
     require_scripts()
     options = ChromeOptions()
     options.binary_location = browser
@@ -42,6 +47,8 @@ def driven(browser: str, page: Path | str, *, phone: bool = False, flags: Sequen
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     driver = Chrome(options=options, service=Service(shutil.which("chromedriver")))
     try:
+        if unfolded:
+            driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": UNFOLD})
         driver.get(page if isinstance(page, str) else page.as_uri())
         WebDriverWait(driver, PATIENCE).until(lambda each: each.execute_script(READY))
         yield driver
@@ -58,4 +65,11 @@ def scroll_to_plot(driver: Chrome, frame: WebElement) -> WebElement:
     return WebDriverWait(driver, PATIENCE, 0.05).until(lambda _: frame.find_elements(By.CSS_SELECTOR, ".u-over"))[0]
 
 
+UNFOLD = """
+const observer = new MutationObserver(() => {
+  for (const folded of document.querySelectorAll("main details:not([open])")) folded.open = true;
+});
+observer.observe(document, { childList: true, subtree: true });
+addEventListener("load", () => observer.disconnect());
+"""
 READY = "return document.documentElement.dataset.ready !== undefined"

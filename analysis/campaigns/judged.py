@@ -1,0 +1,86 @@
+"""Limits that success and requirements set on single metrics, and the trial that is worst against them."""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from .definition.expressions import Expression, path_name
+from .trials import TrialRows
+
+RISING, FALLING = (ast.Lt, ast.LtE), (ast.Gt, ast.GtE)
+
+
+@dataclass(frozen=True)
+class MetricLimits:
+    """The least and the greatest number that a metric may have, in its unit; infinite where there is none."""
+
+    low: float = -math.inf
+    high: float = math.inf
+
+    @property
+    def better(self) -> int:
+        """-1 where less is better, 1 where more is, 0 where both ends are limited."""
+        return (self.low > -math.inf) - (self.high < math.inf)
+
+    def excess(self, values: np.ndarray) -> np.ndarray:
+        """Distances beyond the nearer limit, negative within both."""
+        return np.maximum(self.low - values, values - self.high)
+
+
+def metric_limits(expressions: Iterable[Expression]) -> dict[str, MetricLimits]:
+    """Return the limits on metrics that all expressions keep, by name; those of metrics in sums, `or` or `not` are left
+    out, as one of them alone decides nothing.
+    """
+    limits: dict[str, MetricLimits] = {}
+    for expression in expressions:
+        for name, low, high in _comparisons(ast.parse(expression.text, mode="eval").body):
+            before = limits.get(name, MetricLimits())
+            limits[name] = MetricLimits(max(before.low, low), min(before.high, high))
+    return limits
+
+
+def _comparisons(node: ast.expr) -> Iterator[tuple[str, float, float]]:
+    """The metrics that comparisons joined by `and` compare with a number: name, least, greatest."""
+    if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
+        for each in node.values:
+            yield from _comparisons(each)
+    if not isinstance(node, ast.Compare):
+        return
+    operands = (node.left, *node.comparators)
+    for left, operator, right in zip(operands, node.ops, operands[1:], strict=False):
+        smaller, larger = (left, right) if isinstance(operator, RISING) else (right, left)
+        if not isinstance(operator, RISING + FALLING):
+            continue
+        if (name := path_name(smaller)) is not None and (number := _number(larger)) is not None:
+            yield name, -math.inf, number
+        elif (name := path_name(larger)) is not None and (number := _number(smaller)) is not None:
+            yield name, number, math.inf
+
+
+def _number(node: ast.expr) -> float | None:
+    """The number that an expression without variables is."""
+    expression = Expression(ast.unparse(node))
+    value = math.nan if expression.names else float(expression.evaluate({}))
+    return value if math.isfinite(value) else None
+
+
+def worst_row(values: np.ndarray, excess: Callable[[np.ndarray], np.ndarray]) -> tuple[int, float]:
+    """Return the first row with the largest ``excess``, and that; nan is as bad as infinite."""
+    badness = np.where(np.isfinite(values), excess(values), np.inf)
+    row = int(np.argmax(badness))
+    return row, float(badness[row])
+
+
+def worst_trial(rows: TrialRows, metric: str, excess: Callable[[np.ndarray], np.ndarray]) -> tuple[int, float]:
+    """Return the first trial with the largest ``excess`` of a metric, and the metric there."""
+    column, trial, value, largest = f"metric.{metric}", 0, math.nan, -math.inf
+    for part in rows.parts("trial", column):
+        row, badness = worst_row(part[column], excess)
+        if badness > largest:
+            trial, value, largest = int(part["trial"][row]), float(part[column][row]), badness
+    return trial, value

@@ -1,0 +1,120 @@
+"""The table with which pages of campaigns begin: a row per variant, what success and requirements judge it by."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from markupsafe import Markup
+
+from ...campaigns.definition.campaign import Metric
+from ...campaigns.definition.expressions import Expression
+from ...campaigns.judged import MetricLimits, metric_limits
+from ...campaigns.requirement_verdicts import RequirementVerdict
+from ...campaigns.summary import Interval, Summary, VariantSummary
+from ...campaigns.verdicts.acceptance import Verdict
+from ..figures.words import range_text
+
+MEDIAN = "p50"
+CLASSES = {Verdict.MET: "pass", Verdict.NOT_MET: "fail", Verdict.UNDECIDED: "not-applicable"}
+Worst = Callable[[str, Metric, MetricLimits], tuple[int, float]]
+
+
+class JudgedMetric(NamedTuple):
+    """A metric of success or a requirement, and the limits of both on it alone; None without one."""
+
+    metric: Metric
+    limits: MetricLimits | None
+
+    @property
+    def limit_text(self) -> Markup:
+        """The limits in words, in the unit that is shown."""
+        if self.limits is None:
+            return Markup("")
+        low, high = (each if abs(each) < float("inf") else None for each in (self.limits.low, self.limits.high))
+        return range_text(low, high, self.metric.unit)
+
+
+class Cell(NamedTuple):
+    """A metric over all trials of a variant: its median, and the ``trial`` in which it is ``worst``, with limits."""
+
+    median: float | None
+    is_best: bool
+    worst: float | None
+    trial: int | None
+
+
+class VerdictRow(NamedTuple):
+    """A variant: its summary, ``is_best`` of its success, cells by metric, its verdict in words and as a class."""
+
+    variant: str
+    entry: VariantSummary
+    is_best: bool
+    cells: list[Cell]
+    verdict: str
+    kind: str
+
+
+@dataclass(frozen=True)
+class VerdictTable:
+    """Metrics that vary, rows of variants, and where the axis of success begins, a fraction of 1."""
+
+    metrics: list[JudgedMetric]
+    rows: list[VerdictRow]
+    start: float
+
+    @property
+    def has_verdicts(self) -> bool:
+        """True if the campaign declares requirements."""
+        return any(row.verdict for row in self.rows)
+
+
+def verdict_table(
+    summary: Summary, metrics: Iterable[Metric], expressions: Sequence[Expression], worst: Worst
+) -> VerdictTable:
+    """Return the table of metrics that are in one of the ``expressions``; ``worst`` is a variant's worst trial."""
+    names = set().union(*(expression.names for expression in expressions))
+    limits = metric_limits(expressions)
+    judged = [JudgedMetric(metric, limits.get(metric.name)) for metric in metrics if metric.name in names]
+    columns = [_column(each, summary, worst) for each in judged]
+    rates = {name: entry.success_rate for name, entry in summary.items()}
+    best = _best(rates, 1)
+    rows = [
+        VerdictRow(name, entry, name in best, [column[name] for column in columns], *_verdict(entry.requirements))
+        for name, entry in summary.items()
+    ]
+    return VerdictTable(judged, rows, axis_start([entry.success_interval for entry in summary.values()]))
+
+
+def axis_start(intervals: Iterable[Interval]) -> float:
+    """Where the axis of intervals of rates begins: at the tenth below the lowest."""
+    return min(0.9, math.floor(10.0 * min((low for low, _ in intervals), default=1.0)) / 10.0)
+
+
+def _column(judged: JudgedMetric, summary: Summary, worst: Worst) -> dict[str, Cell]:
+    metric, limits = judged
+    medians = {name: entry.metrics_all[metric.name].value(MEDIAN) for name, entry in summary.items()}
+    best = _best(medians, 0 if limits is None else limits.better)
+    trials = {name: (None, None) if limits is None else worst(name, metric, limits) for name in summary}
+    return {name: Cell(medians[name], name in best, trials[name][1], trials[name][0]) for name in summary}
+
+
+def _best(numbers: Mapping[str, float | None], better: int) -> set[str]:
+    """The variants with the best number; none where all have the same, or neither less nor more is better."""
+    known = {name: better * number for name, number in numbers.items() if number is not None}
+    if not better or len(set(known.values())) < 2:
+        return set()
+    return {name for name, number in known.items() if number == max(known.values())}
+
+
+def _verdict(requirements: Mapping[str, RequirementVerdict]) -> tuple[str, str]:
+    """The verdict on all requirements in words, and its class."""
+    by_verdict: dict[Verdict, list[str]] = {}
+    for name, each in requirements.items():
+        by_verdict.setdefault(each.verdict, []).append(name)
+    if not by_verdict or list(by_verdict) == [Verdict.MET]:
+        return ("met" if by_verdict else ""), CLASSES[Verdict.MET]
+    bad = [verdict for verdict in (Verdict.NOT_MET, Verdict.UNDECIDED) if verdict in by_verdict]
+    return "; ".join(f"{verdict}: {', '.join(by_verdict[verdict])}" for verdict in bad), CLASSES[bad[0]]
