@@ -71,16 +71,16 @@ def _number(node: ast.expr) -> float | None:
 
 def worst_row(values: np.ndarray, excess: Callable[[np.ndarray], np.ndarray]) -> tuple[int, float]:
     """Return the first row with the largest ``excess``, and that; nan is as bad as infinite."""
-    badness = np.where(np.isfinite(values), excess(values), np.inf)
-    row = int(np.argmax(badness))
-    return row, float(badness[row])
+    beyond = np.where(np.isfinite(values), excess(values), np.inf)
+    row = int(np.argmax(beyond))
+    return row, float(beyond[row])
 
 
 def worst_trial(rows: TrialRows, metric: str, excess: Callable[[np.ndarray], np.ndarray]) -> tuple[int, float]:
     """Return the first trial with the largest ``excess`` of a metric, and the metric there."""
     column, trial, value, largest = f"metric.{metric}", 0, math.nan, -math.inf
     for part in rows.parts("trial", column):
-        row, badness = worst_row(part[column], excess)
-        if badness > largest:
-            trial, value, largest = int(part["trial"][row]), float(part[column][row]), badness
+        row, beyond = worst_row(part[column], excess)
+        if beyond > largest:
+            trial, value, largest = int(part["trial"][row]), float(part[column][row]), beyond
     return trial, value

@@ -30,7 +30,7 @@ from .tables import (
 from .verdict_table import VerdictTable, verdict_table
 
 
-def judge(result: BatchResult) -> VerdictTable:
+def verdicts_of(result: BatchResult) -> VerdictTable:
     """Return the verdicts on a batch, with the metrics that vary and are no truths."""
     return verdict_table(
         result.summary,
@@ -46,8 +46,8 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
     varying, constant, empty = sort_metrics(result)
     influences = {variant: influence_on_success(result, variant) for variant in result.rows}
     flights = embedded_flights(result)
-    verdicts = judge(result)
-    looks = legend_of(result)
+    verdicts = verdicts_of(result)
+    variants = legend_of(result)
     first = [each.metric for each in verdicts.metrics] or varying
     replays = trials_to_replay(result, verdicts)
     system = ("system", "all", result.provenance["system_sha256"])
@@ -66,8 +66,8 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         requirements=verdict_rows(result.summary, campaign),
         statistics=HEADINGS,
         samples={variant: sample.note for variant, sample in result.plotted.items() if sample.note},
-        looks=looks,
-        swatches={variant: mark for mark, variant in looks},
+        looks=variants,
+        swatches={variant: mark for mark, variant in variants},
         distributions=distribution_panels(result, first),
         other_distributions=distribution_panels(result, [metric for metric in varying if metric not in first]),
         constant=constant,

@@ -171,7 +171,7 @@ def worst_reasons(row: VerdictRow, metrics: Sequence[JudgedMetric]) -> list[tupl
     """Return the worst trials of a variant, each with the metric and its value there."""
     return [
         (cell.trial, _reason(Markup("worst "), judged.metric, cell.worst))
-        for judged, cell in zip(metrics, row.cells, strict=True)
+        for judged, cell in zip(metrics, row.numbers, strict=True)
         if cell.trial is not None
     ]
 

@@ -47,12 +47,12 @@ class Cell(NamedTuple):
 
 
 class VerdictRow(NamedTuple):
-    """A variant: its summary, ``is_best`` of its success, cells by metric, its verdict in words and as a class."""
+    """A variant: its summary, ``is_best`` of its success, numbers by metric, its verdict in words and as a class."""
 
     variant: str
     entry: VariantSummary
     is_best: bool
-    cells: list[Cell]
+    numbers: list[Cell]
     verdict: str
     kind: str
 

@@ -17,7 +17,7 @@ from perilune.analysis.campaigns.definition.campaign import Variant
 from perilune.analysis.cli import main
 from perilune.analysis.commands.campaigns import replay_command
 from perilune.analysis.options.fault import parse_fault
-from perilune.analysis.reports.campaign.batch_report import judge, write_batch_report
+from perilune.analysis.reports.campaign.batch_report import verdicts_of, write_batch_report
 from perilune.analysis.reports.campaign.tables import extremes_to_replay, trials_to_replay
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.series import read_series
@@ -40,7 +40,7 @@ def test_the_first_failures_and_where_a_metric_is_largest():
     """Three of the four failures of one; its tilt is largest in two trials, which tells of neither."""
     result = batch_result({"one": ONE, "two": TWO}, DRAWS + METRICS)
     ended = "stop_time (ship.status 2)"
-    actual = trials_to_replay(result, judge(result))
+    actual = trials_to_replay(result, verdicts_of(result))
     assert [(row.variant, row.trial) for row in actual] == [("one", 1), ("one", 3), ("one", 4), ("two", 5)]
     reasons = [[plain(reason) for reason in row.reasons] for row in actual]  # miss is worst where it is no number
     assert reasons == [[ended], [ended, "worst miss: not a number m"], [ended], ["worst miss: 0.2 m"]]
@@ -69,7 +69,7 @@ def test_what_never_settles_is_largest():
 
 def test_nothing_to_fly_again(tmp_path):
     result = batch_result({"default": [(True, 0.0, 0.0)] * 3}, METRICS)
-    assert trials_to_replay(result, judge(result)) == extremes_to_replay(result) == []
+    assert trials_to_replay(result, verdicts_of(result)) == extremes_to_replay(result) == []
     write_batch_report(result, tmp_path / "page.html", "Calm")
     assert "Replay commands" not in text_of((tmp_path / "page.html").read_text(encoding="utf-8"))
 
@@ -79,7 +79,7 @@ def test_they_are_on_the_page(tmp_path):
     write_batch_report(result, tmp_path / "page.html", "Again")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert_self_contained(page)
-    for row in (*trials_to_replay(result, judge(result)), *extremes_to_replay(result)):
+    for row in (*trials_to_replay(result, verdicts_of(result)), *extremes_to_replay(result)):
         assert row.command in text_of(page)
     calm = batch_result({"two": TWO}, DRAWS + METRICS)
     write_batch_report(calm, tmp_path / "calm.html", "Calm")

@@ -50,7 +50,7 @@ def entries(card):
 def test_from_a_failure_to_its_flight(browser, batch, capsys):
     table = parquet.read_table(batch / "out" / "trials").to_pylist()
     trials = {row["trial"]: row for row in table if row["variant"] == VARIANT}
-    with driven(browser, batch / "page.html") as driver:
+    with driven(browser, batch / "page.html", unfolded=True) as driver:
         frame, _ = frame_of(driver, f"Failures of {VARIANT} over heading_error")
         frame.find_element(By.CSS_SELECTOR, ".chart").send_keys(Keys.ARROW_RIGHT)  # the leftmost mark: a failure
         hovered = entries(driver.find_element(By.CSS_SELECTOR, ".card:not(.pinned)"))
@@ -66,7 +66,7 @@ def test_from_a_failure_to_its_flight(browser, batch, capsys):
         copy = next(each for each in pinned.find_elements(By.TAG_NAME, "button") if each.text == "Copy command")
         copy.click()
         WebDriverWait(driver, 10).until(lambda _: copy.text == "Copied")
-        listed = driver.find_elements(By.CSS_SELECTOR, "section code.command + .copy")
+        listed = driver.find_elements(By.CSS_SELECTOR, "code.command + .copy")
         assert len(listed) == len(driver.find_elements(By.CSS_SELECTOR, "code.command")) > 0
         driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", listed[0])
         listed[0].click()
@@ -81,7 +81,7 @@ def test_from_a_failure_to_its_flight(browser, batch, capsys):
 
 
 def test_a_brush_chooses_trials_in_all_figures(browser, batch):
-    with driven(browser, batch / "page.html") as driver:
+    with driven(browser, batch / "page.html", unfolded=True) as driver:
         frame, area = frame_of(driver, f"Failures of {VARIANT} over heading_error")
         before = driver.execute_script(STRONG, frame)
         assert before > 100
@@ -100,7 +100,7 @@ def test_a_brush_counts_its_trials_and_has_their_command(browser, batch):
     table = parquet.read_table(batch / "out" / "trials").to_pylist()
     mine = [row for row in table if row["variant"] == VARIANT]
     failures = sum(not row["success"] for row in mine)
-    with driven(browser, batch / "page.html") as driver:
+    with driven(browser, batch / "page.html", unfolded=True) as driver:
         _, area = frame_of(driver, f"Failures of {VARIANT} over heading_error")
         width, height = area.size["width"], area.size["height"]
         ActionChains(driver).move_to_element_with_offset(
@@ -118,7 +118,7 @@ def test_a_brush_counts_its_trials_and_has_their_command(browser, batch):
 
 def test_a_distribution_names_its_trials(browser, batch):
     table = parquet.read_table(batch / "out" / "trials").to_pylist()
-    with driven(browser, batch / "page.html") as driver:
+    with driven(browser, batch / "page.html", unfolded=True) as driver:
         _, area = frame_of(driver, "Cumulative distribution of flight_time")
         for step in range(20):  # from top to bottom over the steep lines, until one is near
             height = area.size["height"]
@@ -136,7 +136,7 @@ def test_a_distribution_names_its_trials(browser, batch):
 def test_keys_go_along_a_distribution_and_pin(browser, batch):
     """Truth: the table's trials in the order of the metric."""
     table = parquet.read_table(batch / "out" / "trials").to_pylist()
-    with driven(browser, batch / "page.html") as driver:
+    with driven(browser, batch / "page.html", unfolded=True) as driver:
         frame, _ = frame_of(driver, "Cumulative distribution of flight_time")
         plot = frame.find_element(By.CSS_SELECTOR, ".chart")
         plot.send_keys(Keys.ARROW_RIGHT)
