@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .definition.expressions import Expression, path_name
-from .trials import TrialRows
+from .trials import TrialTable
 
 RISING, FALLING = (ast.Lt, ast.LtE), (ast.Gt, ast.GtE)
 
@@ -76,7 +76,7 @@ def worst_row(values: np.ndarray, excess: Callable[[np.ndarray], np.ndarray]) ->
     return row, float(beyond[row])
 
 
-def worst_trial(rows: TrialRows, metric: str, excess: Callable[[np.ndarray], np.ndarray]) -> tuple[int, float]:
+def worst_trial(rows: TrialTable, metric: str, excess: Callable[[np.ndarray], np.ndarray]) -> tuple[int, float]:
     """Return the first trial with the largest ``excess`` of a metric, and the metric there."""
     column, trial, value, largest = f"metric.{metric}", 0, math.nan, -math.inf
     for part in rows.parts("trial", column):

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.judged import MetricLimits, metric_limits, worst_row, worst_trial
+from perilune.analysis.campaigns.trials import TrialTable
 
 INFINITY = math.inf
 
@@ -61,11 +62,7 @@ def test_the_worst_is_the_first_farthest_beyond_and_no_number_is_worse():
     assert worst_row(np.array([2.0, 9.0, math.nan, math.inf]), limits.excess)[0] == 2
 
 
-def test_the_worst_of_trials_in_several_parts():
-    class Rows:
-        def parts(self, *names):
-            for trial, metric in (([0, 1], [2.0, 5.0]), ([2, 3], [5.0, 7.0])):
-                yield {"trial": np.array(trial), "metric.miss": np.array(metric)}
-
-    assert worst_trial(Rows(), "miss", MetricLimits(high=3.0).excess) == (3, 7.0)
-    assert worst_trial(Rows(), "miss", MetricLimits(low=3.0).excess) == (0, 2.0)
+def test_the_worst_of_all_trials():
+    rows = TrialTable.of({"trial": np.arange(4), "metric.miss": np.array([2.0, 5.0, 5.0, 7.0])})
+    assert worst_trial(rows, "miss", MetricLimits(high=3.0).excess) == (3, 7.0)
+    assert worst_trial(rows, "miss", MetricLimits(low=3.0).excess) == (0, 2.0)
