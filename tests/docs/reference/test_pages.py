@@ -5,6 +5,7 @@ Truth: argparse's own help, the public names, the pages' sources; a site with kn
 
 from __future__ import annotations
 
+import inspect
 import re
 import subprocess
 
@@ -127,3 +128,16 @@ def test_no_file_holds_marks_of_a_merge():
         if path.is_file() and not path.is_symlink():
             text = path.read_bytes()
             assert not re.search(rb"^(<{7} |>{7} |\|{7} |={7}$)", text, re.MULTILINE), name
+
+
+@pytest.mark.parametrize("name", ["simulate", "batch", "stability", "compare"])
+def test_the_page_of_a_function_has_its_keywords(pages, name):
+    """Truth: the signature."""
+    page = pages["python/flying.md"].split(f"::: perilune.{name}\n", 1)[1].split(":::")[0]
+    parameters = inspect.signature(getattr(perilune, name)).parameters.values()
+    keywords = {each.name: repr(each.default) for each in parameters if each.kind is each.KEYWORD_ONLY}
+    rows = {row[0]: row[1] for row in re.findall(r"^\| `(\w+)` \| (.*?) (?<!\\)\| ", page, re.MULTILINE)}
+    assert list(rows) == list(keywords)
+    given = {name: text for name, text in keywords.items() if text not in ("()", "{}", "mappingproxy({})")}
+    assert all(rows[name].endswith(f"default {escaped(text)}") for name, text in given.items())
+    assert f"perilune.{name}(" in page
