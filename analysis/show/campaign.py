@@ -14,6 +14,7 @@ import pyarrow.parquet
 
 from ...common.errors import InputError
 from ...common.regular import check_folder
+from ..campaigns.columns import Column, describe_column
 from ..campaigns.execute.shards.files import (
     FOLDER,
     IDENTITY,
@@ -26,7 +27,6 @@ from ..campaigns.execute.shards.files import (
     read_table,
     trials_in,
 )
-from ..campaigns.folder.columns import Column, describe_column
 from ..campaigns.folder.folder import ResultFolder, Shard, read_folder
 from ..commands.campaigns import replay_of_folder
 

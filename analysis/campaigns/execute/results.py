@@ -13,6 +13,7 @@ import pyarrow
 
 from ....common.atomic import write_atomically
 from ....common.to_json import to_json
+from ..columns import Column, describe_column, with_metadata
 from ..definition.plan import BatchPlan
 from ..plain_text import assumption_lines, faults_line
 from ..plotted_sample import PlottedSample, select_trials
@@ -39,6 +40,12 @@ class BatchResult:
     provenance: Provenance
     folder: Path | None = None
 
+    def __post_init__(self) -> None:
+        self.rows = {variant: trials.described(self._describe) for variant, trials in self.rows.items()}
+
+    def _describe(self, name: str) -> Column:
+        return describe_column(name, self.provenance)
+
     @classmethod
     def finish(cls, campaign: Campaign, rows: Mapping[str, TrialTable], **more: Any) -> Self:
         """The result of a campaign's first trials, by variant; its summary completes the campaign's folder.
@@ -59,7 +66,6 @@ class BatchResult:
         campaign = self.plan.campaign
         return summarise(
             self.rows,
-            campaign.metrics,
             self.plan.groups,
             campaign.group or "",
             requirements=campaign.requirements,
@@ -79,9 +85,13 @@ class BatchResult:
         return {variant: select_trials(rows, campaign.input_names(), metrics) for variant, rows in self.rows.items()}
 
     def table(self) -> pyarrow.Table:
-        """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics."""
+        """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
+
+        The metadata of a column's field say its ``unit``, ``kind`` and ``meaning``.
+        """
         table = trial_table(self.plan, self.trials)
-        return table.replace_schema_metadata({"perilune": json.dumps(self.provenance)})
+        schema = with_metadata(table.schema, self._describe).with_metadata({"perilune": json.dumps(self.provenance)})
+        return pyarrow.Table.from_arrays(table.columns, schema=schema)
 
     def document(self) -> dict[str, object]:
         """The machine-readable result: provenance and the summary of each variant."""

@@ -46,8 +46,18 @@ class ShardTable(TrialTable):
         return sum(len(self._numbering.of(shard)) for shard in self._shards)
 
     @property
-    def names(self) -> list[str]:
-        return [name for name in self._read(self._shards.start, None).column_names if name != "variant"]
+    def _schema(self) -> pyarrow.Schema:
+        """The columns of the first shard. Raises InputError where it lacks one."""
+        path = shard_path(self._folder, self._shards.start)
+        check_regular(path, NEW_FOLDER)
+        try:
+            schema = pyarrow.parquet.read_schema(path)
+        except (OSError, ValueError, pyarrow.ArrowException) as error:
+            raise unreadable(path, error) from error
+        for name in ("variant", *self._metrics):
+            if name not in schema.names:
+                raise InputError(path, name, "no such column", NEW_FOLDER)
+        return schema.remove(schema.names.index("variant"))
 
     @property
     def table(self) -> pyarrow.Table:
@@ -84,7 +94,7 @@ class ShardTable(TrialTable):
         return read_trace(path, names) if is_own else None
 
     def whole(self) -> TrialTable:
-        return TrialTable(self.table, self.traces)
+        return self._like(self.table, self.traces)
 
     def _read(self, shard: int, names: Sequence[str] | None) -> pyarrow.Table:
         """Some columns of a shard, or all, and those that identify trials, its rows checked."""

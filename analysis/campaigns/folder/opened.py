@@ -16,10 +16,10 @@ import pyarrow.parquet
 from pyarrow.fs import LocalFileSystem
 
 from ....common.errors import suggestion
+from ..columns import Column, describe_column
 from ..execute.metadata import Provenance
 from ..execute.shards.files import read_table
 from ..statistics import quantile
-from .columns import Column, describe_column
 from .folder import ResultFolder
 from .traces import trace_dataset
 
