@@ -83,6 +83,16 @@ def test_every_page_is_in_the_navigation(pages):
     assert sorted(listed) == sorted(written | set(pages))
 
 
+def test_the_site_has_four_doors():
+    """Those that README names; the derived reference is behind one of them, and README fits two screens."""
+    doors = [name for door in site_settings()["nav"] for name in door]
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert doors == re.findall(r"^- \*\*(.+?)\*\*: ", readme, re.MULTILINE) == ["Learn", "Do", "Look up", "Understand"]
+    (behind,) = [door["Look up"] for door in site_settings()["nav"] if "Look up" in door]
+    assert {"Reference": reference_navigation()} in behind
+    assert readme.count("\n") < 120
+
+
 def test_links_of_the_front_pages_lead_to_the_same_places(pages):
     """A link of README to docs/x.md is one to x.md from the site's top."""
     linked = set(re.findall(r"\]\(docs/([\w./-]+)", (ROOT / "README.md").read_text(encoding="utf-8")))
