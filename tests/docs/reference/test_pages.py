@@ -143,7 +143,7 @@ def test_no_file_holds_marks_of_a_merge():
 @pytest.mark.parametrize("name", ["simulate", "batch", "stability", "compare"])
 def test_the_page_of_a_function_has_its_keywords(pages, name):
     """Truth: the signature."""
-    page = pages["python/flying.md"].split(f"::: perilune.{name}\n", 1)[1].split(":::")[0]
+    page = pages["reference/python/flying.md"].split(f"::: perilune.{name}\n", 1)[1].split(":::")[0]
     parameters = inspect.signature(getattr(perilune, name)).parameters.values()
     keywords = {each.name: repr(each.default) for each in parameters if each.kind is each.KEYWORD_ONLY}
     rows = {row[0]: row[1] for row in re.findall(r"^\| `(\w+)` \| (.*?) (?<!\\)\| ", page, re.MULTILINE)}
