@@ -16,7 +16,7 @@ from ..design.transfers.hover_study import Curve, HoverStudy
 from .chart.axes import linear_axis
 from .chart.equal import Ends, to_scale
 from .chart.lines import line
-from .chart.panel import POINTS, chart_panel, fluid_figure
+from .chart.panel import POINTS, chart_panel, wide_figure
 from .chart.symbols import arrow, mark, marker
 from .chart.ticks import axis_ends
 from .common.colours import FAINT, INK, Look, look
@@ -181,7 +181,7 @@ def path_panel(series: Sequence[Series], shown: Sequence[np.ndarray], names: tup
 def path_widths(series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str]) -> Drawing:
     """Return the same, each axis to its own scale, as wide as the page."""
     chart = path_chart(series, shown, names, "different scales", 7)
-    return fluid_figure("path", _path_words(series), chart, LOW)
+    return wide_figure("path", _path_words(series), chart, LOW)
 
 
 def _path_words(series: Sequence[Series]) -> str:

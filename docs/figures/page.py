@@ -38,7 +38,8 @@ PUBLISHED = {
 }
 COMPARED = ("position_error", "velocity_error")
 WORDS = "A landing from the side, in plan and over time"
-STYLE = """svg.slim { display: none; max-width: 560px; }
+STYLE = """svg.wide, svg.slim { box-sizing: border-box; width: 100%; height: auto; }
+svg.slim { display: none; max-width: 560px; }
 @media screen and (max-width: 860px) { svg.wide { display: none; } svg.slim { display: block; } }
 """
 

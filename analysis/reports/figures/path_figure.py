@@ -13,7 +13,7 @@ from ...runtime.flight.results import Result
 from ..chart.axes import linear_axis
 from ..chart.equal import Ends, to_scale
 from ..chart.marks import level
-from ..chart.panel import POINTS, chart_panel, fluid_figure
+from ..chart.panel import POINTS, chart_panel, wide_figure
 from ..chart.quantity import quantity_curve
 from ..chart.symbols import marker, marks
 from ..chart.ticks import axis_ends
@@ -54,7 +54,7 @@ def path_section(path: Path, result: Result, name: str) -> Section:
         panels = [chart_panel(title, name, description, chart, EQUAL_HEIGHT, HALF_WIDTH)]
     else:
         chart = chart_of(*ends, WIDE_INTERVALS)
-        plot = fluid_figure(name, description, chart, HEIGHT, title=title)
+        plot = wide_figure(name, description, chart, HEIGHT, title=title)
     return Section(
         title=path.title,
         panels=panels,

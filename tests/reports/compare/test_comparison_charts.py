@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from perilune.analysis.reports.common.panels import PANEL_WIDTH
 from perilune.analysis.reports.common.style import FAINT, INK, look
 from perilune.analysis.reports.compare.bands import LEVELS, band_chart, bands_of, frame_of, overlaid_bands
 from perilune.analysis.reports.compare.dispersions import Ends, dispersion_chart, overlaid_ends
@@ -117,7 +118,7 @@ def test_overlaid_ellipses_are_in_the_order_of_the_legend():
     (chart,) = panel.figure.charts
     assert [curve.colour for curve in chart.curves[:2]] == [STYLES[name].colour.lower() for name in STYLES]
     assert np.isnan(chart.curves[0].x).all()
-    assert is_to_scale(chart, 3.4, 3.1)
+    assert is_to_scale(chart, PANEL_WIDTH, 3.1)
 
 
 def test_paths_are_to_scale_where_their_sides_are_alike():
@@ -133,5 +134,5 @@ def test_paths_are_to_scale_where_their_sides_are_alike():
     assert (chart.areas[0].y.min(), chart.areas[0].y.max()) == (chart.y.ends[0], 0.0)
     (plan,) = plan_panels({"one": bundle}, STYLES)
     (chart,) = plan.figure.charts
-    assert is_to_scale(chart, 3.4, 2.5)
+    assert is_to_scale(chart, PANEL_WIDTH, 2.5)
     assert (chart.curves[-1].x[0], chart.curves[-1].y[0]) == (1.0, 1.0)
