@@ -23,8 +23,8 @@ from perilune.analysis.reports.common.signals import signal_groups
 from perilune.analysis.reports.common.style import FAINT, house_style, new_figure, plain_ticks
 from perilune.analysis.reports.interactive.columns import Coarse
 from perilune.analysis.reports.time_histories import HEIGHT, SPIKE, _is_constant, history_chart
-from tests.support.figures.inline_svg import inline_svg
 from tests.support.figures.lines import plot_quantity
+from tests.support.figures.read_figure import read_charts
 
 SYSTEMS = ("landing_mission", "satellite_pointing", "robot_rendezvous")
 FLOATS = re.compile(r"-?(?:\d+\.?\d*|\.\d+)")
@@ -46,7 +46,7 @@ def read_back(group, run, reduced):
             axes.set_ylim(-0.15, 1.15)
         elif group.is_real:
             clip_spikes(axes, display_factor(group.unit) * values)
-        (chart,) = inline_svg(figure, "a", "a", reduced=reduced).charts
+        (chart,) = read_charts(figure, reduced=reduced)
     return chart
 
 
