@@ -43,10 +43,10 @@ def sketch_chart(programme: Programme) -> Chart:
         rules += [instant(at, FAINT, 0.8, DOTS) for at in (t2, t5)]
     if programme.threshold is not None and w > 0.0:
         dimensions.append((0, f"w = {number(w, 4)} s", t2, t2 + w))
-        turned = programme.threshold * float(tilt.min())
-        rules.append(level(turned, VERMILION, 1.1, DASHES))
+        threshold = programme.threshold * float(tilt.min())
+        rules.append(level(threshold, VERMILION, 1.1, DASHES))
         words = f"k = {number(programme.threshold, 3)} of the largest tilt"
-        levels.append(_text(words, (t7, turned), VERMILION, "right"))
+        levels.append(_text(words, (t7, threshold), VERMILION, "right"))
     arrows, notes = [], []
     for row, text, begin, end in dimensions:
         up = high + (row + 0.5) * lane

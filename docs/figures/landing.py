@@ -102,10 +102,10 @@ def _histories(landing: Result, sample: list[Result]) -> list[Chart]:
     for title, history in HISTORIES.items():
         quantity, unit = title.rsplit(", ", 1)
         others = [line(*_thin(history(other)), SAMPLE, width=0.6) for other in sample]
-        own = line(*history(landing), BLUE, width=1.8, name=quantity, unit=unit)
-        ends = [axis_ends(np.concatenate([getattr(each, key) for each in (*others, own)])) for key in ("x", "y")]
+        landed = line(*history(landing), BLUE, width=1.8, name=quantity, unit=unit)
+        ends = [axis_ends(np.concatenate([getattr(each, key) for each in (*others, landed)])) for key in ("x", "y")]
         x, y = linear_axis(ends[0], 5, label="time, s"), linear_axis(ends[1], 5)
-        charts.append(Chart(NO_BOX, x, y, title=title, curves=[*others, own]))
+        charts.append(Chart(NO_BOX, x, y, title=title, curves=[*others, landed]))
     return charts
 
 
@@ -165,7 +165,7 @@ def _plan_view(landing: Result, sample: list[Result]) -> Chart:
         return -y, x
 
     others = [line(*_thin(plan(other)), SAMPLE, width=0.6) for other in sample]
-    own = replace(line(*plan(landing), BLUE, width=1.8, name="north", unit="km"), time=landing.time)
-    ends = [axis_ends(np.concatenate([getattr(each, key) for each in (*others, own)])) for key in ("x", "y")]
+    landed = replace(line(*plan(landing), BLUE, width=1.8, name="north", unit="km"), time=landing.time)
+    ends = [axis_ends(np.concatenate([getattr(each, key) for each in (*others, landed)])) for key in ("x", "y")]
     x, y = linear_axis(ends[0], 4, label="east, km"), linear_axis(ends[1], 5)
-    return Chart(NO_BOX, x, y, title="plan: north, km", curves=[*others, own, mark(0.0, 0.0, TARGET)])
+    return Chart(NO_BOX, x, y, title="plan: north, km", curves=[*others, landed, mark(0.0, 0.0, TARGET)])

@@ -59,16 +59,16 @@ def stack_panel(
     stacked = (replace(upper, x=replace(upper.x, bare=True)), lower)
     heights = [(height - ABSCISSA) / 2.0, (height + ABSCISSA) / 2.0]
 
-    def place(left: float = 0.0, right: float = 0.0) -> list[Chart]:
+    def lay_out_both(left: float = 0.0, right: float = 0.0) -> list[Chart]:
         return [
             lay_out_fluid(chart, POINTS * width, POINTS * high, title=chart.title, left=left, right=right)
             for chart, high in zip(stacked, heights, strict=True)
         ]
 
-    left, _, right, _ = np.max([chart.fluid.margins for chart in place() if chart.fluid], axis=0) / POINT
+    left, _, right, _ = np.max([chart.fluid.margins for chart in lay_out_both() if chart.fluid], axis=0) / POINT
     above, below = (
         chart_panel(label, f"{name}-{order}", f"{description}; {chart.title}", chart, high, width, title=chart.title)
-        for order, (chart, high) in enumerate(zip(place(left, right), heights, strict=True))
+        for order, (chart, high) in enumerate(zip(lay_out_both(left, right), heights, strict=True))
     )
     return Panel(label, above.figure._replace(below=below.figure))
 

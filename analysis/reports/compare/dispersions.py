@@ -75,7 +75,7 @@ def ends_of(contender: Contender, variable: str) -> Ends | None:
 
 SIGMAS = (1.0, 2.0, 3.0)
 RADII = (0.5, 0.99)  # fractions of the trials that end within the distances shown
-BULK, UNEVEN = 0.9, 6.0  # of the trials of the least dispersed contender; what the scale is at most, times their reach
+BULK, UNEVEN = 0.9, 6.0  # of the trials of the least dispersed contender; of their extent, what the scale is at most
 EDGE, ARROW = 0.9, 10.0  # of the way to the edge, from which on an arrow points out; its length, pt
 HEIGHT = 3.1  # in
 
@@ -125,20 +125,20 @@ def ellipse(good: np.ndarray, sigma: float) -> np.ndarray:
 
 def dispersion_panels(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: str, name: str) -> list[Panel]:
     """Panels to one scale."""
-    reach = common_reach(ends)
+    extent = common_extent(ends)
     return [
-        _panel(label, points, styles[label], reach, unit, f"{name}-{index}")
+        _panel(label, points, styles[label], extent, unit, f"{name}-{index}")
         for index, (label, points) in enumerate(ends.items())
     ]
 
 
-def common_reach(ends: Mapping[str, Ends]) -> float:
+def common_extent(ends: Mapping[str, Ends]) -> float:
     """How far from the target all panels go: as the farthest successful trial or 3-sigma ellipse of a contender, at
     most `UNEVEN` times the distance within which `BULK` of the successful trials of the least dispersed one end.
     """
-    reaches = [reach_of(each) for each in ends.values()]
-    limit = UNEVEN * min(bulk for _, bulk in reaches)
-    return 1.08 * min([max(reach for reach, _ in reaches), *([limit] if limit else [])]) or 1.0
+    extents = [extent_of(each) for each in ends.values()]
+    limit = UNEVEN * min(bulk for _, bulk in extents)
+    return 1.08 * min([max(extent for extent, _ in extents), *([limit] if limit else [])]) or 1.0
 
 
 def select_ends(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
@@ -147,7 +147,7 @@ def select_ends(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
     return ends.errors[finite & ends.success], ends.errors[finite & ~ends.success]
 
 
-def reach_of(ends: Ends) -> tuple[float, float]:
+def extent_of(ends: Ends) -> tuple[float, float]:
     """How far from the target successful trials and the 3-sigma ellipse go, and how far `BULK` of the trials."""
     good, bad = select_ends(ends)
     away = np.max(np.abs((good if good.size else bad)[:, :2]), axis=1)
@@ -158,11 +158,11 @@ def reach_of(ends: Ends) -> tuple[float, float]:
     return float(max(away.max(), around)), bulk
 
 
-def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: str) -> Panel:
-    factor, displayed = far(np.array([reach])) if unit == "m" else (1.0, unit)
+def _panel(label: str, ends: Ends, style: Look, extent: float, unit: str, name: str) -> Panel:
+    factor, displayed = far(np.array([extent])) if unit == "m" else (1.0, unit)
     description = f"Final {ends.variable} of {label} about the target, with covariance ellipses"
     chart_of = partial(dispersion_chart, ends, style.colour, factor, displayed)
-    chart = _about_target(chart_of, factor * reach, displayed)
+    chart = _about_target(chart_of, factor * extent, displayed)
     return chart_panel(label, name, description, chart, HEIGHT, title=f"y, {displayed}")
 
 
@@ -220,9 +220,9 @@ def _chart(curves: Sequence[Curve], unit: str, x_ends: Pair, y_ends: Pair, note:
     )
 
 
-def _about_target(chart_of: Callable[[Pair, Pair], Chart], reach: float, unit: str) -> Chart:
-    """Return a chart to scale that contains a square about the target, ``reach`` in ``unit``."""
-    square = (-reach, reach)
+def _about_target(chart_of: Callable[[Pair, Pair], Chart], extent: float, unit: str) -> Chart:
+    """Return a chart to scale that contains a square about the target, ``extent`` in ``unit``."""
+    square = (-extent, extent)
     return to_scale(chart_of, square, square, POINTS * PANEL_WIDTH, POINTS * HEIGHT, title=f"y, {unit}")
 
 
@@ -231,8 +231,8 @@ def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: st
     if len(ends) < 2:
         return []
     with_ellipse = [(label, each) for label, each in ends.items() if len(select_ends(each)[0]) > 1] or ends.items()
-    reach = common_reach(dict(with_ellipse))
-    factor, displayed = far(np.array([reach])) if unit == "m" else (1.0, unit)
+    extent = common_extent(dict(with_ellipse))
+    factor, displayed = far(np.array([extent])) if unit == "m" else (1.0, unit)
     ellipses, means = [], []
     for label, each in ends.items():
         good, style = factor * select_ends(each)[0], styles[label]
@@ -241,7 +241,7 @@ def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: st
         if len(good) > 1:
             means.append(_mean(good, style.colour))
     what = next(iter(ends.values())).variable
-    chart = _about_target(partial(_overlaid_chart, ellipses, means, displayed), factor * reach, displayed)
+    chart = _about_target(partial(_overlaid_chart, ellipses, means, displayed), factor * extent, displayed)
     description = f"Final {what} about the target: 3-sigma ellipses, {ALL}"
     return [chart_panel(f"final {what}, {ALL}", name, description, chart, HEIGHT, title=f"y, {displayed}")]
 

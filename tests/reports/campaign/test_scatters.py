@@ -1,6 +1,6 @@
 """A metric over another on the page of a batch, and how many trials saw each status.
 
-Truth: outcomes made by hand, whose marks are counted in the figure and whose places follow from its ticks.
+Truth: outcomes made by hand, whose marks are counted in the figure and whose ticks_at follow from its ticks.
 """
 
 import contextlib
@@ -70,14 +70,14 @@ def test_the_circle_is_round_and_to_scale():
     width, height = np.ptp(starts, axis=0)
     view = root.xpath("//*[@viewBox][@width='100%'][@height='100%']/@viewBox")[0].split()
     np.testing.assert_allclose([wide, high], list(map(float, view[2:])))
-    places = {}  # of the texts at the abscissa's ticks, px
+    ticks_at = {}  # of the texts at the abscissa's ticks, px
     for text in root.xpath("//*[local-name()='g'][@text-anchor='middle']/*[local-name()='text']"):
         with contextlib.suppress(ValueError):
-            places[float(text.text.replace("\N{MINUS SIGN}", "-"))] = (
+            ticks_at[float(text.text.replace("\N{MINUS SIGN}", "-"))] = (
                 float(text.get("x").removesuffix("%")) / 100.0 * wide
             )
-    low, high = min(places), max(places)
-    scale = (places[high] - places[low]) / (high - low)
+    low, high = min(ticks_at), max(ticks_at)
+    scale = (ticks_at[high] - ticks_at[low]) / (high - low)
     np.testing.assert_allclose([width, height], 20.0 * scale, rtol=5e-3)
 
 

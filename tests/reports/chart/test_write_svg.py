@@ -36,7 +36,7 @@ from perilune.analysis.reports.common import panels
 from perilune.analysis.reports.common.quantities import MINUS
 from perilune.analysis.reports.font.text import text_width
 from perilune.analysis.reports.interactive.charts import NO_BOX, Area, Backing, Chart, Dots, Note
-from tests.support.pages.fluid import position
+from tests.support.figures.fluid import position
 
 WIDTH, HEIGHT = 245.0, 180.0  # pt
 NUMBER = re.compile(r"-?(?:\d+\.?\d*|\.\d+)")
@@ -108,13 +108,13 @@ def test_texts_of_ticks_lie_in_the_figure_and_do_not_overlap(x, y):
     for axis, at, text in ticks:
         half = text_width(text, POINT * axis.size) / 2.0
         is_up = axis is placed.y
-        place = expected(axis, at, height if is_up else 0.0, -height if is_up else width)
-        places = [position(each, (width, height)) for each in texts if each.text == text]
-        assert min(abs(each[is_up] - (0.365 * 11.0 if is_up else 0.0) - place) for each in places) < 0.03
+        expected_at = expected(axis, at, height if is_up else 0.0, -height if is_up else width)
+        texts_at = [position(each, (width, height)) for each in texts if each.text == text]
+        assert min(abs(each[is_up] - (0.365 * 11.0 if is_up else 0.0) - expected_at) for each in texts_at) < 0.03
         if is_up:
             assert 2.0 * half <= left
         else:
-            assert half - left - 0.1 <= place <= width + right - half + 0.1
+            assert half - left - 0.1 <= expected_at <= width + right - half + 0.1
 
 
 def test_marks_beyond_the_axes_are_left_out():

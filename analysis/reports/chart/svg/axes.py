@@ -72,19 +72,19 @@ def _texts(axis: Axis, anchor: str, offset: tuple[float, float], positions: list
     written = "".join(f'<text x="{x}" y="{y}">{escape(text)}</text>' for x, y, text in positions if text)
     if not written or axis.bare:
         return ""
-    moved = f'transform="translate({offset[0]:g} {offset[1]:.2f})"'
-    return f'<g font-size="{axis.size:g}" text-anchor="{anchor}" fill="{INK}" {moved}>{written}</g>'
+    shift = f'transform="translate({offset[0]:g} {offset[1]:.2f})"'
+    return f'<g font-size="{axis.size:g}" text-anchor="{anchor}" fill="{INK}" {shift}>{written}</g>'
 
 
 def draw_labels(frame: FluidFrame, title: str, size: float) -> Iterator[str]:
     """Yield the labels of the axes and the title in texts of this size, which remain where a script draws the chart."""
     left, bottom = MARGIN + ASCENT * size - frame.margins[0], frame.margins[3] - MARGIN - DESCENT * size
-    for text, x, y, anchor, moved in (
+    for text, x, y, anchor, shift in (
         ("" if frame.x.bare else frame.x.label, "50%", "100%", "middle", f"translate(0 {bottom:.2f})"),
         (frame.y.label, "0", "50%", "middle", f"translate({left:.2f}) rotate(-90)"),
         (title, "0", "0", "start", f"translate(0 {-TITLE_GAP - DESCENT * size:.2f})"),
     ):
         if text:
-            style = f'font-size="{size:g}" text-anchor="{anchor}" fill="{INK}" transform="{moved}"'
+            style = f'font-size="{size:g}" text-anchor="{anchor}" fill="{INK}" transform="{shift}"'
             written = f"<text {style}>{escape(text)}</text>"
             yield f'<g class="{STILL}"><svg x="{x}" y="{y}" overflow="visible">{written}</svg></g>'

@@ -59,9 +59,9 @@ class FluidFrame(Frame):
         return f'<defs><g id="{key}">{element}</g></defs>{"".join(copies)}'
 
 
-def _stretch(elements: str, width: float, height: float, place: str) -> str:
+def _stretch(elements: str, width: float, height: float, frame: str) -> str:
     view = f'viewBox="0 0 {width:g} {height:g}" preserveAspectRatio="none"'
-    return f'<svg {place} overflow="visible" {view}>{elements}</svg>' if elements else ""
+    return f'<svg {frame} overflow="visible" {view}>{elements}</svg>' if elements else ""
 
 
 def in_pixels(chart: Chart) -> Chart:

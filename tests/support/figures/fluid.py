@@ -12,11 +12,11 @@ def position(element: Any, area: tuple[float, float]) -> tuple[float, float]:
     """The place (px) of a text or a mark in axes with this area (px), from its upper left corner."""
     x = y = 0.0
     while element.getparent() is not None:
-        moved = TRANSLATE.search(element.get("transform", ""))
+        shift = TRANSLATE.search(element.get("transform", ""))
         for each, size, add in zip(("x", "y"), area, (1, 2), strict=True):
-            place = _px(element.get(f"c{each}", element.get(each, "0")), size)
-            place += float(moved[add] or 0.0) if moved else 0.0
-            x, y = (x + place, y) if each == "x" else (x, y + place)
+            offset = _px(element.get(f"c{each}", element.get(each, "0")), size)
+            offset += float(shift[add] or 0.0) if shift else 0.0
+            x, y = (x + offset, y) if each == "x" else (x, y + offset)
         element = element.getparent()
     return x, y
 
