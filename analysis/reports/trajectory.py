@@ -51,7 +51,7 @@ def trajectory_plot(result: Result) -> Figure | None:
 
     charts, titles = [], []
     for view in views:
-        chart, ordinate, scales = view_chart(view, POINTS * PLOT_WIDTH, POINTS * HEIGHT)
+        chart, ordinate, scales = view_chart(view, POINTS * PLOT_WIDTH, POINTS * HEIGHT, fluid=False)
         charts.append(chart)
         titles.append(f"{view.title}: {ordinate}, {scales}")
     legend = views[0].labels if len(views[0].labels) > 1 else []

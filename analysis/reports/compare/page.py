@@ -17,7 +17,7 @@ from ..common.colours import Look
 from ..common.page import write_page
 from ..common.panels import Panel, swatch
 from .bands import band_panels, bands_of, expectation, overlaid_bands
-from .dispersions import UNITS, Dispersion, dispersion, dispersion_panels, ends_of, overlaid_ends
+from .dispersions import BULK, UNEVEN, UNITS, Dispersion, dispersion, dispersion_panels, ends_of, overlaid_ends
 from .metrics import (
     LIMITS,
     MASS,
@@ -50,15 +50,14 @@ class History:
 
 @dataclass(frozen=True)
 class End:
-    """Final positions or velocities: all contenders in a panel, to one scale and to own scales, rows of the table."""
+    """Final positions or velocities: all contenders in a panel, a panel of each to one scale, rows of the table."""
 
     what: str
     unit: str
     signal: str
     targets: list[str]
     together: list[Panel]
-    common: list[Panel]
-    own: list[Panel]
+    panels: list[Panel]
     rows: dict[str, Dispersion]
 
 
@@ -104,6 +103,8 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         flights={label: len(flight) for label, flight in flights.items()},
         most_drawn=DRAWN,
         ends=ends,
+        uneven=UNEVEN,
+        bulk=BULK,
         distributions=[distribution_panel(metric, displayed[metric], analyses) for metric in plotted],
         still=still,
         empty=empty,
@@ -174,15 +175,13 @@ def _end(comparison: Comparison, variable: str, looks: Mapping[str, Look]) -> En
     }
     if not ends:
         return None
-    common, own = dispersion_panels(ends, looks, UNITS[variable], f"end-{variable}")
     return End(
         what=variable,
         unit=UNITS[variable],
         signal=", ".join(dict.fromkeys(point.signal for point in ends.values())),
         targets=list(dict.fromkeys(point.target for point in ends.values())),
         together=overlaid_ends(ends, looks, UNITS[variable], f"end-{variable}-all"),
-        common=common,
-        own=own,
+        panels=dispersion_panels(ends, looks, UNITS[variable], f"end-{variable}"),
         rows={label: dispersion(point) for label, point in ends.items()},
     )
 

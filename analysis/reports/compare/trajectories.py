@@ -18,7 +18,7 @@ from ..chart.panel import POINTS, chart_panel
 from ..chart.symbols import mark
 from ..common.colours import GRID, INK, Look
 from ..common.panels import PANEL_HEIGHT, PANEL_WIDTH, Panel, far
-from ..common.round_body import radius_of, track_angles
+from ..common.round_body import downrange, radius_of
 from ..interactive.charts import NO_BOX, Axis, Chart, Curve
 from ..interactive.measures import FAILED_DASHES
 from .dispersions import TARGET, target_of
@@ -87,7 +87,7 @@ def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
     radius = next((fit for fit in fits if fit is not None), None)  # of all flights: they are drawn in one figure
     paths = []
     for success, path, heights, aim in plotted:
-        along = _along(path[:2], aim[:2]) if radius is None else radius * track_angles(path, radius, aim)[0]
+        along = _along(path[:2], aim[:2]) if radius is None else downrange(path, radius, aim)
         paths.append(Path(success, along, heights, path[:2]))
     return Bundle(paths, target.values[0, :2], height, radius) if paths else None
 

@@ -10,7 +10,7 @@ import numpy as np
 from ...runtime.flight.results import Flight
 from ...runtime.ssp.conversions import Unit
 from ..common.quantities import display_factor
-from ..common.round_body import ground_range
+from ..common.round_body import downrange
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Signal:
 
 @dataclass(frozen=True)
 class Arc:
-    """Ground range of a ``position`` from the origin of its frame, see common/round_body.py.
+    """Downrange of a ``position`` from the origin of its frame, see common/round_body.py.
 
     The origin is on a sphere of ``radius`` (m) around (0, 0, -radius); the position has three elements in m.
     """
@@ -54,7 +54,7 @@ class Arc:
 
     @property
     def label(self) -> str:
-        return f"range of {self.position.label}"
+        return f"downrange of {self.position.label}"
 
     @property
     def unit_name(self) -> str:
@@ -62,7 +62,7 @@ class Arc:
 
     def plot_values(self, flight: Flight) -> np.ndarray:
         """Values to be plotted, in m, as of a scalar; nan where not finite."""
-        return ground_range(self.position.plot_values(flight), self.radius)[None]
+        return downrange(self.position.plot_values(flight), self.radius)[None]
 
 
 @dataclass(frozen=True)
