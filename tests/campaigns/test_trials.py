@@ -36,9 +36,9 @@ def table(misses, first=0):
 
 
 @given(st.lists(NUMBERS, min_size=1, max_size=20), st.randoms(use_true_random=False), st.data())
-def test_parts_in_any_order_join_to_the_bit(misses, random, data):
+def test_parts_in_any_order_join_to_the_bit(misses, random, choices):
     whole = table(misses)
-    cuts = sorted(data.draw(st.sets(st.integers(1, len(misses)))) | {0, len(misses)})
+    cuts = sorted(choices.draw(st.sets(st.integers(1, len(misses)))) | {0, len(misses)})
     parts = [whole.part(range(*pair)) for pair in itertools.pairwise(cuts)]
     random.shuffle(parts)
     joined = pickle.loads(pickle.dumps(join_trials(parts)))  # as a cluster sends it
