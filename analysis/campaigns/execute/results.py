@@ -15,6 +15,11 @@ from ....common.atomic import write_atomically
 from ....common.to_json import to_json
 from ..columns import Column, describe_column, with_metadata
 from ..definition.plan import BatchPlan
+from ..folder.campaign_folder import CampaignFolder
+from ..folder.files import SUMMARY, clear, trial_table, write_draws
+from ..folder.lock import lock_folder
+from ..folder.numbering import Numbering, shard_size
+from ..folder.provenance import Provenance
 from ..plain_text import assumption_lines, faults_line
 from ..plotted_sample import PlottedSample, select_trials
 from ..summary import Summary, summarise
@@ -22,10 +27,6 @@ from ..summary_text import select_metrics, summary_text
 from ..trials import TrialTable
 from .campaign import Campaign
 from .folder import tidy
-from .folder_lock import lock_folder
-from .metadata import Provenance, batch_digest
-from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
-from .shards.numbering import Numbering, shard_size
 
 
 @dataclass
@@ -112,14 +113,14 @@ class BatchResult:
 
         Every file carries the batch's digest: a folder can hold traces of an earlier batch too.
         """
-        batch = batch_digest(self.provenance)
+        stored = CampaignFolder(folder, self.provenance)
         numbering = Numbering(self.plan.campaign.trials, shard_size(self.plan.campaign.trials))
         with lock_folder(folder, alone=True):
             write_draws(self.plan, folder, numbering.size)
             clear(folder)
             for shard in range(numbering.count):
                 part = {variant: trials.part(numbering.of(shard)) for variant, trials in self.trials.items()}
-                write_shard(folder, batch, shard, self.plan, part)
+                stored.write(shard, self.plan, part)
             self.write_summary(folder)
 
     def write_summary(self, folder: Path) -> None:

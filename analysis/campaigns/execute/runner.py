@@ -12,13 +12,13 @@ import numpy as np
 from ....common.errors import InputError
 from ....common.progress import progress_bar
 from ..definition.plan import BatchPlan
+from ..folder.lock import lock_folder
+from ..folder.numbering import spans
 from ..requirement_verdicts import satisfies, trials_to_decision
 from ..trials import TrialTable
 from .campaign import Campaign, open_campaign
-from .folder_lock import lock_folder
+from .flights import fly_shards, task_size
 from .results import BatchResult
-from .shards.flights import fly_shards, task_size
-from .shards.numbering import spans
 from .store import ShardStore
 from .workers import FlyerPool, in_threads, worker_count
 

@@ -17,10 +17,10 @@ from pyarrow.fs import LocalFileSystem
 
 from ....common.errors import suggestion
 from ..columns import Column, describe_column
-from ..execute.metadata import Provenance
-from ..execute.shards.files import read_table
 from ..statistics import quantile
-from .folder import ResultFolder
+from .campaign_folder import CampaignFolder
+from .files import read_table
+from .provenance import Provenance
 from .traces import trace_dataset
 
 UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # what Arrow says of a column that there is not
@@ -29,7 +29,7 @@ UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # what Arrow says of a column 
 class OpenedResults:
     """The trials of a campaign's folder, which ``source`` is as it was when it was opened."""
 
-    def __init__(self, source: ResultFolder) -> None:
+    def __init__(self, source: CampaignFolder) -> None:
         self.source = source
 
     @property

@@ -10,8 +10,8 @@ from typing import TypedDict
 import numpy as np
 
 from ....common.errors import InputError
-from ...campaigns.execute.metadata import Provenance
 from ...campaigns.execute.results import BatchResult
+from ...campaigns.folder.provenance import Provenance
 from ..common.colours import COLOURS
 from ..common.quantities import display_factor, display_unit
 from ..common.signals import vector_of

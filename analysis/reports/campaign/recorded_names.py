@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ...campaigns.execute.metadata import Provenance
+from ...campaigns.folder.provenance import Provenance
 from ...runtime.ssp.names import split_name
 from ..common.signals import INDEXED, vector_of
 

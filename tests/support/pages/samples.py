@@ -9,7 +9,7 @@ from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.plan import BatchPlan
 from perilune.analysis.campaigns.definition.table import Table
 from perilune.analysis.campaigns.execute.results import BatchResult
-from perilune.analysis.campaigns.execute.shards.files import with_draws
+from perilune.analysis.campaigns.folder.files import with_draws
 from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions

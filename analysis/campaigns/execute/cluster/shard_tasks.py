@@ -13,7 +13,7 @@ from .....common.errors import InputError
 from ....runtime.flight.interruptible import PATIENCE
 from ...trials import TrialTable
 from ..campaign import Campaign
-from ..shards.flights import ShardAssembler
+from ..flights import ShardAssembler
 from . import work
 from .sent import make_sent
 from .tasks import Portions, RetryQueue, Task, WorkersDiedError

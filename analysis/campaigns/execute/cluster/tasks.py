@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from ..shards.numbering import Numbering
+from ...folder.numbering import Numbering
 
 MOST_DEATHS = 3  # of workers with one trial, before it is held to end them
 FIRST = 4  # trials of a task as long as nobody knows how long one takes

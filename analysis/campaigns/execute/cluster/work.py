@@ -14,11 +14,11 @@ from pathlib import Path
 
 from .....common.atomic import write_atomically
 from ...definition.plan import BatchPlan
+from ...folder.files import DRAWS
+from ...folder.manifest import CONTENTS, store_contents
 from ...trials import TrialTable
 from ..flyer import Flyer
-from ..manifest import CONTENTS, store_contents
 from ..plan_manifest import restore
-from ..shards.files import DRAWS
 from .sent import Sent, identity, refuse_others
 from .tasks import Piece
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Generator, Iterator, Sequence
 
-from ...trials import TrialTable, join_trials
-from ..flyer import Flyer
-from ..workers import FlyerPool
-from .numbering import Numbering
+from ..folder.numbering import Numbering
+from ..trials import TrialTable, join_trials
+from .flyer import Flyer
+from .workers import FlyerPool
 
 MOST_IN_THREAD, MOST_IN_PROCESS = 500, 10  # trials of a task: enough to send, few enough to share out or lose
 TASKS = 16  # for each worker, at least: few trials at the end, when some have nothing left to do
