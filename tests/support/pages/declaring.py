@@ -1,5 +1,6 @@
 """A system's description with figures of its own asked for."""
 
+import re
 from functools import cache
 
 from perilune.common.paths import SYSTEMS
@@ -9,6 +10,12 @@ from perilune.common.paths import SYSTEMS
 def shipped_ssd(name):
     """The text of a shipped system's SSD, which a build composes."""
     return (SYSTEMS / name / "SystemStructure.ssd").read_text(encoding="utf-8")
+
+
+def with_frames(ssd, inside):
+    """The description with these elements of Frames instead of its own, on lines of their own."""
+    own = re.search(r"( *<Frames [^>]*>\n).*?( *</Frames>\n)", ssd, flags=re.DOTALL)
+    return f"{ssd[: own.end(1)]}{inside}\n{ssd[own.start(2) :]}"
 
 
 def with_report(ssd, inside):
