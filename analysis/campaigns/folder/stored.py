@@ -18,6 +18,7 @@ from ....common.bounds import INPUT_BYTES
 from ....common.errors import InputError
 from ....common.machine.arrow import numpy_of
 from ....common.regular import read_regular
+from ..columns import describe_metric
 from ..definition.campaign import Group, Metric, groups_of
 from ..definition.expressions import Expression
 from ..execute.manifest import FILE as MANIFEST
@@ -205,7 +206,7 @@ def _metrics(document: SummaryDocument, path: Path) -> tuple[Metric, ...]:
                 expression=Expression(fact["expression"], (str(path), f"metrics.{name}.expression")),
                 reduction=fact["reduction"],
                 unit=fact["unit"],
-                description=fact["description"],
+                description=describe_metric(fact),
                 condition=Expression(fact["condition"], (str(path), f"metrics.{name}.condition"))
                 if "condition" in fact
                 else None,

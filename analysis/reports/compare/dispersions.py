@@ -10,7 +10,7 @@ import numpy as np
 
 from ...campaigns.compare.comparison import Contender
 from ...campaigns.verdicts.order_statistics import quantiles
-from ..campaign.recorded_names import find_vector, variable_of, vectors
+from ..campaign.recorded_names import LETTERS, AxisNames, axes_of, find_vector, variable_of, vectors
 from ..chart.axes import linear_axis
 from ..chart.equal import Ends as Pair
 from ..chart.equal import to_scale
@@ -37,13 +37,14 @@ class Target:
 
 @dataclass(frozen=True)
 class Ends:
-    """Errors at the end of a contender's flights: final less target, trials by elements, SI."""
+    """Errors at the end of a contender's flights: final less target, trials by elements along ``axes``, SI."""
 
     signal: str
     variable: str
     target: str
     errors: np.ndarray
     success: np.ndarray
+    axes: AxisNames = LETTERS
 
 
 def target_of(contender: Contender, variable: str) -> Target:
@@ -68,7 +69,8 @@ def ends_of(contender: Contender, variable: str) -> Ends | None:
         return None
     target = target_of(contender, variable)
     finals = np.stack([contender.trials.final[name] for name in vector], axis=1)
-    return Ends(vector[0].removesuffix("[1]"), variable, target.name, finals - target.values, contender.trials.success)
+    signal, axes = vector[0].removesuffix("[1]"), axes_of(contender.stored.document, vector)
+    return Ends(signal, variable, target.name, finals - target.values, contender.trials.success, axes)
 
 
 SIGMAS = (1.0, 2.0, 3.0)
@@ -158,8 +160,9 @@ def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: s
     factor, displayed = far(np.array([reach])) if unit == "m" else (1.0, unit)
     description = f"Final {ends.variable} of {label} about the target, with covariance ellipses"
     chart_of = partial(dispersion_chart, ends, style.colour, factor, displayed)
-    chart = _about_target(chart_of, factor * reach, displayed)
-    return chart_panel(label, name, description, chart, HEIGHT, title=f"y, {displayed}")
+    title = f"{ends.axes[1]}, {displayed}"
+    chart = _about_target(chart_of, factor * reach, title)
+    return chart_panel(label, name, description, chart, HEIGHT, title=title)
 
 
 def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: Pair, y_ends: Pair) -> Chart:
@@ -182,7 +185,7 @@ def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: 
     missing = len(ends.errors) - len(good) - len(bad)
     notes = [f"{outside} failed outside"] if outside else []
     notes += [f"{missing} without an end"] if missing else []
-    return _chart(curves, unit, x_ends, y_ends, ", ".join(notes))
+    return _chart(curves, f"{ends.axes[0]}, {unit}", x_ends, y_ends, ", ".join(notes))
 
 
 def _mean(good: np.ndarray, colour: str) -> Curve:
@@ -190,20 +193,20 @@ def _mean(good: np.ndarray, colour: str) -> Curve:
     return mark(x, y, marker("+", 8.0, colour, width=1.4))
 
 
-def _chart(curves: Sequence[Curve], unit: str, x_ends: Pair, y_ends: Pair, note: str = "") -> Chart:
+def _chart(curves: Sequence[Curve], label: str, x_ends: Pair, y_ends: Pair, note: str = "") -> Chart:
     return Chart(
         NO_BOX,
-        linear_axis(x_ends, 4, label=f"x, {unit}"),
+        linear_axis(x_ends, 4, label=label),
         linear_axis(y_ends, 4),
         curves=[*curves, mark(0.0, 0.0, TARGET)],
         notes=[note_above(note)] if note else [],
     )
 
 
-def _about_target(chart_of: Callable[[Pair, Pair], Chart], reach: float, unit: str) -> Chart:
-    """Return a chart to scale that contains a square about the target, ``reach`` in ``unit``."""
+def _about_target(chart_of: Callable[[Pair, Pair], Chart], reach: float, title: str) -> Chart:
+    """Return a chart to scale that contains a square about the target, ``reach`` as displayed; ``title`` above it."""
     square = (-reach, reach)
-    return to_scale(chart_of, square, square, POINTS * PANEL_WIDTH, POINTS * HEIGHT, title=f"y, {unit}")
+    return to_scale(chart_of, square, square, POINTS * PANEL_WIDTH, POINTS * HEIGHT, title=title)
 
 
 def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: str, name: str) -> list[Panel]:
@@ -220,7 +223,8 @@ def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: st
         ellipses.append(line(x, y, style.colour, dashes=style.lengths))  # by index, as the legend hides them
         if len(good) > 1:
             means.append(_mean(good, style.colour))
-    what = next(iter(ends.values())).variable
-    chart = _about_target(partial(_chart, [*ellipses, *means], displayed), factor * reach, displayed)
+    first = next(iter(ends.values()))
+    what, (across, title) = first.variable, (f"{axis}, {displayed}" for axis in first.axes[:2])
+    chart = _about_target(partial(_chart, [*ellipses, *means], across), factor * reach, title)
     description = f"Final {what} about the target: 3-sigma ellipses, {ALL}"
-    return [chart_panel(f"final {what}, {ALL}", name, description, chart, HEIGHT, title=f"y, {displayed}")]
+    return [chart_panel(f"final {what}, {ALL}", name, description, chart, HEIGHT, title=title)]

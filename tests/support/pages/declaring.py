@@ -18,10 +18,13 @@ def with_frames(ssd, inside):
     return f"{ssd[: own.end(1)]}{inside}\n{ssd[own.start(2) :]}"
 
 
-def with_report(ssd, inside):
-    """The description with the elements of Report in its annotation's place, on lines of their own."""
+def with_report(ssd, inside, frames=""):
+    """The description with these elements of Report and Frames as its annotations, on lines of their own."""
+    names = f'<Frames xmlns="https://perilune.org/frames">{frames}</Frames>'
     note = (
-        '<ssd:Annotations><ssc:Annotation type="org.perilune.report">\n'
+        "<ssd:Annotations>"
+        + (f'<ssc:Annotation type="org.perilune.frames">{names}</ssc:Annotation>' if frames else "")
+        + '<ssc:Annotation type="org.perilune.report">\n'
         f'<Report xmlns="https://perilune.org/report">\n{inside}\n</Report>\n'
         "</ssc:Annotation></ssd:Annotations>"
     )
