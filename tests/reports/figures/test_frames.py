@@ -49,7 +49,7 @@ def test_elements_are_called_by_their_axes(read):
         '<Band signal="plant.position" low="0" against="plant.velocity[3]"/>'
         '<Band signal="plant.position" low="0" labels="x y z"/>'
         '<Error estimate="plant.position[3]" truth="plant.position[2]"/>'
-        '<Curve signals="plant.velocity[1] plant.speed"/>'
+        '<Curve signals="plant.velocity[1] plant.velocity[3]"/>'
         '<Path x="plant.position[1]" y="plant.position[3]"/>'
     )
     assert (band.title, band.labels, band.line_names) == ("plant.position", AXES, AXES)
@@ -58,7 +58,7 @@ def test_elements_are_called_by_their_axes(read):
     assert (error.labels, error.estimate.label, error.estimate.names) == (
         ("",), "plant.position up", ("plant.position[3]",),
     )  # fmt: skip
-    assert curve.labels == ("plant.velocity north", "plant.speed")
+    assert curve.labels == ("plant.velocity north", "plant.velocity up")
     assert path.title == "plant.position up over plant.position north"
 
 
