@@ -45,7 +45,7 @@ def read(tmp_path, loaded):
 
 
 def test_elements_are_called_by_their_axes(read):
-    band, own, error, curve, path = read(
+    band, labelled, error, curve, path = read(
         '<Band signal="plant.position" low="0" against="plant.velocity[3]"/>'
         '<Band signal="plant.position" low="0" labels="x y z"/>'
         '<Error estimate="plant.position[3]" truth="plant.position[2]"/>'
@@ -54,7 +54,7 @@ def test_elements_are_called_by_their_axes(read):
     )
     assert (band.title, band.labels, band.line_names) == ("plant.position", AXES, AXES)
     assert [each.label for each in band.against] == ["plant.velocity up"]
-    assert own.labels == ("x", "y", "z")
+    assert labelled.labels == ("x", "y", "z")
     assert (error.labels, error.estimate.label, error.estimate.names) == (
         ("",), "plant.position up", ("plant.position[3]",),
     )  # fmt: skip
@@ -81,6 +81,6 @@ def test_a_scene_has_the_axes_of_its_frame(read):
         ('frame="landing sight"', "frame landing sight: no such Frame; use one of landing site"),
     ],
 )
-def test_a_scene_in_no_frame_or_with_axes_of_its_own_is_refused(read, attributes, problem):
+def test_a_scene_in_no_frame_or_with_further_axes_is_refused(read, attributes, problem):
     with pytest.raises(InputError, match=rf"Scene \(line \d+\): {problem}"):
         read(f"<Scene {attributes}>{BODY}</Scene>")

@@ -13,9 +13,9 @@ def shipped_ssd(name):
 
 
 def with_frames(ssd, inside):
-    """The description with these elements of Frames instead of its own, on lines of their own."""
-    own = re.search(r"( *<Frames [^>]*>\n).*?( *</Frames>\n)", ssd, flags=re.DOTALL)
-    return f"{ssd[: own.end(1)]}{inside}\n{ssd[own.start(2) :]}"
+    """The description with these elements of Frames instead of those it has, each on its line."""
+    whole = re.search(r"( *<Frames [^>]*>\n).*?( *</Frames>\n)", ssd, flags=re.DOTALL)
+    return f"{ssd[: whole.end(1)]}{inside}\n{ssd[whole.start(2) :]}"
 
 
 def with_report(ssd, inside, frames=""):

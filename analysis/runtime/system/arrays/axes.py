@@ -62,28 +62,28 @@ class FrameReader(AnnotationReader):
         if name not in self.described and not (element.get("signals") or self.substituted):
             remedy = f'{suggestion(name, self.described)}, or list its vectors: signals="COMPONENT.VECTOR"'
             raise self.refuse(element, f"frame {name}: no variable's description names it", remedy)
-        inside = [parts for parts in self.described.get(name, []) if len(parts) in DIMENSIONS]
+        inside = [members for members in self.described.get(name, []) if len(members) in DIMENSIONS]
         largest = max(inside, key=len, default=[])
         if len(largest) > len(axes) or (largest and not self.substituted):
             self.check_count(element, "axes", axes, largest)
-        for parts in inside:
-            if len(parts) == len(axes):
-                self.network.axes.update(zip(parts, axes, strict=True))
+        for members in inside:
+            if len(members) == len(axes):
+                self.network.axes.update(zip(members, axes, strict=True))
 
     def read_listed(self, element: etree._Element, attribute: str) -> None:
         """Name the elements of the vectors that an element lists as ``signals``."""
         names = self.names(element, attribute)
         for signal in element.get("signals", "").split():
-            parts = one_dimensional(signal, self.known)
-            if not parts and split_name(signal, self.network.fmus)[0] in self.substituted:
+            members = one_dimensional(signal, self.known)
+            if not members and split_name(signal, self.network.fmus)[0] in self.substituted:
                 continue
-            if not parts:
+            if not members:
                 raise self.refuse(element, f"signals {signal}: no such vector", suggestion(signal, vectors(self.known)))
             if signal in self.listed:
                 raise self.refuse(element, f"signals {signal} is listed twice", "leave one out")
-            self.check_count(element, attribute, names, parts)
+            self.check_count(element, attribute, names, members)
             self.listed.add(signal)
-            self.network.axes.update(zip(parts, names, strict=True))
+            self.network.axes.update(zip(members, names, strict=True))
 
     def names(self, element: etree._Element, attribute: str) -> tuple[str, ...]:
         """The names of an attribute, separated by spaces, all of them different."""
@@ -93,17 +93,17 @@ class FrameReader(AnnotationReader):
             raise self.refuse(element, f"{attribute}: {twice[0]} is there twice", "write another name for each")
         return names
 
-    def check_count(self, element: etree._Element, attribute: str, names: Collection[str], parts: list[str]) -> None:
+    def check_count(self, element: etree._Element, attribute: str, names: Collection[str], members: list[str]) -> None:
         """Raise an error unless there is a name for each element of a vector."""
-        if len(names) != len(parts):
-            problem = f"{attribute} has {len(names)} names, {parts[0].removesuffix('[1]')} has {len(parts)} elements"
+        if len(names) != len(members):
+            problem = f"{attribute} has {len(names)} names, {members[0].removesuffix('[1]')} has {len(members)} elements"
             raise self.refuse(element, problem, "write as many")
 
 
 def one_dimensional(name: str, known: Collection[str]) -> list[str]:
     """Return the known elements ``name[1]``, ``name[2]`` ... of a vector; none of a matrix and of a scalar."""
-    parts = elements(name, known)
-    return [] if parts in ([], [name]) or "," in parts[0][len(name) :] else parts
+    members = elements(name, known)
+    return [] if members in ([], [name]) or "," in members[0][len(name) :] else members
 
 
 def described_vectors(network: Network, known: Collection[str]) -> dict[str, list[list[str]]]:
@@ -113,8 +113,8 @@ def described_vectors(network: Network, known: Collection[str]) -> dict[str, lis
         for name, variable in fmu.variables.items():
             frame = FRAME.search(variable.description or "") if name.endswith("[1]") else None
             if frame is not None:
-                parts = one_dimensional(f"{component}.{name.removesuffix('[1]')}", known)
-                by_frame.setdefault(frame[1], []).append(parts)
+                members = one_dimensional(f"{component}.{name.removesuffix('[1]')}", known)
+                by_frame.setdefault(frame[1], []).append(members)
     return by_frame
 
 

@@ -84,6 +84,12 @@ def test_shipped_names_are_those_of_the_conventions():
         assert ", ".join(map(" ".join, zip("xyz", frames["landing site"], strict=True))) in row
 
 
+def test_the_docs_have_the_annotation_of_a_system():
+    page = (ROOT / "docs" / "reports.md").read_text(encoding="utf-8")
+    (snippet,) = re.findall(r"```xml\n( *<ssc:Annotation type=\"org.perilune.frames\">\n.*?)```", page, flags=re.DOTALL)
+    assert snippet in shipped_ssd("orbital_attitude")
+
+
 def test_a_flight_has_the_same_bits_and_says_the_names(loaded, tmp_path):
     folder = tmp_path / "lunar_terminal_guidance"
     shutil.copytree(SYSTEMS / folder.name, folder)
@@ -112,8 +118,8 @@ FRAME = [
     ('name="landing site" axes="a b c d"', "axes has 4 names; write one for each axis, 2 or 3"),
     ('name="landing site" axes="a b b"', "axes: b is there twice; write another name for each"),
     ('name="landing site" axes="a b c" frame="x"', "unknown attribute frame"),
-    ('name="own" axes="a b c" signals="plant.positoin"', "signals plant.positoin: no such vector; .*plant.position"),
-    ('name="own" axes="a b c" signals="plant.mass"', "signals plant.mass: no such vector"),
+    ('name="other" axes="a b c" signals="plant.positoin"', "signals plant.positoin: no such vector; .*plant.position"),
+    ('name="other" axes="a b c" signals="plant.mass"', "signals plant.mass: no such vector"),
 ]
 VECTOR = [
     ('signals="plant.position" elements="a b"', "elements has 2 names, plant.position has 3 elements; write as many"),
@@ -148,6 +154,6 @@ def test_it_ends_in_one_line_and_status_2(folder, capsys):
 
 
 def test_a_component_that_is_put_in_may_lack_its_vectors(folder, loaded):
-    inside = f'{SITE}<Vector signals="plant.position guidance.own" elements="a b c"/>'
+    inside = f'{SITE}<Vector signals="plant.position guidance.gain" elements="a b c"/>'
     use = {"guidance": "apollo_guidance"}
     assert axes_of(folder, loaded, inside, use=use)["plant.position[1]"] == "a"
