@@ -96,7 +96,9 @@ class FrameReader(AnnotationReader):
     def check_count(self, element: etree._Element, attribute: str, names: Collection[str], members: list[str]) -> None:
         """Raise an error unless there is a name for each element of a vector."""
         if len(names) != len(members):
-            problem = f"{attribute} has {len(names)} names, {members[0].removesuffix('[1]')} has {len(members)} elements"
+            problem = (
+                f"{attribute} has {len(names)} names, {members[0].removesuffix('[1]')} has {len(members)} elements"
+            )
             raise self.refuse(element, problem, "write as many")
 
 
