@@ -126,16 +126,6 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
         "seed": 7,
         "step": 0.5,
         "algorithm": "sequential",
-        "metrics": {
-            metric.name: {
-                "expression": metric.expression.text,
-                "reduction": metric.reduction,
-                "unit": metric.unit,
-                "description": metric.description,
-                "truth": False,
-            }
-            for metric in campaign.metrics
-        },
         "fmus": {variant: {"ship": DIGEST, "guidance": variant} for variant in outcomes},
         "perilune": "0.0.1",
         "success": campaign.success.text,
