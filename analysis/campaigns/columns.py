@@ -42,7 +42,7 @@ def describe_column(name: str, provenance: Mapping[str, Any]) -> Column:
     kind, _, remainder = name.partition(".")
     if kind == "metric":
         fact = provenance["metrics"][remainder]
-        return Column(fact["unit"], fact["description"] or f"{fact['reduction']} of {fact['expression']}")
+        return Column(fact["unit"], describe_metric(fact) or f"{fact['reduction']} of {fact['expression']}")
     if kind == "final":
         return Column(provenance["signals"].get(remainder, {}).get("unit"), f"last value of {remainder}")
     if kind == "fault":
@@ -56,6 +56,13 @@ def describe_column(name: str, provenance: Mapping[str, Any]) -> Column:
         return Column("1", f"number of the trial whose {whose} flew with")
     swept = provenance.get("sweep", {}).get(remainder)
     return Column(None, f"drawn or derived: {remainder}" if swept is None else f"swept: {remainder}, {swept}")
+
+
+def describe_metric(fact: Mapping[str, Any]) -> str:
+    """What a metric is, as declared; of an element along a named axis without a description that: up of a velocity."""
+    if fact["description"] or "axis" not in fact:
+        return str(fact["description"])
+    return f"{fact['reduction']} of {fact['expression'].rpartition('[')[0]} {fact['axis']}"
 
 
 def describe_metrics(metrics: Iterable[Metric]) -> Describe:

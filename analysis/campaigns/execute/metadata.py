@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 from importlib.metadata import version
 
+from ...runtime.system.arrays.axes import names_of_axes
 from ...runtime.system.prepared import PreparedSystem
 from ..definition.campaign import Metric
 from ..definition.plan import BatchPlan
@@ -96,13 +97,15 @@ def _metric(metric: Metric, signals: Mapping[str, SignalMetadata]) -> MetricMeta
         "description": metric.description,
         "truth": truth and metric.reduction in ("final", "min", "max", "first"),
     }
+    if axis := signals.get(expression.text, {}).get("axis"):
+        metadata["axis"] = axis
     if metric.condition is None:
         return metadata
     return {"condition": metric.condition.text, "delay": metric.delay, **metadata}
 
 
 def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]:
-    """Unit and type of every signal of any variant by name."""
+    """Unit, type and axis of every signal of any variant by name."""
     signals: dict[str, SignalMetadata] = {}
     for prepared in systems.values():
         network = prepared.network
@@ -115,6 +118,8 @@ def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]
             if node.component is None and node.kind not in ("parameter", "calculatedParameter"):
                 fact = SignalMetadata(unit=node.unit.name if node.unit else None, type=node.type_name or "Real")
                 signals.setdefault(node.name, fact)
+        for name, axis in names_of_axes(network, signals).items():
+            signals[name].setdefault("axis", axis)
     return signals
 
 

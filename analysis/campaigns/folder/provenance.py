@@ -9,15 +9,17 @@ from typing import NotRequired, TypedDict
 
 
 class SignalMetadata(TypedDict, total=False):
-    """Unit, None where none is declared, and FMI type of a signal."""
+    """Unit, None where none is declared, FMI type of a signal, and the axis of an element along one with a name."""
 
     unit: str | None
     type: str
+    axis: str
 
 
 class MetricMetadata(TypedDict):
-    """A metric as its campaign declares it, and whether its value is true or false."""
+    """A metric as its campaign declares it, whether it is true or false, the axis of an element that it is."""
 
+    axis: NotRequired[str]
     condition: NotRequired[str]
     delay: NotRequired[float]
     expression: str

@@ -9,6 +9,7 @@ from pathlib import Path
 from ....common.bounds import INPUT_BYTES
 from ....common.errors import InputError
 from ....common.regular import read_regular
+from ..columns import describe_metric
 from ..definition.campaign import Metric
 from ..definition.expressions import Expression
 from .files import NEW_FOLDER
@@ -60,7 +61,7 @@ def read_metrics(document: SummaryDocument, path: Path) -> tuple[Metric, ...]:
                 expression=Expression(fact["expression"], (str(path), f"metrics.{name}.expression")),
                 reduction=fact["reduction"],
                 unit=fact["unit"],
-                description=fact["description"],
+                description=describe_metric(fact),
                 condition=Expression(fact["condition"], (str(path), f"metrics.{name}.condition"))
                 if "condition" in fact
                 else None,

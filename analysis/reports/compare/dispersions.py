@@ -11,7 +11,7 @@ import numpy as np
 
 from ...campaigns.compare.comparison import Contender
 from ...campaigns.verdicts.order_statistics import quantiles
-from ..campaign.recorded_names import find_vector, variable_of, vectors
+from ..campaign.recorded_names import LETTERS, AxisNames, axes_of, find_vector, variable_of, vectors
 from ..chart.axes import linear_axis
 from ..chart.equal import Ends as Pair
 from ..chart.equal import to_scale
@@ -39,13 +39,14 @@ class Target:
 
 @dataclass(frozen=True)
 class Ends:
-    """Errors at the end of a contender's flights: final less target, trials by elements, SI."""
+    """Errors at the end of a contender's flights: final less target, trials by elements along ``axes``, SI."""
 
     signal: str
     variable: str
     target: str
     errors: np.ndarray
     success: np.ndarray
+    axes: AxisNames = LETTERS
 
 
 def target_of(contender: Contender, variable: str) -> Target:
@@ -70,7 +71,8 @@ def ends_of(contender: Contender, variable: str) -> Ends | None:
         return None
     target = target_of(contender, variable)
     finals = np.stack([contender.trials.final[name] for name in vector], axis=1)
-    return Ends(vector[0].removesuffix("[1]"), variable, target.name, finals - target.values, contender.trials.success)
+    signal, axes = vector[0].removesuffix("[1]"), axes_of(contender.stored.document, vector)
+    return Ends(signal, variable, target.name, finals - target.values, contender.trials.success, axes)
 
 
 SIGMAS = (1.0, 2.0, 3.0)
@@ -162,8 +164,9 @@ def _panel(label: str, ends: Ends, style: Look, extent: float, unit: str, name: 
     factor, displayed = far(np.array([extent])) if unit == "m" else (1.0, unit)
     description = f"Final {ends.variable} of {label} about the target, with covariance ellipses"
     chart_of = partial(dispersion_chart, ends, style.colour, factor, displayed)
-    chart = _about_target(chart_of, factor * extent, displayed)
-    return chart_panel(label, name, description, chart, HEIGHT, title=f"y, {displayed}")
+    title = f"{ends.axes[1]}, {displayed}"
+    chart = _about_target(chart_of, factor * extent, title)
+    return chart_panel(label, name, description, chart, HEIGHT, title=title)
 
 
 def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: Pair, y_ends: Pair) -> Chart:
@@ -190,7 +193,7 @@ def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: 
         curves.append(_arrow_out(outside, colour if successful.size else FAINT, x_ends, y_ends))
     missing = len(ends.errors) - len(good) - len(bad)
     notes += [f"{missing} without an end"] if missing else []
-    return _chart(curves, unit, x_ends, y_ends, "; ".join(notes))
+    return _chart(curves, f"{ends.axes[0]}, {unit}", x_ends, y_ends, "; ".join(notes))
 
 
 def _outside(points: np.ndarray, x_ends: Pair, y_ends: Pair) -> np.ndarray:
@@ -210,20 +213,20 @@ def _mean(good: np.ndarray, colour: str) -> Curve:
     return mark(x, y, marker("+", 8.0, colour, width=1.4))
 
 
-def _chart(curves: Sequence[Curve], unit: str, x_ends: Pair, y_ends: Pair, note: str = "") -> Chart:
+def _chart(curves: Sequence[Curve], label: str, x_ends: Pair, y_ends: Pair, note: str = "") -> Chart:
     return Chart(
         NO_BOX,
-        linear_axis(x_ends, 4, label=f"x, {unit}"),
+        linear_axis(x_ends, 4, label=label),
         linear_axis(y_ends, 4),
         curves=[*curves, mark(0.0, 0.0, TARGET)],
         notes=[note_above(note)] if note else [],
     )
 
 
-def _about_target(chart_of: Callable[[Pair, Pair], Chart], extent: float, unit: str) -> Chart:
-    """Return a chart to scale that contains a square about the target, ``extent`` in ``unit``."""
+def _about_target(chart_of: Callable[[Pair, Pair], Chart], extent: float, title: str) -> Chart:
+    """Return a chart to scale that contains a square about the target, ``extent`` as displayed; ``title`` above it."""
     square = (-extent, extent)
-    return to_scale(chart_of, square, square, POINTS * PANEL_WIDTH, POINTS * HEIGHT, title=f"y, {unit}")
+    return to_scale(chart_of, square, square, POINTS * PANEL_WIDTH, POINTS * HEIGHT, title=title)
 
 
 def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: str, name: str) -> list[Panel]:
@@ -240,13 +243,16 @@ def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: st
         ellipses.append(line(x, y, style.colour, dashes=style.lengths))  # by index, as the legend hides them
         if len(good) > 1:
             means.append(_mean(good, style.colour))
-    what = next(iter(ends.values())).variable
-    chart = _about_target(partial(_overlaid_chart, ellipses, means, displayed), factor * extent, displayed)
+    first = next(iter(ends.values()))
+    what, (across, title) = first.variable, (f"{axis}, {displayed}" for axis in first.axes[:2])
+    chart = _about_target(partial(_overlaid_chart, ellipses, means, displayed, across), factor * extent, title)
     description = f"Final {what} about the target: 3-sigma ellipses, {ALL}"
-    return [chart_panel(f"final {what}, {ALL}", name, description, chart, HEIGHT, title=f"y, {displayed}")]
+    return [chart_panel(f"final {what}, {ALL}", name, description, chart, HEIGHT, title=title)]
 
 
-def _overlaid_chart(ellipses: Sequence[Curve], means: Sequence[Curve], unit: str, x_ends: Pair, y_ends: Pair) -> Chart:
+def _overlaid_chart(
+    ellipses: Sequence[Curve], means: Sequence[Curve], unit: str, across: str, x_ends: Pair, y_ends: Pair
+) -> Chart:
     """Return ellipses about the target, with an arrow to each that leaves the frame."""
     outside = [
         (curve.colour, points)
@@ -258,4 +264,4 @@ def _overlaid_chart(ellipses: Sequence[Curve], means: Sequence[Curve], unit: str
         farthest = number(max(float(np.hypot(*points.T).max()) for _, points in outside), 3)
         note = f"{len(outside)} of {len(ellipses)} reach outside, farthest {farthest} {unit}"
     arrows = [_arrow_out(points, colour, x_ends, y_ends) for colour, points in outside]
-    return _chart([*ellipses, *means, *arrows], unit, x_ends, y_ends, note)
+    return _chart([*ellipses, *means, *arrows], across, x_ends, y_ends, note)

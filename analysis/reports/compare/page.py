@@ -11,7 +11,7 @@ import numpy as np
 
 from ...campaigns.compare.comparison import Comparison, name_of
 from ...campaigns.summary import SummaryRow
-from ..campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, names_of_record, variable_of
+from ..campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, LETTERS, AxisNames, names_of_record, variable_of
 from ..campaign.tables import HEADINGS, fmu_rows, group_rows, variant_rows
 from ..common.colours import Look
 from ..common.page import write_page
@@ -55,6 +55,7 @@ class End:
     what: str
     unit: str
     signal: str
+    axes: AxisNames
     targets: list[str]
     together: list[Panel]
     panels: list[Panel]
@@ -99,6 +100,7 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         side=side_panels(bundles, analyses) if bundles else [],
         plan=plan_panels(bundles, analyses) if bundles else [],
         radius=next((bundle.radius for bundle in bundles.values() if bundle.radius is not None), None),
+        plan_axes=next((bundle.axes for bundle in bundles.values()), LETTERS),
         over_ground=all(bundle.over_ground for bundle in bundles.values()),
         flights={label: len(flight) for label, flight in flights.items()},
         most_drawn=DRAWN,
@@ -179,6 +181,7 @@ def _end(comparison: Comparison, variable: str, looks: Mapping[str, Look]) -> En
         what=variable,
         unit=UNITS[variable],
         signal=", ".join(dict.fromkeys(point.signal for point in ends.values())),
+        axes=next(iter(ends.values())).axes,
         targets=list(dict.fromkeys(point.target for point in ends.values())),
         together=overlaid_ends(ends, looks, UNITS[variable], f"end-{variable}-all"),
         panels=dispersion_panels(ends, looks, UNITS[variable], f"end-{variable}"),

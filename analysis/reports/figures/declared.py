@@ -17,8 +17,8 @@ from ..common.round_body import downrange
 class Signal:
     """A Real or Integer scalar, or a vector of them, in the unit of a figure.
 
-    ``label`` is its name, ``names`` those of its elements in the record. A recorded value x of element k stands for
-    ``factor`` * x + ``offsets[k]`` in ``unit``, None where there is none.
+    ``label`` is its name on pages, ``names`` those of its elements in the record. A recorded value x of element k
+    stands for ``factor`` * x + ``offsets[k]`` in ``unit``, None where there is none.
     """
 
     label: str
@@ -125,10 +125,11 @@ class Band(Figure):
 
     @property
     def line_names(self) -> tuple[str, ...]:
-        """The names of the elements of what is plotted: those of the signal unless something was subtracted from it."""
-        if self.less is None and not any(self.signal.offsets):
-            return self.signal.names
-        return tuple(f"{self.title} {label}".rstrip() for label in self.labels)
+        """The names of the elements of what is plotted: a scalar is the signal unless something is subtracted."""
+        if len(self.labels) > 1:
+            return self.labels
+        is_signal = self.less is None and not any(self.signal.offsets)
+        return (self.signal.label if is_signal else f"{self.title} {self.labels[0]}".rstrip(),)
 
     def plot_values(self, flight: Flight) -> np.ndarray:
         """The same values to be plotted: angles in deg, nan where not finite."""

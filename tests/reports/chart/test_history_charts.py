@@ -37,7 +37,7 @@ def read_back(group, run, reduced):
         axes = figure.subplots()
         values = group.values(run)
         style = "default" if group.is_real else "steps-post"
-        for index, (name, row) in enumerate(zip(group.names, values, strict=True)):
+        for index, (name, row) in enumerate(zip(group.labels if group.is_named else group.names, values, strict=True)):
             plot_quantity(axes, run.time, row, name, group.unit, index, drawstyle=style)
         axes.set_xlabel("time, s")
         plain_ticks(axes, x=5, y=4, whole_y=not group.is_real)

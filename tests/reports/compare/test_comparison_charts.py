@@ -23,6 +23,12 @@ from tests.reports.chart.test_history_charts import plain
 STYLES = {"one": look(0), "two": look(1)}
 ENDS = (-20.0, 20.0)
 STEPS = np.arange(30.0)
+AXES = ("north", "west", "up")
+
+
+def has_axes(panel, abscissa, ordinate):
+    """True if its picture has these words at its axes."""
+    return panel.figure.charts[0].x.label == abscissa and f">{ordinate}<" in str(panel.figure.svg)
 
 
 def quantity(kind="motion", unit="m", name="a.b", *, is_stepped=False):
@@ -153,6 +159,9 @@ def test_overlaid_ellipses_are_in_the_order_of_the_legend():
     assert [curve.colour for curve in chart.curves[:2]] == [STYLES[name].colour.lower() for name in STYLES]
     assert np.isnan(chart.curves[0].x).all()
     assert is_to_scale(chart, PANEL_WIDTH, 3.1)
+    assert has_axes(panel, "x, m", "y, m")
+    (other,) = overlaid_ends({name: replace(ends(2), axes=AXES) for name in STYLES}, STYLES, "m", "x")
+    assert has_axes(other, "north, m", "west, m")
 
 
 def test_paths_are_to_scale_where_their_sides_are_alike():
@@ -169,4 +178,7 @@ def test_paths_are_to_scale_where_their_sides_are_alike():
     (plan,) = plan_panels({"one": bundle}, STYLES)
     (chart,) = plan.figure.charts
     assert is_to_scale(chart, PANEL_WIDTH, 2.5)
+    assert has_axes(plan, "x, m", "y, m")
+    (other,) = plan_panels({"one": replace(bundle, axes=AXES)}, STYLES)
+    assert has_axes(other, "north, m", "west, m")
     assert (chart.curves[-1].x[0], chart.curves[-1].y[0]) == (1.0, 1.0)
