@@ -11,7 +11,7 @@ import inspect
 import json
 import types
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import fields, is_dataclass
+from dataclasses import is_dataclass
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, NotRequired, Union, get_args, get_origin, get_type_hints, is_typeddict
 
@@ -25,7 +25,7 @@ from .reports.common import colours
 from .reports.common.colours import FAINT, GRID, INK, SHADES, SHIP
 from .reports.interactive.charts import Chart
 from .reports.interactive.columns import Coarse, Packed
-from .reports.interactive.embedded import is_optional
+from .reports.interactive.embedded import is_optional, page_fields
 from .reports.scene.view import SceneView
 from .show.documents import Counts, ShowDocument, TrialEntry
 from .show.query import Query
@@ -110,7 +110,7 @@ def _collect(roots: Sequence[type]) -> list[type]:
 def _members(declared: type) -> Iterator[Member]:
     hints = get_type_hints(declared)
     if is_dataclass(declared):
-        for each in fields(declared):
+        for each in page_fields(declared):
             optional = is_optional(each)
             yield Member(each.name, _without_none(hints[each.name]) if optional else hints[each.name], optional)
     elif issubclass(declared, msgspec.Struct):

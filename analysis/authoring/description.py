@@ -98,6 +98,7 @@ def describe_system(prepared: PreparedSystem) -> dict[str, Any]:
         "parameter_sets": sorted(Path(name).name for name in files if name.endswith(".ssv")),
         "campaigns": sorted(prepared.archive.campaign_names()),
         "variants": prepared.archive.variants(),
+        "frames": {name: list(axes) for name, axes in prepared.network.frames.items()},
         "loops": [loop.name for loop in read_declaration(prepared.network.description).loops],
         "connectors": [
             {

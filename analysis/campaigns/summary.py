@@ -12,7 +12,7 @@ import numpy as np
 import scipy
 
 from ...common.to_json import optional, to_json
-from .definition.campaign import Group, Metric
+from .definition.campaign import Group
 from .definition.requirements import Requirement
 from .requirement_verdicts import RequirementVerdict, requirement_verdict
 from .statistics import IN_MEMORY, QUANTILES, MetricStatistics, statistics
@@ -79,17 +79,18 @@ def success_rate(yes: np.ndarray) -> Rate:
     return Rate(count, yes.size, count / yes.size, success_interval(count, yes.size, CONFIDENCE))
 
 
-def _summary(trials: TrialTable, metrics: Sequence[Metric], members: Sequence[Member] = ()) -> VariantSummary:
+def _summary(trials: TrialTable, members: Sequence[Member] = ()) -> VariantSummary:
     count, successes = 0, 0
     statuses: Counter[str] = Counter()
     for part in trials.parts("success", "status", members=members):
         count += len(part["success"])
         successes += int(np.count_nonzero(part["success"]))
         statuses.update(part["status"].tolist())
+    metrics = trials.units("metric.")
     succeeded: Member = ("success", lambda success: success == 1.0)
 
     def all_of(*which: Member) -> dict[str, MetricStatistics]:
-        return {each.name: statistics(trials.blocks(f"metric.{each.name}", which), each.unit) for each in metrics}
+        return {name: statistics(trials.blocks(f"metric.{name}", which), unit) for name, unit in metrics.items()}
 
     return VariantSummary(
         trials=count,
@@ -105,30 +106,25 @@ def _summary(trials: TrialTable, metrics: Sequence[Metric], members: Sequence[Me
 
 def summarise(
     variants: Mapping[str, TrialTable],
-    metrics: Sequence[Metric],
     groups: Sequence[Group] = (),
     by: str = "",
     *,
     requirements: Sequence[Requirement] = (),
     until_decided: bool = False,
 ) -> Summary:
-    """The summaries of all variants by name. Every variant has one trial or more.
+    """The summaries of all variants by name. Every variant has one trial or more; metrics and units are its columns'.
 
     ``groups`` are those of trials by the values of the draw ``by``. Verdicts are by `requirement_verdict`.
     """
-    columns = [
-        "success",
-        "status",
-        *(f"metric.{metric.name}" for metric in metrics),
-        *([f"draw.{by}"] if groups else []),
-    ]
     summary = {}
     for name, rows in variants.items():
+        metrics = [column for column in rows.names if column.startswith("metric.")]
+        columns = ["success", "status", *metrics, *([f"draw.{by}"] if groups else [])]
         trials = rows.in_memory(columns, IN_MEMORY)
         summary[name] = replace(
-            _summary(trials, metrics),
+            _summary(trials),
             groups={
-                group.label: replace(_summary(trials, metrics, [(f"draw.{by}", group.has)]), value=group.value)
+                group.label: replace(_summary(trials, [(f"draw.{by}", group.has)]), value=group.value)
                 for group in groups
             },
             requirements={

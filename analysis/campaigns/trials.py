@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from copy import copy
+from typing import Self
 
 import numpy as np
 import pyarrow
 
 from ...common.machine.arrow import numbers_of, numpy_of, table_of, texts_of
+from .columns import Describe, with_metadata
 from .verdicts.order_statistics import Blocks
 
 Trace = dict[str, np.ndarray]  # signals by name, and ``time`` (s)
@@ -20,6 +23,8 @@ class TrialTable:
     Columns are named as in files of trials: ``trial``, ``status``, ``success``, ``message`` (why the flight failed,
     empty where it did not), ``end_time`` (s), ``draw.NAME``, ``final.NAME``, ``metric.NAME``.
     """
+
+    _describe: Describe | None = None
 
     def __init__(self, table: pyarrow.Table, traces: Mapping[int, Trace] | None = None) -> None:
         self._table = table
@@ -46,9 +51,36 @@ class TrialTable:
         return self._table
 
     @property
+    def schema(self) -> pyarrow.Schema:
+        """The columns in their order, with the metadata of each: kind, meaning and unit, where they are described."""
+        schema = self._schema.remove_metadata()
+        return schema if self._describe is None else with_metadata(schema, self._describe)
+
+    @property
+    def _schema(self) -> pyarrow.Schema:
+        return self._table.schema
+
+    @property
     def names(self) -> list[str]:
         """The columns in their order."""
-        return list(self.table.column_names)
+        return list(self._schema.names)
+
+    def described(self, describe: Describe) -> Self:
+        """The same trials with what their columns mean."""
+        trials = copy(self)
+        trials._describe = describe
+        return trials
+
+    def _like(self, table: pyarrow.Table, traces: Mapping[int, Trace] | None = None) -> TrialTable:
+        """Return other trials whose columns mean the same."""
+        trials = TrialTable(table, traces)
+        trials._describe = self._describe
+        return trials
+
+    def units(self, prefix: str) -> dict[str, str]:
+        """The units of the columns whose names begin so, by what follows; "1" where there is none."""
+        fields = {field.name: field.metadata or {} for field in self.schema if field.name.startswith(prefix)}
+        return {name.removeprefix(prefix): about.get(b"unit", b"1").decode() for name, about in fields.items()}
 
     def __len__(self) -> int:
         return int(self._table.num_rows)
@@ -108,19 +140,19 @@ class TrialTable:
             if size > most:
                 return self
             tables.append(table)
-        return TrialTable(pyarrow.concat_tables(tables).combine_chunks())
+        return self._like(pyarrow.concat_tables(tables).combine_chunks())
 
     def part(self, numbers: range) -> TrialTable:
         """Those with some consecutive numbers."""
         first, end = np.searchsorted(self.trial, [numbers.start, numbers.stop]).tolist()
         traces = {trial: trace for trial, trace in self._traces.items() if trial in numbers}
-        return TrialTable(self._table.slice(first, end - first), traces)
+        return self._like(self._table.slice(first, end - first), traces)
 
     def renumber(self, first: int) -> TrialTable:
         """The same with other numbers, as many higher."""
         numbers = numbers_of(self.trial + first)
         table = self._table.set_column(self.names.index("trial"), "trial", numbers)
-        return TrialTable(table, {trial + first: trace for trial, trace in self._traces.items()})
+        return self._like(table, {trial + first: trace for trial, trace in self._traces.items()})
 
     @property
     def trial(self) -> np.ndarray:

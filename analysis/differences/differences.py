@@ -17,6 +17,7 @@ class SignalDifference:
     """A signal that both runs have: ``first`` and ``second``, [n], at the common times, in ``unit``.
 
     ``copy_of`` is an earlier signal with the same values in both, as an input has those of an output; else empty.
+    ``axis`` is the name of the axis that an element is along, of the first run that knows one.
     """
 
     name: str
@@ -24,6 +25,7 @@ class SignalDifference:
     first: np.ndarray
     second: np.ndarray
     copy_of: str
+    axis: str = ""
 
     @cached_property
     def difference(self) -> np.ndarray:
@@ -113,7 +115,8 @@ def compare_runs(first: RecordedRun, second: RecordedRun) -> RunDifferences:
         of_first = first.signals[name][rows]
         original = originals.setdefault((of_first.tobytes(), values.tobytes()), name)
         copy_of = "" if original == name else original
-        differences.append(SignalDifference(name, unit or other, of_first, values, copy_of))
+        axis = first.axes.get(name) or second.axes.get(name, "")
+        differences.append(SignalDifference(name, unit or other, of_first, values, copy_of, axis))
     only = ([name for name in first.signals if name not in second.signals],
             [name for name in second.signals if name not in first.signals])  # fmt: skip
     ordered = sorted(differences, key=lambda each: -each.relative)

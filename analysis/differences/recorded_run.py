@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -28,8 +28,8 @@ class RecordedRun:
     """Signals over ``time`` [n] (s, ascending), float64 [n] each, by name.
 
     ``units`` are by signal where they are known, ``discrete`` are signals whose values hold between samples (Integers
-    and Booleans), ``relative`` those that are differences in their unit, ``origin`` says what was simulated where the
-    table does.
+    and Booleans), ``relative`` those that are differences in their unit, ``axes`` are the names of axes of elements,
+    ``origin`` says what was simulated where the table does.
     """
 
     file: str
@@ -39,6 +39,7 @@ class RecordedRun:
     units: dict[str, str]
     discrete: frozenset[str]
     relative: frozenset[str] = frozenset()
+    axes: Mapping[str, str] = field(default_factory=dict)
 
 
 def read_run(path: Path) -> RecordedRun:
@@ -71,7 +72,7 @@ def read_run(path: Path) -> RecordedRun:
         raise InputError(path, TIME, "no samples, or times that do not ascend", FORM)
     fields = [field for field in table.schema if field.name != TIME]
     units = {field.name: _unit(field) for field in fields} if is_parquet else about.get("units", {})
-    types, relative = about.get("types", {}), about.get("relative_quantities")
+    types, relative, axes = about.get("types", {}), about.get("relative_quantities"), about.get("axes")
     return RecordedRun(
         file=str(path),
         origin=_origin(about),
@@ -82,6 +83,7 @@ def read_run(path: Path) -> RecordedRun:
             field.name for field in fields if _is_discrete(field.type, is_parquet) or field.name in types
         ),
         relative=frozenset(map(str, relative if isinstance(relative, list) else ())),
+        axes={name: str(axis) for name, axis in axes.items()} if isinstance(axes, dict) else {},
     )
 
 

@@ -13,10 +13,11 @@ import numpy as np
 from ..design.trajectories.landing_study import LandingStudy
 from ..design.trajectories.path import PlannedPath
 from ..design.transfers.hover_study import Curve, HoverStudy
+from ..design.transfers.programme import Programme
 from .chart.axes import linear_axis
 from .chart.equal import Ends, to_scale
 from .chart.lines import line
-from .chart.panel import POINTS, chart_panel, fluid_figure
+from .chart.panel import POINTS, chart_panel, wide_figure
 from .chart.symbols import arrow, mark, marker
 from .chart.ticks import axis_ends
 from .common.colours import FAINT, INK, Look, look
@@ -25,6 +26,7 @@ from .common.panels import HALF_WIDTH, Panel, far, swatch
 from .common.quantities import number
 from .interactive import charts
 from .interactive.charts import NO_BOX, Axis, Chart, Drawing, Note
+from .programme_sketch import sketch_chart
 
 OTHERS = ("finite switches", "turn in free fall")
 NAMES = ("simplified programme", "true optimum", "point-mass bound")
@@ -39,6 +41,7 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
     point = Point(NAMES[0], study.programme.duration, study.programme.propellant_fraction, look(0))
     compared = [Point(one.name, one.path.duration, one.path.propellant_fraction, one.look) for one in series[1:]]
     here = Point(NAMES[0], study.transfer.distance, point.propellant, look(0))
+    sketch = sketch_chart(study.programme)
     displayed = [np.stack([*one.path.position.T, np.append(one.path.pitch, one.path.pitch[-1])]) for one in series]
     write_page(
         path,
@@ -52,6 +55,7 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
         rows=[(swatch(one.look), one.name, one.path) for one in series],
         others=[(name, plan) for name, plan in zip(OTHERS, (study.finite, study.free_fall), strict=True) if plan],
         missing=[name for name, plan in zip(NAMES[1:], (study.optimum, study.bound), strict=True) if plan is None],
+        sketch=wide_figure("programme", _sketch_words(study.programme), sketch, SKETCH, title=sketch.title),
         track=[path_panel(series, displayed, ("along", "up"))],
         over_time=time_panels(series, "Pitch from the horizontal, deg"),
         curves=[
@@ -84,6 +88,7 @@ def write_landing_page(study: LandingStudy, path: Path) -> None:
 
 LOWEST, HIGHEST = 3.0, 6.5  # in, of a path to one scale
 LOW = 3.8  # in, of one to two
+SKETCH = 3.4  # in
 ARROWS = 14  # along a path
 ARROW = 0.8  # in, at full throttle
 MARK = 6.0  # pt
@@ -181,7 +186,12 @@ def path_panel(series: Sequence[Series], shown: Sequence[np.ndarray], names: tup
 def path_widths(series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str]) -> Drawing:
     """Return the same, each axis to its own scale, as wide as the page."""
     chart = path_chart(series, shown, names, "different scales", 7)
-    return fluid_figure("path", _path_words(series), chart, LOW)
+    return wide_figure("path", _path_words(series), chart, LOW)
+
+
+def _sketch_words(programme: Programme) -> str:
+    burns = " and ".join(f"{number(begin, 4)} to {number(end, 4)} s" for begin, end in programme.burns)
+    return f"Tilt of thrust of the {programme.kind} programme over time, full thrust {burns}"
 
 
 def _path_words(series: Sequence[Series]) -> str:

@@ -12,7 +12,7 @@ from ...fmus_src.roles import STATUS
 from ..runtime.flight.results import Result
 from ..runtime.ssp.types import WHOLE
 from .common.page import write_page
-from .common.signals import distinct, signal_groups
+from .common.signals import axes_of, distinct, signal_groups
 from .diagram.diagram import Diagram
 from .figures.declared import Figure
 from .figures.figure_sections import figure_groups, joint_findings
@@ -101,7 +101,7 @@ def limits_by_verdict(figures: Sequence[Figure], result: Result) -> dict[str, li
 
 
 class KeyValue(NamedTuple):
-    """Final values of a signal or of a vector's elements, or their ``note``: magnitude, maximum."""
+    """Final values of a signal or of a vector's elements, with a ``note``: the elements' axes, magnitude, maximum."""
 
     label: str
     note: str
@@ -118,30 +118,31 @@ def key_values(result: Result) -> list[KeyValue]:
     """
     if not result.time.size:
         return []
-    final = result.final()
+    final, axes = result.final(), axes_of(result)
     rows: list[KeyValue] = []
     groups = signal_groups(result)
     originals = distinct(groups, result)
     for group in sorted(groups, key=lambda group: bool(group.component)):
         if not group.component:
-            rows += [KeyValue(name, "", [final[name]], group.unit) for name in group.names]
+            rows += [KeyValue(name, axes.get(name, ""), [final[name]], group.unit) for name in group.names]
         elif group.variable in KEY_VECTORS and group.is_real and originals[group] == group:
             values = [final[name] for name in group.names]
-            rows.append(KeyValue(group.label, "", values, group.unit))
+            rows.append(KeyValue(group.label, group.axes, values, group.unit))
             if len(values) > 1:
                 rows.append(KeyValue(group.label, "magnitude", [float(np.linalg.norm(values))], group.unit))
         elif group.variable == STATUS and group.type in WHOLE:
             rows.append(KeyValue(group.label, "maximum over run", [int(group.values(result).max())], group.unit))
     others = [group for group in groups if originals[group] == group]
     if not rows and len(others) <= MOST_KEYS:
-        rows = [KeyValue(group.label, "", [final[name] for name in group.names], group.unit) for group in others]
+        rows = [KeyValue(each.label, each.axes, [final[name] for name in each.names], each.unit) for each in others]
     return rows
 
 
 class SignalRow(NamedTuple):
-    """Initial, minimum, maximum and final value of a signal."""
+    """Initial, minimum, maximum and final value of a signal, which may be along a named ``axis``."""
 
     name: str
+    axis: str
     type: str
     unit: str | None
     values: list[float]
@@ -152,9 +153,9 @@ def signal_table(result: Result) -> list[SignalRow]:
     if not result.time.size:
         return []
     convert = {"Integer": int, "Enumeration": int, "Boolean": bool}
-    rows = []
+    rows, axes = [], axes_of(result)
     for name, values in result.signals.items():
         kind = convert.get(result.types[name], float)
         numbers = [kind(value) for value in (values[0], np.min(values), np.max(values), values[-1])]
-        rows.append(SignalRow(name, result.types[name], result.units[name], numbers))
+        rows.append(SignalRow(name, axes.get(name, ""), result.types[name], result.units[name], numbers))
     return rows

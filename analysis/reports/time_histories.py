@@ -19,7 +19,15 @@ from .chart.ticks import axis_ends
 from .common.colours import FAINT, look
 from .common.panels import Panel, swatch
 from .common.quantities import display_factor, label_with_unit, number
-from .common.signals import SignalGroup, distinct, signal_groups, states_and_commands
+from .common.signals import (
+    SignalGroup,
+    axes_of,
+    displayed_name,
+    distinct,
+    names_of_elements,
+    signal_groups,
+    states_and_commands,
+)
 from .interactive.charts import NO_BOX, Chart, Note
 
 if TYPE_CHECKING:
@@ -35,8 +43,9 @@ SPIKE = 8.0  # a range so many times that of the middle 98 % of the values is cl
 class ComponentHistory:
     """One component's section: its panels, and the signals without a panel.
 
-    ``legend`` are (swatch, element) where one of them is a vector. ``constant`` are (label, values, unit) of
-    constant groups; ``copies`` are (label, label of the group with the same values).
+    ``legend`` are (swatch, element) where one of them is a vector, for all ways in which its vectors name elements.
+    ``constant`` are (label, values, unit) of constant groups; ``copies`` are (label, label of the group with the same
+    values).
     """
 
     component: str
@@ -44,6 +53,11 @@ class ComponentHistory:
     legend: list[tuple[Markup, str]]
     constant: list[tuple[str, list[float | int | bool], str | None]]
     copies: list[tuple[str, str]]
+
+    @property
+    def is_named(self) -> bool:
+        """True if some of its elements are along named axes: an entry of its legend is then for lines of its name."""
+        return any(not label.startswith("[") for _, label in self.legend)
 
     @property
     def is_empty(self) -> bool:
@@ -106,7 +120,7 @@ def _fold_history(
         component=component,
         panels=_panels(varying, result, f"history{position}", reduced=True),
         legend=_legend(varying),
-        constant=[(group.label, [final[name] for name in group.names], group.unit) for group in constant],
+        constant=[(group.heading, [final[name] for name in group.names], group.unit) for group in constant],
         copies=[(group.label, original.label) for group, original in copies],
     )
 
@@ -135,9 +149,12 @@ def _panels(groups: list[SignalGroup], result: Result, name: str, *, reduced: bo
 
 
 def _legend(groups: list[SignalGroup]) -> list[tuple[Markup, str]]:
-    """The line styles of the elements of the longest vector."""
-    elements = max((group.indices for group in groups), key=len, default=())
-    return [(swatch(look(position)), f"[{index}]") for position, index in enumerate(elements)]
+    """The line styles of elements along named axes, and those of the elements of the longest of the other vectors."""
+    vectors = [group for group in groups if group.indices]
+    unnamed = max((group.labels for group in vectors if not group.is_named), key=len, default=())
+    series = [*(group.labels for group in vectors if group.is_named), unnamed]
+    entries = dict.fromkeys(entry for labels in series for entry in enumerate(labels))
+    return [(swatch(look(position)), label) for position, label in entries]
 
 
 def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, int] = (5, 4)) -> Chart:
@@ -148,7 +165,7 @@ def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, i
     values, factor = group.values(result), display_factor(group.unit)
     curves = [
         quantity_curve(result.time, row, name, group.unit, index, steps=not group.is_real)
-        for index, (name, row) in enumerate(zip(group.names, values, strict=True))
+        for index, (name, row) in enumerate(zip(group.labels if group.is_named else group.names, values, strict=True))
     ]
     seen = result.time[np.isfinite(values).any(axis=0)]
     abscissa = linear_axis(axis_ends(seen), intervals[0], label="time, s")
@@ -192,8 +209,8 @@ def signal_plot(result: Result, names: Sequence[str]) -> Figure:
     for name in names:
         group = _group_of(name, result)
         charts.append(history_chart(group, result, intervals=(8, 5)))
-        titles.append(label_with_unit(name, group.unit))
-        legends.append([each.removeprefix(name) for each in group.names] if len(group.names) > 1 else [])
+        titles.append(label_with_unit(group.variable, group.unit))
+        legends.append(group.labels)
     seen = [chart.x.ends for chart in charts]
     time = linear_axis((min(low for low, _ in seen), max(high for _, high in seen)), 8, label="time, s")
     panels = [replace(chart, x=bare_axis(time)) for chart in charts[:-1]]
@@ -203,5 +220,9 @@ def signal_plot(result: Result, names: Sequence[str]) -> Figure:
 def _group_of(name: str, run: Result) -> SignalGroup:
     """The signal of this name, or the elements of the vector."""
     run[name]  # raises KeyError
-    names = elements(name, run.signals)
-    return SignalGroup("", name, run.units[names[0]], run.types[names[0]], tuple(names), ())
+    names, axes = elements(name, run.signals), axes_of(run)
+    labels = names_of_elements(names, axes) or tuple(each.removeprefix(name) for each in names)
+    labels = labels if len(names) > 1 else ()
+    return SignalGroup(
+        "", displayed_name(name, axes), run.units[names[0]], run.types[names[0]], tuple(names), (), labels
+    )

@@ -45,12 +45,12 @@ def time_notes(
     """Return the times at marks of the first of the ``paths``, next to its line.
 
     A label is where it covers neither marks of any path nor another label; a time without such a place, or at a mark
-    next to another one, is left out, but for that of the end. ``chart`` has the box of its axes in a figure of this
-    ``size`` (pt); paths are in units of the axes, [2, samples]; marks are at ``rows``.
+    next to another one, is left out, but for that of the end. ``size`` (pt) is that of the area of the axes; paths are
+    in their units, [2, samples]; marks are at ``rows``.
     """
     corner = np.array([chart.x.ends[0], chart.y.ends[0]])[:, None]
     ranges = np.ptp([chart.x.ends, chart.y.ends], axis=1)[:, None]
-    area = np.array([[chart.box[2] * size[0]], [chart.box[3] * size[1]]])
+    area = np.array(size)[:, None]
     marks = [(path[:, rows] - corner) / ranges * area for path in paths]  # pt, from the lower left corner
     obstacles, points = np.concatenate(marks, axis=1), marks[0].T
     labelled: list[np.ndarray] = []

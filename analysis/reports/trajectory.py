@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 HEIGHT = 3.2  # in
 PLOT_WIDTH = 6.8  # in, of a view in a figure of its own
+INDICES = ("position[1]", "position[2]", "position[3]")
 FAR = 0.35  # rad along the ground, beyond which the ground track replaces the plan view on the tangent plane
 
 
@@ -51,7 +52,7 @@ def trajectory_plot(result: Result) -> Figure | None:
 
     charts, titles = [], []
     for view in views:
-        chart, ordinate, scales = view_chart(view, POINTS * PLOT_WIDTH, POINTS * HEIGHT)
+        chart, ordinate, scales = view_chart(view, POINTS * PLOT_WIDTH, POINTS * HEIGHT, fluid=False)
         charts.append(chart)
         titles.append(f"{view.title}: {ordinate}, {scales}")
     legend = views[0].labels if len(views[0].labels) > 1 else []
@@ -70,10 +71,12 @@ def trajectory_reading(result: Result) -> str:
     radius = _radius(groups, [group.values(result) for group in groups], result) if result.time.size else None
     if radius is None:
         return f"{caption} Elements of the position in the frame of the component."
+    axes = _axes(groups)
+    elements = f"{', '.join(axes)} are" if axes != INDICES else "position[k] are"
     return (
         f"{caption} Grey: ground. Altitude and downrange are relative to a sphere of {radius / 1e3:.1f} km radius, "
         "fitted to the recorded altitude. Downrange increases in the direction of flight and is 0 at the origin of the "
-        "position's frame; position[k] are elements in that frame."
+        f"position's frame; {elements} elements in that frame."
     )
 
 
@@ -89,14 +92,14 @@ def _views(result: Result) -> list[View]:
     labels = [group.label for group in groups]
     radius = _radius(groups, paths, result)
     if radius is None:
-        return _flat_views(paths, labels, result.time)
+        return _flat_views(paths, groups, result.time)
     arcs = [np.stack([radius * angle for angle in track_angles(path, radius)]) for path in paths]
     heights = [np.stack([arc[0], altitude_over(path, radius)]) for arc, path in zip(arcs, paths, strict=True)]
     downrange, title = "downrange from the origin", "Altitude vs. downrange"
     side = View(title, "side", heights, labels, result.time, (downrange, "altitude"), has_ground=True)
     if np.nanmax(np.abs(arcs[0][0])) > FAR * radius:
         return [View("Ground track", "plan", arcs, labels, result.time, (downrange, "crossrange")), side]
-    return [*_flat_views(paths, labels, result.time)[:-1], side]
+    return [*_flat_views(paths, groups, result.time)[:-1], side]
 
 
 def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: Result) -> float | None:
@@ -108,16 +111,22 @@ def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: 
     return None
 
 
-def _flat_views(paths: Sequence[np.ndarray], labels: Sequence[str], time: np.ndarray) -> list[View]:
+def _axes(groups: Sequence[SignalGroup]) -> tuple[str, ...]:
+    """What the elements of positions are called: by axes where all positions are along the same ones, else by index."""
+    named = {group.labels if group.is_named else () for group in groups}
+    return named.pop() if len(named) == 1 and () not in named else INDICES
+
+
+def _flat_views(paths: Sequence[np.ndarray], groups: Sequence[SignalGroup], time: np.ndarray) -> list[View]:
     """Plan view (elements 1 and 2) and side view (3 over the wider of the two); in a plane the side view alone."""
+    axes, labels = _axes(groups), [group.label for group in groups]
     spans = np.ptp(np.concatenate(paths, axis=1), axis=1)
     across = 0 if spans[0] >= spans[1] else 1
 
     def view(title: str, name: str, x: int, y: int) -> View:
-        names = (f"position[{x + 1}]", f"position[{y + 1}]")
-        return View(title, name, [path[[x, y]] for path in paths], labels, time, names)
+        return View(title, name, [path[[x, y]] for path in paths], labels, time, (axes[x], axes[y]))
 
     if spans[1 - across] == 0.0:
         constant = number(float(paths[0][1 - across][0]))
-        return [view(f"Side view; position[{2 - across}] = {constant} m", "side", across, 2)]
+        return [view(f"Side view; {axes[1 - across]} = {constant} m", "side", across, 2)]
     return [view("Plan view", "plan", across, 1 - across), view("Side view", "side", across, 2)]

@@ -10,7 +10,7 @@ import numpy as np
 
 from .chart.axes import linear_axis
 from .chart.equal import Ends, to_scale
-from .chart.layout import lay_out
+from .chart.layout import axes_size, lay_out, lay_out_fluid
 from .chart.marks import across, level
 from .chart.quantity import quantity_curve
 from .chart.symbols import marker, marks
@@ -42,10 +42,10 @@ class View(NamedTuple):
     has_ground: bool = False
 
 
-def view_chart(view: View, width: float, height: float) -> tuple[Chart, str, str]:
+def view_chart(view: View, width: float, height: float, *, fluid: bool = True) -> tuple[Chart, str, str]:
     """Return the chart of a view in a figure of this size (pt), the label of its ordinate, and the words on its scales.
 
-    Its curves are the paths, then of each the dots at times and the circle at the end.
+    Its curves are the paths, then of each the dots at times and the circle at the end. ``fluid``: as `to_scale`.
     """
     everything = np.concatenate(view.paths, axis=1)
     ranges = np.ptp(everything, axis=1)
@@ -67,10 +67,11 @@ def view_chart(view: View, width: float, height: float) -> tuple[Chart, str, str
         return Chart(NO_BOX, abscissa, linear_axis(y_ends, Y_INTERVALS), curves=curves, areas=areas, rules=rules)
 
     if is_equal:
-        chart = to_scale(chart_of, *ends, width, height, title=ordinate)
+        chart = to_scale(chart_of, *ends, width, height, title=ordinate, fluid=fluid)
     else:
-        chart = lay_out(chart_of(*ends), width, height, title=ordinate)
-    notes = time_notes(chart, (width, height), paths, view.time, rows)
+        lay = lay_out_fluid if fluid else lay_out
+        chart = lay(chart_of(*ends), width, height, title=ordinate)
+    notes = time_notes(chart, axes_size(chart, width, height), paths, view.time, rows)
     return replace(chart, notes=notes), ordinate, "equal scales" if is_equal else "not to scale"
 
 

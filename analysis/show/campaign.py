@@ -14,25 +14,14 @@ import pyarrow.parquet
 
 from ...common.errors import InputError
 from ...common.regular import check_folder
-from ..campaigns.execute.shards.files import (
-    FOLDER,
-    IDENTITY,
-    NEW_FOLDER,
-    NUMBER_PREFIXES,
-    about_of,
-    check_names,
-    check_rows,
-    numbers,
-    read_table,
-    trials_in,
-)
-from ..campaigns.folder.columns import Column, describe_column
-from ..campaigns.folder.folder import ResultFolder, Shard, read_folder
+from ..campaigns.columns import Column, describe_column
+from ..campaigns.execute.campaign import read_folder
+from ..campaigns.folder.campaign_folder import CampaignFolder
+from ..campaigns.folder.files import FOLDER, IDENTITY, NEW_FOLDER, NUMBER_PREFIXES, check_names, numbers
 from ..commands.campaigns import replay_of_folder
 
 ROW_LIMIT = 20_000_000  # of a campaign: a column of it is 40 MB
 NUMERIC = ("end_time",)
-PREFIXES = (*NUMBER_PREFIXES, "fault.")
 ORDER = ("metric", "draw", "final", "end_time", "fault")
 DETAILS = ("status", "success")  # of a trial, in addition to its numbers
 
@@ -48,7 +37,7 @@ class OpenCampaign:
     Rows are numbered through all shards: in each one variant after the other, in order of trial.
     """
 
-    source: ResultFolder
+    source: CampaignFolder
     is_stopped: Callable[[], bool] = lambda: False
 
     @property
@@ -99,7 +88,7 @@ class OpenCampaign:
         for shard, start in zip(self.source.shards, self.starts, strict=False):
             if self.is_stopped():
                 raise StoppedError
-            table = self._table(shard, names)
+            table = self.source.read(shard, names)
             for name, column in columns.items():
                 column[start : start + table.num_rows] = numbers(table, name, shard.path)
         return columns
@@ -110,7 +99,7 @@ class OpenCampaign:
         for row in rows:
             number = bisect_right(self.starts, row) - 1
             if number != current:
-                table, current = self._table(self.source.shards[number], [*names, *DETAILS]), number
+                table, current = self.source.read(self.source.shards[number], [*names, *DETAILS]), number
             assert table is not None
             (entries,) = table.slice(row - self.starts[number], 1).to_pylist()
             yield entries
@@ -123,33 +112,17 @@ class OpenCampaign:
             rows = mask[start : start + len(shard.trials) * len(self.variants)]
             if rows.any():
                 columns = [*IDENTITY, *DETAILS, *names]
-                yield self._table(shard, [*names, *DETAILS]).select(columns).filter(pyarrow.array(rows))
+                yield self.source.read(shard, [*names, *DETAILS]).select(columns).filter(pyarrow.array(rows))
 
     def command(self, variant: str, trial: int) -> str:
         """The command that simulates a trial again."""
         return replay_of_folder(self.source.folder, self.variants, variant, trial)
 
-    def _table(self, shard: Shard, names: Sequence[str]) -> pyarrow.Table:
-        """Columns of a shard, its rows checked: as many as there are to be, each variant's in order of trial."""
-        table = read_table(shard.path, {*names, *IDENTITY})
-        size = len(shard.trials)
-        about = about_of(table.schema)
-        if trials_in(shard.path, about, self.source.batch, "the campaign that was opened") != shard.trials:
-            raise InputError(shard.path, "trials", "changed since the campaign was opened", "run perilune show again")
-        if table.num_rows != size * len(self.variants):
-            problem = f"{table.num_rows} rows, not {size} of each of {len(self.variants)} variants"
-            raise InputError(shard.path, "", problem, NEW_FOLDER)
-        for number, variant in enumerate(self.variants):
-            check_rows(table.slice(number * size, size), variant, shard.trials, names, shard.path)
-        for name in (each for each in names if each not in DETAILS):
-            numbers(table, name, shard.path)
-        return table
-
 
 def _is_number(schema: pyarrow.Schema, name: str) -> bool:
     kind = schema.field(name).type
     is_numeric = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)
-    return is_numeric and (name in NUMERIC or name.startswith(PREFIXES))
+    return is_numeric and (name in NUMERIC or name.startswith(NUMBER_PREFIXES))
 
 
 def open_campaign(folder: Path, is_stopped: Callable[[], bool]) -> OpenCampaign:

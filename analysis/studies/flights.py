@@ -15,10 +15,11 @@ from ..campaigns.definition.checks import check_draws, check_plan
 from ..campaigns.definition.plan import BatchPlan
 from ..campaigns.draws.declared import Columns
 from ..campaigns.draws.given import ALL, GivenDraws, Streams
+from ..campaigns.execute.flights import task_size
 from ..campaigns.execute.flyer import Flyer
-from ..campaigns.execute.metadata import Provenance, provenance
-from ..campaigns.execute.shards.flights import task_size
+from ..campaigns.execute.metadata import provenance
 from ..campaigns.execute.workers import FlyerPool, worker_count
+from ..campaigns.folder.provenance import Provenance
 from ..campaigns.lost_trials import count_lost
 from ..campaigns.trials import TrialTable, join_trials
 from ..runtime.system.prepared import PreparedSystem

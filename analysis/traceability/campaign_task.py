@@ -8,9 +8,9 @@ from pathlib import Path
 
 from ...common.atomic import write_atomically
 from ...fmus_src.evidence.manifest import mime_type
-from ..campaigns.execute.manifest import CONTENTS, FILE, CampaignDocument, Manifest, SourceDocument, read_manifest
 from ..campaigns.execute.results import BatchResult
-from ..campaigns.execute.shards.files import DRAWS, FOLDER, SUMMARY
+from ..campaigns.folder.files import DRAWS, FOLDER, SUMMARY
+from ..campaigns.folder.manifest import CONTENTS, FILE, CampaignDocument, Manifest, SourceDocument, read_manifest
 from ..commands.campaigns import campaign_command
 from .elements import Task
 

@@ -15,7 +15,7 @@ from ...common.errors import InputError, UnwrittenError
 from ...common.progress import progress_bar
 from ..campaigns.definition.checks import check_draws, lookup_constants, prepare_variants
 from ..campaigns.definition.plan import BatchPlan, read_plan
-from ..campaigns.draws.lookup import InputColumns, Lookup, TrialTable, input_hashes
+from ..campaigns.draws.lookup import InputColumns, Lookup, LookupTable, input_hashes
 from ..campaigns.execute.workers import worker_count
 from ..commands.campaigns import campaign_name
 from ..design.trajectories.descent_problem import check_roles, descent_problem
@@ -88,7 +88,7 @@ def bound_trials(system: FilePath, campaign: FilePath, **options: Unpack[BoundsO
         columns = {"propellant": bounded.propellant, "duration": bounded.duration}
         try:
             file.parent.mkdir(exist_ok=True)
-            write_atomically(file, TrialTable(columns, input_hashes(inputs), texts, command).write(DECIMALS))
+            write_atomically(file, LookupTable(columns, input_hashes(inputs), texts, command).write(DECIMALS))
         except OSError as error:
             raise UnwrittenError(error, bounded) from error
     return bounded

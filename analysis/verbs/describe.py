@@ -62,13 +62,13 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Des
     """Describe a system, an FMU or a slot: `perilune describe`, as a dictionary.
 
     ``what`` is a system, an FMU by name or file, or an interface by name; ``component`` one of a system, with all its
-    variables. Of a system the keys are components, connections, connectors, parameter_sets, campaigns, loops; of an FMU
-    or a component ``variables``, with the ``items`` of Enumerations, and how an FMU is simulated ``alone`` (s); of a
-    slot ``fmus`` too. A component says whether its outputs are treated as direct functions of inputs (``feedthrough``)
-    and where that comes from; an FMU lists the outputs that it does not declare it of, and the variables of its
-    ``terminals`` (FMI 3.0). With ``campaign`` it is a campaign of the system: ``values`` with those of all files that
-    it extends, each with the file and line that it comes from. The other options are those of `simulate`. Raises
-    InputError.
+    variables. Of a system the keys are components, connections, connectors, parameter_sets, campaigns, frames, loops;
+    of an FMU or a component ``variables``, with the ``items`` of Enumerations, and how an FMU is simulated ``alone``
+    (s); of a slot ``fmus`` too. A component says whether its outputs are treated as direct functions of inputs
+    (``feedthrough``) and where that comes from; an FMU lists the outputs that it does not declare it of, and the
+    variables of its ``terminals`` (FMI 3.0). With ``campaign`` it is a campaign of the system: ``values`` with those of
+    all files that it extends, each with the file and line that it comes from. The other options are those of
+    `simulate`. Raises InputError.
     """
     name, system = os.fspath(what), system_options(options)
     if options["campaign"] is not None:

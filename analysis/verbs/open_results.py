@@ -14,8 +14,8 @@ import pyarrow.compute
 from ...common.errors import InputError, suggestion
 from ..campaigns.definition.campaign import Metric
 from ..campaigns.definition.expressions import Expression
+from ..campaigns.execute.campaign import read_folder
 from ..campaigns.execute.results import BatchResult
-from ..campaigns.folder.folder import read_folder
 from ..campaigns.folder.opened import OpenedResults
 from ..options.option import FilePath
 from ..reports.campaign.distributions import distribution_plot

@@ -142,7 +142,8 @@ class Result(results.Result):
 
         if not self.time.size:
             return None
-        bands = [figure.signal.label for figure in self.figures if isinstance(figure, Band)]
+        signals = [figure.signal for figure in self.figures if isinstance(figure, Band)]
+        bands = [signal.names[0] if len(signal.names) == 1 else signal.label for signal in signals]
         vectors = [row.label for row in key_values(self) if len(row.values) > 1]
         return trajectory_plot(self) or signal_plot(self, (bands or vectors or list(self.signals))[:MOST_PLOTTED])
 

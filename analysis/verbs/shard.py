@@ -13,7 +13,7 @@ from ...common.targets import check_folder
 from ..campaigns.execute.campaign import open_campaign, open_folder
 from ..campaigns.execute.cluster.connection import cluster
 from ..campaigns.execute.runner import fly_campaign, merge_rows
-from ..campaigns.execute.shards.numbering import numbers_of
+from ..campaigns.folder.numbering import numbers_of
 from ..campaigns.summary_text import select_metrics
 from ..options.declared.campaigns import MERGE, PREPARE, SHARD, MergeOptions, PrepareOptions, ShardOptions
 from ..options.option import FilePath

@@ -6,31 +6,34 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from perilune.analysis.campaigns.definition.campaign import Variant
 from perilune.analysis.campaigns.definition.checks import variant_names
 from perilune.analysis.campaigns.definition.plan import BatchPlan
-from perilune.analysis.reports.common.style import (
-    BLUE,
-    FAINT,
-    INK,
-    VERMILION,
-    WIDTH,
-    house_style,
-    new_figure,
-    plain_ticks,
-)
+from perilune.analysis.reports.chart.axes import linear_axis
+from perilune.analysis.reports.chart.equal import Ends, to_scale
+from perilune.analysis.reports.chart.layout import BROAD
+from perilune.analysis.reports.chart.lines import line
+from perilune.analysis.reports.chart.panel import POINTS, chart_panel, wide_figure
+from perilune.analysis.reports.chart.plot import plot_charts
+from perilune.analysis.reports.chart.symbols import arrow, mark, marker
+from perilune.analysis.reports.chart.ticks import axis_ends
+from perilune.analysis.reports.common.colours import BLUE, INK, VERMILION
+from perilune.analysis.reports.common.panels import HALF_WIDTH, PANEL_HEIGHT, Panel
+from perilune.analysis.reports.interactive.charts import NO_BOX, Chart, Drawing
+from perilune.analysis.reports.trajectory_chart import View, view_chart
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.flight.simulation import Simulation
 
-HEIGHT, SLIM_HEIGHT = 5.3, 7.0  # in
+HEIGHT, PLOT_WIDTH = 2.6, 5.2  # in
+WORDS = "A landing over others"
 SAMPLE = "#b9c9d6"
+TARGET = marker("o", 6.5, INK, fill="#ffffff", width=1.4)
 ARROW_TIMES = 20.0  # s between thrust arrows
-CROWDED = 6.0  # km from the site, nearer than which arrows would lie on each other
+CROWDED = 6e3  # m from the site, nearer than which arrows would lie on each other
 THIN = 10  # of the samples of flights in the background, one in so many is drawn
-ARROW_SCALE = 2.2  # km of arrow per m/s2
+ARROW_SCALE = 7.0  # pt of arrow per m/s2
 
 
 def fly_landings(plan: BatchPlan, variant: Variant, trials: Iterable[int]) -> list[Result]:
@@ -57,31 +60,57 @@ def vector(result: Result, name: str) -> np.ndarray:
     return np.stack([result[f"{name}[{index}]"] for index in (1, 2, 3)])
 
 
-def landing_figure(landing: Result, sample: list[Result], height: float = HEIGHT, width: float = WIDTH) -> Figure:
-    """As wide as a page or as a telephone, see `draw_landing`; sizes in inches."""
-    with house_style():
-        figure = new_figure(height, width)
-        draw_landing(figure, landing, sample)
-        return figure
+def landing_charts(landing: Result, sample: list[Result], width: float, height: float, *, fluid: bool) -> list[Chart]:
+    """Return side view with thrust as arrows, plan view, speed and thrust over time, over those of other flights.
+
+    The side view is laid out in a figure of this size (pt), as `view_chart` does it.
+    """
+    return [
+        _side_view(landing, sample, width, height, fluid=fluid),
+        _plan_view(landing, sample),
+        *_histories(landing, sample),
+    ]
 
 
-def draw_landing(figure: Figure, landing: Result, sample: list[Result]) -> None:
-    """Side view with thrust arrows, to scale where there is room; plan, speed and thrust over other flights."""
-    slim = figure.get_figwidth() < WIDTH
-    top, bottom = figure.subfigures(2, 1, height_ratios=[2.05, 5.2 if slim else 3.2], squeeze=False).flatten()
-    _side_view(top.subplots(), landing, sample, to_scale=not slim)
-    panels = bottom.subplots(*((2, 2) if slim else (1, 4)), width_ratios=[1.0, 1.0] if slim else [1.62, 1.0, 1.0, 1.0])
-    plan, *others = panels.flatten()
-    _plan_view(plan, landing, sample)
-    for axes, (title, history) in zip(others, HISTORIES.items(), strict=True):
-        for other in sample:
-            time, values = history(other)
-            axes.plot(time[::THIN], values[::THIN], color=SAMPLE, linewidth=0.6)
-        axes.plot(*history(landing), color=BLUE, linewidth=1.8)
-        axes.set_title(title, loc="left")
-        axes.set_xlabel("time, s")
-        axes.margins(x=0.03)
-        plain_ticks(axes, x=3 if slim else 5, y=5)
+def landing_figure(landing: Result, sample: list[Result]) -> Figure:
+    """Return the same in one figure, for the documentation."""
+    side, plan, *histories = landing_charts(landing, sample, POINTS * PLOT_WIDTH, POINTS * HEIGHT, fluid=False)
+    charts = [side, _to_scale(plan, PLOT_WIDTH, HEIGHT, fluid=False), *histories]
+    return plot_charts(charts, HEIGHT, PLOT_WIDTH, columns=2, titles=[chart.title for chart in charts])
+
+
+def landing_panels(landing: Result, sample: list[Result]) -> tuple[Drawing, list[Panel]]:
+    """Return the side view as wide as the page, and panels of the others."""
+    side, plan, *histories = landing_charts(landing, sample, BROAD, POINTS * HEIGHT, fluid=True)
+    panels = [
+        chart_panel(chart.title, f"landing-{index}", f"{WORDS}: {chart.title}", chart, width=HALF_WIDTH)
+        for index, chart in enumerate([_to_scale(plan, HALF_WIDTH, PANEL_HEIGHT), *histories])
+    ]
+    return wide_figure("landing-side", f"{WORDS}: {side.title}", side, HEIGHT, title=side.title), panels
+
+
+def _to_scale(plan: Chart, width: float, height: float, *, fluid: bool = True) -> Chart:
+    def chart_of(x: Ends, y: Ends) -> Chart:
+        return replace(plan, x=linear_axis(x, 4, label=plan.x.label), y=linear_axis(y, 5))
+
+    size = POINTS * width, POINTS * height
+    return to_scale(chart_of, plan.x.ends, plan.y.ends, *size, title="" if fluid else plan.title, fluid=fluid)
+
+
+def _histories(landing: Result, sample: list[Result]) -> list[Chart]:
+    charts = []
+    for title, history in HISTORIES.items():
+        quantity, unit = title.rsplit(", ", 1)
+        others = [line(*_thin(history(other)), SAMPLE, width=0.6) for other in sample]
+        landed = line(*history(landing), BLUE, width=1.8, name=quantity, unit=unit)
+        ends = [axis_ends(np.concatenate([getattr(each, key) for each in (*others, landed)])) for key in ("x", "y")]
+        x, y = linear_axis(ends[0], 5, label="time, s"), linear_axis(ends[1], 5)
+        charts.append(Chart(NO_BOX, x, y, title=title, curves=[*others, landed]))
+    return charts
+
+
+def _thin(curve: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    return curve[0][::THIN], curve[1][::THIN]
 
 
 def _speed(result: Result) -> tuple[np.ndarray, np.ndarray]:
@@ -105,60 +134,38 @@ HISTORIES = {
 }
 
 
-def _side_view(axes: Axes, landing: Result, sample: list[Result], *, to_scale: bool) -> None:
-    for other in sample:
-        x, y, z = vector(other, "plant.position")[:, ::THIN] / 1e3
-        axes.plot(np.hypot(x, y), z, color=SAMPLE, linewidth=0.6)
-    x, y, z = vector(landing, "plant.position") / 1e3
-    distance = np.hypot(x, y)
-    axes.plot(distance, z, color=BLUE, linewidth=1.8)
+def _side(result: Result) -> np.ndarray:
+    """Downrange from the site and altitude (m), [2, rows]."""
+    x, y, z = vector(result, "plant.position")
+    return np.stack([-np.hypot(x, y), z])
+
+
+def _side_view(landing: Result, sample: list[Result], width: float, height: float, *, fluid: bool) -> Chart:
+    path = _side(landing)
+    names = ("downrange from the site", "altitude")
+    view = View("Side view", "side", [path], ["landing"], landing.time, names, has_ground=True)
+    chart, ordinate, _ = view_chart(view, width, height, fluid=fluid)
+    others = [line(*_thin(tuple(_side(other) / 1e3)), SAMPLE, width=0.6) for other in sample]
     rows = np.searchsorted(landing.time, np.arange(0.0, landing.time[-1], ARROW_TIMES) - 1e-9)
-    rows = rows[distance[rows] > CROWDED]
     thrust = landing["guidance.thrust_acceleration"] * vector(landing, "guidance.thrust_direction")
-    outward = (thrust[0] * x + thrust[1] * y) / np.maximum(distance, 1e-9)
-    axes.quiver(
-        distance[rows], z[rows], ARROW_SCALE * outward[rows], ARROW_SCALE * thrust[2, rows], color=VERMILION,
-        angles="xy", scale_units="xy", scale=1.0, width=0.0016, headwidth=5.0, headlength=6.0, zorder=3,
-    )  # fmt: skip
-    for row in rows if to_scale else rows[::2]:
-        axes.annotate(
-            f"{landing.time[row]:g} s", (distance[row], z[row]), xytext=(0, -10), textcoords="offset points",
-            ha="center", fontsize=7 if to_scale else 8, color=FAINT,
-        )  # fmt: skip
-    axes.plot(distance[rows], z[rows], linestyle="", marker="o", markersize=3, color=BLUE)
-    _target(axes, 0.0, 2.0)
-    axes.annotate(
-        "target, 2 km above the site", (0.0, 2.8), xytext=(-1.5, 11.0), fontsize=8,
-        arrowprops={"arrowstyle": "-", "color": FAINT, "linewidth": 0.7, "relpos": (0.083, 0.0), "shrinkA": 1.0},
-    )  # fmt: skip
-    axes.axhspan(-1.2, 0.0, color="#d9d6d0", linewidth=0)
-    axes.set_xlim(-3.0, 118.0)
-    axes.set_ylim(-1.2, 16.0)
-    if to_scale:
-        axes.set_aspect("equal")
-    axes.grid(visible=False)
-    plain_ticks(axes, x=12 if to_scale else 6, y=3)
-    axes.set_xlabel("distance from the site along the ground, km")
-    axes.set_ylabel("altitude, km")
-    scale = "equal scales" if to_scale else "not to scale"
-    axes.set_title(f"Side view, {scale}; arrows: thrust", loc="left")
+    x, y, _ = vector(landing, "plant.position")
+    inward = -(thrust[0] * x + thrust[1] * y) / np.maximum(np.hypot(x, y), 1.0)
+    arrows = [
+        arrow(tuple(path[:, row] / 1e3), float(np.arctan2(thrust[2, row], inward[row])),
+              ARROW_SCALE * float(np.hypot(inward[row], thrust[2, row])), VERMILION)
+        for row in rows if path[0, row] < -CROWDED
+    ]  # fmt: skip
+    curves = [*others, *arrows, *chart.curves, mark(0.0, 2.0, TARGET)]
+    return replace(chart, title=f"{ordinate}; arrows: thrust", curves=curves)
 
 
-def _plan_view(axes: Axes, landing: Result, sample: list[Result]) -> None:
-    for other in sample:
-        x, y, _ = vector(other, "plant.position")[:, ::THIN] / 1e3
-        axes.plot(-y, x, color=SAMPLE, linewidth=0.6)
-    x, y, _ = vector(landing, "plant.position") / 1e3
-    axes.plot(-y, x, color=BLUE, linewidth=1.8)
-    _target(axes, 0.0, 0.0)
-    axes.set_aspect("equal", anchor="W")
-    axes.margins(0.06)
-    plain_ticks(axes, x=4, y=5)
-    axes.set_title("Plan: north, km", loc="left")
-    axes.set_xlabel("east, km")
+def _plan_view(landing: Result, sample: list[Result]) -> Chart:
+    def plan(result: Result) -> tuple[np.ndarray, np.ndarray]:
+        x, y, _ = vector(result, "plant.position") / 1e3
+        return -y, x
 
-
-def _target(axes: Axes, x: float, y: float) -> None:
-    axes.plot(
-        x, y, marker="o", markersize=7, markerfacecolor="white", markeredgecolor=INK, markeredgewidth=1.4, zorder=4
-    )
+    others = [line(*_thin(plan(other)), SAMPLE, width=0.6) for other in sample]
+    landed = replace(line(*plan(landing), BLUE, width=1.8, name="north", unit="km"), time=landing.time)
+    ends = [axis_ends(np.concatenate([getattr(each, key) for each in (*others, landed)])) for key in ("x", "y")]
+    x, y = linear_axis(ends[0], 4, label="east, km"), linear_axis(ends[1], 5)
+    return Chart(NO_BOX, x, y, title="plan: north, km", curves=[*others, landed, mark(0.0, 0.0, TARGET)])

@@ -12,11 +12,9 @@ from perilune.analysis.reports.campaign.distributions import distribution_panels
 from perilune.analysis.reports.campaign.embedded_trials import trials_document
 from perilune.analysis.reports.campaign.scatters import failure_panels, legend_of_outcomes
 from perilune.analysis.reports.common.page import write_page
-from perilune.analysis.reports.common.panels import HALF_WIDTH
 from perilune.analysis.runtime.flight.results import Result
 
-from .inline_svg import inline_svg
-from .landing import SLIM_HEIGHT, landing_figure, vector
+from .landing import landing_panels, vector
 from .readme_figure import LANDING
 
 
@@ -37,16 +35,13 @@ PUBLISHED = {
     "astar_modified_guidance": Published("modified A*", 0.935, (2.2596, 6.6021), (1.3355, 1.5896)),
 }
 COMPARED = ("position_error", "velocity_error")
-WORDS = "A landing from the side, in plan and over time"
-STYLE = """svg.slim { display: none; max-width: 560px; }
-@media screen and (max-width: 860px) { svg.wide { display: none; } svg.slim { display: block; } }
-"""
 
 
 def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, path: Path) -> None:
     """Write the page. Raises KeyError for a variant that the publication does not have."""
     target = np.array([landing.provenance["parameters"][f"guidance.target_position[{i}]"] for i in (1, 2, 3)])
     campaign = batch.plan.campaign
+    side, panels = landing_panels(landing, sample)
     write_page(
         path,
         Path(__file__).with_name("demo.html"),
@@ -57,11 +52,8 @@ def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, p
         position_error=float(np.linalg.norm(vector(landing, "plant.position")[:, -1] - target)),
         speed=float(np.linalg.norm(vector(landing, "plant.velocity")[:, -1])),
         sample=len(sample),
-        pictures=[
-            inline_svg(landing_figure(landing, sample), "landing", WORDS, kind="wide"),
-            inline_svg(landing_figure(landing, sample, SLIM_HEIGHT, HALF_WIDTH), "landing-slim", WORDS, kind="slim"),
-        ],
-        own_style=STYLE,
+        side=side,
+        panels=panels,
         campaign=campaign,
         provenance=batch.provenance,
         summary=batch.summary,

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from importlib import import_module
 
+from perilune.analysis.options.declaration import Verb
+from perilune.analysis.options.docstring import call_of, find_example, option_text, type_text
+from perilune.analysis.options.option import options_of
+from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.fmus_src.face import HOMES
 
-from .markdown import prose
+from .markdown import escaped, prose, table
 
+CALLED = {verb.home[1]: verb for verb in VERBS.values() if not verb.is_command_alone}  # by the name of the function
 WRITING = [name for names in HOMES.values() for name in names]  # what one writes a block with
 
 
@@ -46,4 +51,19 @@ def _names_of(module: str) -> list[str]:
 
 
 def _page(title: str, words: str, module: str, names: Iterable[str]) -> str:
-    return "\n\n".join([f"# {title}", words, *(f"::: {module}.{name}" for name in names)]) + "\n"
+    entries = [part for name in names for part in (f"::: {module}.{name}", *_keywords(CALLED.get(name)))]
+    return "\n\n".join([f"# {title}", words, *entries]) + "\n"
+
+
+def _keywords(verb: Verb | None) -> Iterator[str]:
+    """Yield the keywords of a verb's function and its example, which `help()` derives of the declaration, too."""
+    if verb is None:
+        return
+    rows = [
+        [f"`{declared.name}`", escaped(type_text(declared)), escaped(option_text(verb, declared))]
+        for declared in options_of(verb.options).values()
+    ]
+    if rows:
+        yield table(["keyword", "type and default", "meaning"], rows)
+    if example := find_example(verb):
+        yield f"```python\n{call_of(verb, example)}\n```"

@@ -8,21 +8,20 @@ import numpy as np
 import pytest
 
 from perilune.analysis.campaigns import summary as summaries
-from perilune.analysis.campaigns.definition.campaign import Group, Metric
+from perilune.analysis.campaigns.definition.campaign import Group
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.summary import requirement_values, success_interval, summarise
 from perilune.analysis.campaigns.trials import TrialTable
 from perilune.common.to_json import to_json
-from tests.support.campaigns.trial_tables import trial_table
+from tests.support.campaigns.trial_tables import describe, trial_table
 
-METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
 GOOD = trial_table(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})
 BAD = trial_table(["nonfinite", "finished"], np.array([False, False]), {"miss": np.array([math.nan, 900.0])})
 
 
 @pytest.fixture(scope="module")
 def summary():
-    return summarise({"good": GOOD, "bad": BAD}, METRICS)
+    return summarise({"good": GOOD, "bad": BAD})
 
 
 def test_rates_and_statuses(summary):
@@ -69,7 +68,7 @@ def test_requirements_reach_every_number(summary):
 def test_requirements_see_what_is_infinite():
     """A trial that never settles: the quantile is infinite, so a bound on it is not met, and not 0 either."""
     late = trial_table(["finished"] * 2, np.array([True, True]), {"miss": np.array([1.0, math.inf])})
-    summary = summarise({"late": late}, METRICS)
+    summary = summarise({"late": late})
     assert summary["late"].metrics["miss"].p95 == math.inf
     assert requirement_values(summary)["late.metrics.miss.p95"] == math.inf
     assert requirement_values(summary)["late.metrics.miss.p50"] == 1.0
@@ -82,18 +81,18 @@ PARTED = trial_table(GOOD.statuses, GOOD.success, GOOD.metrics, {"case": CASES})
 
 
 def test_groups_are_summed_up_as_the_whole():
-    summary = summarise({"good": PARTED}, METRICS, GROUPS, "case")
+    summary = summarise({"good": PARTED}, GROUPS, "case")
     groups = summary["good"].groups
-    assert replace(summary["good"], groups={}) == summarise({"good": GOOD}, METRICS)["good"]
+    assert replace(summary["good"], groups={}) == summarise({"good": GOOD})["good"]
     assert list(groups) == ["0.5", "2"]
     for group in GROUPS:
         members = [trial for trial, case in enumerate(CASES) if case == group.value]
         alone = trial_table(["finished"] * 2, GOOD.success[members], {"miss": GOOD.metrics["miss"][members]})
-        assert groups[group.label] == replace(summarise({"x": alone}, METRICS)["x"], value=group.value)
+        assert groups[group.label] == replace(summarise({"x": alone})["x"], value=group.value)
 
 
 def test_requirements_reach_groups_by_their_value():
-    values = requirement_values(summarise({"good": PARTED}, METRICS, GROUPS, "case"))
+    values = requirement_values(summarise({"good": PARTED}, GROUPS, "case"))
     text = 'good.groups["0.5"].success_rate == 0.5 and good.groups["2"].metrics.miss.p95 == 6'
     assert Expression(text).names <= set(values)
     assert Expression(text).evaluate(values) == 1.0
@@ -115,6 +114,6 @@ class InParts(TrialTable):
 def test_few_trials_are_read_once_and_many_come_to_the_same(monkeypatch, held):
     """Three columns of four trials are held, and their statuses with them; or no column is held."""
     monkeypatch.setattr(summaries, "IN_MEMORY", held)
-    trials = InParts(PARTED.table)
-    assert summarise({"x": trials}, METRICS, GROUPS, "case") == summarise({"x": PARTED}, METRICS, GROUPS, "case")
+    trials = InParts(PARTED.table).described(describe)
+    assert summarise({"x": trials}, GROUPS, "case") == summarise({"x": PARTED}, GROUPS, "case")
     assert (trials.readings == 1) == (held >= 12)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from perilune.analysis.campaigns.definition.campaign import Group, Metric
+from perilune.analysis.campaigns.definition.campaign import Group
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.definition.requirements import Requirement
 from perilune.analysis.campaigns.statistics import STATISTICS
@@ -15,7 +15,6 @@ from perilune.analysis.campaigns.trials import TrialTable
 from perilune.common.errors import InputError
 from tests.support.campaigns.trial_tables import trial_table
 
-METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
 GOOD = trial_table(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})
 BAD = trial_table(["nonfinite", "finished"], np.array([False, False]), {"miss": np.array([math.nan, 900.0])})
 LATE = trial_table(["finished"] * 3, np.array([True] * 3), {"miss": np.array([1.0, -2.0, math.inf])})
@@ -23,7 +22,7 @@ LATE = trial_table(["finished"] * 3, np.array([True] * 3), {"miss": np.array([1.
 
 @pytest.fixture(scope="module")
 def lines():
-    return summary_text(summarise({"good": GOOD, "bad": BAD, "late": LATE}, METRICS)).splitlines()
+    return summary_text(summarise({"good": GOOD, "bad": BAD, "late": LATE})).splitlines()
 
 
 def test_rates(lines):
@@ -43,13 +42,13 @@ def test_metrics(lines):
 
 
 def test_without_metrics():
-    assert len(summary_text(summarise({"good": GOOD}, [])).splitlines()) == 2
+    assert len(summary_text(summarise({"good": trial_table(GOOD.statuses, GOOD.success, {})})).splitlines()) == 2
 
 
 def test_a_line_per_group_beside_the_whole():
     groups = [Group("1", 1.0), Group("2.5", 2.5)]
     good = trial_table(GOOD.statuses, GOOD.success, GOOD.metrics, {"case": np.array([1.0, 2.5, 2.5, 1.0])})
-    lines = summary_text(summarise({"good": good}, METRICS, groups, "case"), "case").splitlines()
+    lines = summary_text(summarise({"good": good}, groups, "case"), "case").splitlines()
     assert lines[0].split()[:3] == ["variant", "case", "trials"]
     assert [line.split()[:4] for line in lines[1:4]] == [
         ["good", "all", "4", "75.00"],
@@ -71,7 +70,7 @@ def columns(**metrics: list[float]) -> TrialTable:
 
 def test_lines_fit_and_say_which_columns_are_left_out():
     long = "a_variant_with_quite_a_long_name"
-    summary = summarise({long: columns(miss=[1.0001e-5, 2.0002e5, -3.0003e-7])}, METRICS)
+    summary = summarise({long: columns(miss=[1.0001e-5, 2.0002e5, -3.0003e-7])})
     lines = summary_text(summary).splitlines()
     assert max(map(len, lines)) <= WIDTH
     head, row, note = lines[3:]
@@ -84,13 +83,12 @@ def test_lines_fit_and_say_which_columns_are_left_out():
 
 
 def test_a_metric_that_is_the_same_everywhere_is_a_line():
-    metrics = [*METRICS, Metric("flag", Expression("p.x"), "final")]
     variants = {"a": columns(miss=[1.0, 2.0], flag=[1.0, 1.0]), "b": columns(miss=[3.0, 4.0], flag=[1.0, 1.0])}
-    lines = summary_text(summarise(variants, metrics)).splitlines()
+    lines = summary_text(summarise(variants)).splitlines()
     assert lines[-1] == "the same in all successful trials: flag 1"
     assert not any(line.startswith("flag") for line in lines)
     variants["b"] = columns(miss=[3.0, 4.0], flag=[1.0, math.inf])
-    assert sum(line.startswith("flag") for line in summary_text(summarise(variants, metrics)).splitlines()) == 2
+    assert sum(line.startswith("flag") for line in summary_text(summarise(variants)).splitlines()) == 2
 
 
 def test_metrics_that_are_printed():

@@ -12,7 +12,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import binom
 
-from perilune.analysis.campaigns.definition.campaign import Metric
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.definition.metrics import successes
 from perilune.analysis.campaigns.definition.requirements import Requirement
@@ -30,7 +29,6 @@ from perilune.analysis.campaigns.verdicts.stopping import stopping_rule
 from perilune.common.to_json import to_json
 from tests.support.campaigns.trial_tables import trial_table
 
-METRICS = [Metric("miss", Expression("p.x"), "final", unit="m"), Metric("mass", Expression("p.m"), "final", unit="kg")]
 NEAR = Requirement("near", Expression("miss < 1"), 0.9987, 0.9, "miss", "upper")
 HEAVY = Requirement("heavy", Expression("mass > 5 and success"), 0.9, 0.9, "mass", "lower")
 NUMBERS = st.floats(allow_nan=True, allow_infinity=True)
@@ -151,7 +149,7 @@ def test_parts_that_arrive_change_nothing():
 @pytest.fixture(scope="module")
 def summary():
     variants = {"good": flights(2000, 0), "odd": flights(2000, 1), "bad": flights(2000, 300)}
-    return summarise(variants, METRICS, requirements=[NEAR, HEAVY])
+    return summarise(variants, requirements=[NEAR, HEAVY])
 
 
 def test_the_summary_has_them(summary):
@@ -163,7 +161,7 @@ def test_the_summary_has_them(summary):
     assert Expression("odd.requirements.near.failures == 1 and good.requirements.near.bound.value == 0.5").evaluate(
         values
     )
-    assert "requirements" not in to_json(summarise({"good": flights(9, 0)}, METRICS))["good"]
+    assert "requirements" not in to_json(summarise({"good": flights(9, 0)}))["good"]
 
 
 def test_lines_name_variant_requirement_and_figures(summary):
@@ -177,13 +175,13 @@ def test_lines_name_variant_requirement_and_figures(summary):
 def test_a_metric_that_no_flight_has_is_named():
     """As of an instant that is never reached: it read `60 of 60 flights fail it`."""
     requirements = [NEAR, HEAVY]
-    never = summarise({"never": columns(np.full(60, np.nan))}, METRICS, requirements=requirements)
+    never = summarise({"never": columns(np.full(60, np.nan))}, requirements=requirements)
     assert unmet_lines(never)[0].endswith(": not met: miss is evaluated in none of 60 flights")
     assert "never: miss is evaluated in none of 60 flights" in summary_text(never)
     assert "no upper bound of miss" not in summary_text(never)
     assert to_json(never)["never"]["requirements"]["near"]["unevaluated"] == ["miss"]
     assert never["never"].requirements["heavy"].unevaluated is None
-    single = summarise({"single": columns([*[np.nan] * 59, 2.0])}, METRICS, requirements=requirements)
+    single = summarise({"single": columns([*[np.nan] * 59, 2.0])}, requirements=requirements)
     assert unmet_lines(single)[0].endswith("not met: 60 of 60 flights fail it")
     assert "unevaluated" not in to_json(single)["single"]["requirements"]["near"]
 
@@ -206,7 +204,7 @@ def test_text(summary):
 
 def test_text_of_a_bound_that_takes_more_flights():
     variants = {"x": flights(1000, 0)}
-    actual = summarise(variants, METRICS, requirements=[NEAR])
+    actual = summarise(variants, requirements=[NEAR])
     line = (
         "x: no upper bound of miss with 99.87 % probability at 90 % confidence: 771 more trials are needed for a bound"
     )

@@ -28,6 +28,7 @@ def test_our_own_tables_come_back_with_units_and_origin(tmp_path, ending):
     result.signals["odd, name"] = result.time + 0.125
     result.types["odd, name"] = "Real"
     result.units["odd, name"] = None
+    result.provenance["axes"] = {"ship.position[1]": "north"}
     path = tmp_path / f"flight.{ending}"
     result.write(path)
     run = read_run(path)
@@ -37,6 +38,7 @@ def test_our_own_tables_come_back_with_units_and_origin(tmp_path, ending):
         np.testing.assert_array_equal(run.signals[name], values)
     assert run.units == {name: unit for name, unit in result.units.items() if unit}
     assert run.discrete == {name for name, kind in result.types.items() if kind in ("Integer", "Boolean")}
+    assert run.axes == {"ship.position[1]": "north"}
     assert run.origin.startswith(f"{result.provenance['system']}, ")
 
 

@@ -12,8 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.analysis.campaigns.execute.campaign import Campaign, open_folder
-from perilune.analysis.campaigns.execute.manifest import FILE
 from perilune.analysis.campaigns.execute.runner import merge_rows
+from perilune.analysis.campaigns.folder.manifest import FILE
 from perilune.analysis.cli import main
 from perilune.common.errors import InputError
 

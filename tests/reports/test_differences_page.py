@@ -44,6 +44,20 @@ def test_the_legend_names_runs_and_elements(page):
     assert COLOURS[2] not in picture
 
 
+def test_elements_along_axes_have_their_names(tmp_path):
+    """An axis has the colour of its index, as elements without a name; a run that knows none gets the other's."""
+
+    def run(turn, axes):
+        signals = {f"{name}[{k}]": turn * TIME**k + ord(name) for name in "vwxyz" for k in (1, 2)}
+        return RecordedRun("run", "", TIME, signals, {}, frozenset(), axes=axes)
+
+    axes = {"v[1]": "east", "v[2]": "north", "w[1]": "east", "w[2]": "north"}
+    write_document(differences_document(compare_runs(run(1.0, {}), run(1.5, axes)), 1e-9), tmp_path / "page.html")
+    root = parse((tmp_path / "page.html").read_text(encoding="utf-8"))
+    entries = root.xpath("//span[@class='who']")
+    assert [entry.get("data-lines") for entry in entries] == ["first", "second", "east [1]", "north [2]"]
+
+
 @pytest.mark.usefixtures("fmus")
 def test_a_legend_hides_a_run_and_an_element_of_all_plots(browser, page):
     """The lines that are still drawn, as the values at the cursor name them."""

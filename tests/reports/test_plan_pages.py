@@ -13,7 +13,9 @@ from matplotlib import image
 from perilune.analysis.design.trajectories.landing_study import landing_study
 from perilune.analysis.design.trajectories.vehicle import Landing, Margins, Transfer, Vehicle
 from perilune.analysis.design.transfers.hover_study import hover_study
+from perilune.analysis.design.transfers.programme import find_programme
 from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
+from perilune.analysis.reports.programme_sketch import sketch_chart
 from tests.support.lengths import either
 from tests.support.pages.browser import start
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of, without_policy
@@ -76,7 +78,7 @@ def test_transfer(hover, pages):
         assert name in words
     assert "its angular acceleration 0.7 deg/s²" in words
     assert "Not asked for" not in words
-    assert len(parse(text).xpath("//*[local-name()='svg' and @class='figure']")) == 5
+    assert len(parse(text).xpath("//*[local-name()='svg' and @class='figure']")) == 6
 
 
 def test_landing(landing, pages):
@@ -87,7 +89,7 @@ def test_landing(landing, pages):
     assert repr(landing.direct.propellant_fraction * LANDER.mass) in values
     assert all(repr(time) in values for burn in landing.bound.burns() for time in burn)
     plotted = parse(text).xpath("//*[local-name()='svg' and starts-with(@class, 'figure')]/@class")
-    assert sorted(plotted) == ["figure", "figure", "figure fluid"]
+    assert sorted(plotted) == ["figure"] * 3
 
 
 def test_the_same_bytes_again(hover, landing, pages, tmp_path):
@@ -128,3 +130,30 @@ def test_nothing_overflows(browser, pages, tmp_path, name):
     assert re.search(r"<body[^>]* data-overflow=\"0\"", dom)
     assert re.search(r"<body[^>]* data-wide=\"\"", dom)
     assert not re.search(r"<body[^>]* data-error", dom)
+
+
+@pytest.mark.parametrize(("distance", "descent"), [(1600.0, 2300.0), (800.0, 1500.0), (0.0, 1000.0)])
+def test_the_sketch_has_the_times_where_they_are(distance, descent):
+    """Truth: the paper's pitch at t2, t5 and t7, and the level of k, which the tilt crosses w before t2."""
+    programme = find_programme(VEHICLE, Transfer(distance, descent, 1.622))
+    t2, t5, w, tp, t7 = programme.times
+    chart = sketch_chart(programme)
+    tilt, *arrows = chart.curves
+    swing = math.degrees(VEHICLE.angular_acceleration)
+    for at, expected in ((t2, -swing * t2**2 / 4.0), (t5, swing * (t7 - t5) ** 2 / 4.0), (t7, 0.0)):
+        if t2 > 0.0:
+            assert np.interp(at, tilt.x, tilt.y) == pytest.approx(expected, abs=0.01)
+    spans = {note.text.split(" = ")[0]: tuple(each.x) for note, each in zip(chart.notes, arrows[::3], strict=False)}
+    assert spans["tp"] == pytest.approx((t7 - tp, t7))
+    assert spans["t7"] == pytest.approx((0.0, t7))
+    shaded = [(area.x.min(), area.x.max()) for area in chart.areas]
+    assert shaded[-1] == pytest.approx((t7 - tp, t7))
+    if not distance:
+        assert set(spans) == {"tp", "t7"}
+        return
+    assert spans["t2"] == pytest.approx((0.0, t2))
+    assert spans["t5"] == pytest.approx((0.0, t5))
+    if w > 0.0:
+        assert spans["w"] == pytest.approx((t2, t2 + w))
+        (level,) = [rule.at for rule in chart.rules if rule.colour == "#d55e00"]
+        assert np.interp(shaded[0][0], tilt.x, tilt.y) == pytest.approx(level, abs=0.01)

@@ -186,8 +186,8 @@ def rewrite(folder, document):
     """The folder with another summary, which its shards are of."""
     import pyarrow.parquet
 
-    from perilune.analysis.campaigns.execute.metadata import batch_digest
-    from perilune.analysis.campaigns.folder.stored import without_summary
+    from perilune.analysis.campaigns.folder.provenance import batch_digest
+    from perilune.analysis.campaigns.folder.summary import without_summary
 
     (folder / "summary.json").write_text(json.dumps(document))
     digest = batch_digest(without_summary(document))

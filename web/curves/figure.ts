@@ -68,12 +68,8 @@ export class Figure {
     if (!width || !height) return;
     if (this.isDrawn) for (const plot of this.plots) plot.redraw();
     else {
-      const { viewBox } = this.picture as SVGSVGElement;
       const boxes = this.charts.map((chart) => boxOf(chart, width, height));
-      this.plots.forEach((plot, index) => {
-        const point = this.charts[index]!.fluid?.point ?? width / viewBox.baseVal.width;
-        plot.place(placeOf(this.charts[index]!, boxes, index, width, point));
-      });
+      this.plots.forEach((plot, index) => plot.place(placeOf(this.charts[index]!, boxes, index, width)));
       this.reserve();
     }
     this.isDrawn = true;
@@ -131,15 +127,15 @@ const measuring = document.createElement("canvas").getContext("2d")!;
 type Box = [left: number, top: number, right: number, bottom: number]; // px in the figure
 
 // The area of the axes in a figure of this size (px).
-function boxOf({ box, fluid }: Chart, width: number, height: number): Box {
-  if (!fluid) return [box[0] * width, box[1] * height, (box[0] + box[2]) * width, (box[1] + box[3]) * height];
-  const [left, top, right, bottom] = fluid.margins;
+function boxOf({ fluid }: Chart, width: number, height: number): Box {
+  const [left, top, right, bottom] = fluid!.margins;
   return [left, top, width - right, height - bottom];
 }
 
 // Where a chart's element lies in the figure: the axes' area is that of the picture, the margins reach to its neighbours.
-function placeOf(chart: Chart, boxes: Box[], index: number, width: number, point: number): Place {
+function placeOf(chart: Chart, boxes: Box[], index: number, width: number): Place {
   const { x, y } = chart;
+  const { point } = chart.fluid!;
   const [left, top, right, bottom] = boxes[index]!;
   const before = boxes.map((box) => box[2]).filter((end) => end <= left);
   const names = widthOf(y, measuring, point) + 2 * BESIDE;
@@ -156,6 +152,7 @@ function placeOf(chart: Chart, boxes: Box[], index: number, width: number, point
     height: bottom - top + margins[0] + margins[2],
     margins,
     point,
+    isNarrow: x.narrow !== undefined && width <= x.narrow,
   };
 }
 

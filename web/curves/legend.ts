@@ -28,11 +28,11 @@ export function listenToLegends(figureOf: (picture: Element) => Promise<Figure |
   }
 }
 
-// An entry is for lines that begin with a run or end with an index of its data-lines; without these for lines that have
-// its text as their name, or in a figure without such lines for that of its number.
+// An entry is for lines that begin with a run, or end with an index or an axis of its data-lines; without these for lines
+// that have its text as their name, or in a figure without such lines for that of its number.
 function isFor(entry: HTMLElement, index: number, name: string, line: number, names: ReadonlySet<string>): boolean {
   const keys = entry.dataset.lines?.split(" ");
-  if (keys) return keys.some((key) => (key.startsWith("[") ? name.endsWith(key) : name === key || name.startsWith(`${key} `)));
+  if (keys) return keys.some((key) => (key.startsWith("[") ? name.endsWith(key) : name === key || name.startsWith(`${key} `) || name.endsWith(` ${key}`)));
   const text = entry.textContent!.trim();
   return names.has(text) ? name === text : index === line;
 }

@@ -22,16 +22,7 @@ export function markCursor(picture: SVGElement, charts: Chart[], sharing: (axis:
     if (!chart) return;
     const [low, high, here] = [...chart.x.ends, at!].map((each) => (chart.x.logarithmic ? Math.log10(each) : each)) as [number, number, number];
     const fraction = (here - low) / (high - low);
-    if (chart.fluid) {
-      const [left, top, right, bottom] = chart.fluid.margins;
-      Object.assign(line.style, { left: `calc(${left}px + ${fraction} * (100% - ${left + right}px))`, top: `${top}px`, bottom: `${bottom}px` });
-      return;
-    }
-    const [left, top, width, height] = chart.box;
-    Object.assign(line.style, percent({ left: left + fraction * width, top, height }));
+    const [left, top, right, bottom] = chart.fluid!.margins;
+    Object.assign(line.style, { left: `calc(${left}px + ${fraction} * (100% - ${left + right}px))`, top: `${top}px`, bottom: `${bottom}px` });
   }
-}
-
-function percent(fractions: Record<string, number>): Record<string, string> {
-  return Object.fromEntries(Object.entries(fractions).map(([name, fraction]) => [name, `${100 * fraction}%`]));
 }

@@ -19,6 +19,7 @@ export interface Place {
   height: number;
   margins: [top: number, right: number, bottom: number, left: number]; // px, from the root to the axes' area
   point: number; // px of a pt of the figure
+  isNarrow: boolean; // the abscissa has few ticks
 }
 
 export class Plot {
@@ -179,7 +180,7 @@ export class Plot {
     return [range, [low - margin, high + margin]];
   }
 
-  private options({ width, height, margins, point }: Place): uPlot.Options {
+  private options({ width, height, margins, point, isNarrow }: Place): uPlot.Options {
     const { x, y } = this.chart;
     const [rangeX, rangeY] = this.ranges();
     const isWhole = () => this.axis.zoom === null;
@@ -197,7 +198,7 @@ export class Plot {
         },
       },
       series: [{}, { show: true, stroke: "transparent", points: { show: false } }],
-      axes: [axisOptions(x, margins[2], ACROSS, point, isWhole), axisOptions(y, margins[3], UP, point, isWhole)],
+      axes: [axisOptions(x, margins[2], ACROSS, point, isNarrow, isWhole), axisOptions(y, margins[3], UP, point, false, isWhole)],
       hooks: {
         ready: [() => this.redraw()],
         drawAxes: [(plot) => drawBelow(plot, this.chart, this.shapes, point)],

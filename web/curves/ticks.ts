@@ -9,7 +9,6 @@ import { linearSplits, logarithmicSplits } from "./splits";
 
 export const { ink: INK, faint: FAINT, grid: GRID } = FIGURE;
 const SUPERSCRIPTS = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
-const NARROW = "screen and (max-width: 640px)"; // as in page.css, `.fine`
 const [FEW, MANY] = [6, 15]; // digits of a number
 
 // uPlot reads whole px alone.
@@ -17,14 +16,13 @@ export function fontOf(size: number, weight = "normal"): string {
   return `${weight} ${Math.round(size)}px "DejaVu Sans", Verdana, sans-serif`;
 }
 
-// ``space``: px at least from one tick to the next; ``isWhole``: true while the axis shows what was drawn.
-export function axisOptions(axis: Axis, size: number, space: number, point: number, isWhole: () => boolean): uPlot.Axis {
-  const drawn = new Map(axis.ticks);
-  const few = new Set(axis.few?.map((index) => axis.ticks![index]![0]));
-  const isNarrow = () => few.size > 0 && matchMedia(NARROW).matches;
+// ``space``: px at least from one tick to the next; ``isNarrow``: of its ticks it has few; ``isWhole``: true while the
+// axis shows what was drawn.
+export function axisOptions(axis: Axis, size: number, space: number, point: number, isNarrow: boolean, isWhole: () => boolean): uPlot.Axis {
+  const drawn = new Map(isNarrow ? axis.few!.map((index) => axis.ticks![index]!) : axis.ticks);
   const isFixed = () => axis.named || (axis.ticks !== undefined && isWhole());
   const splits = (plot: uPlot, index: number, low: number, high: number): number[] => {
-    if (isFixed()) return [...drawn.keys()].filter((at) => (isWhole() || (at >= low && at <= high)) && !(isNarrow() && !few.has(at)));
+    if (isFixed()) return [...drawn.keys()].filter((at) => isWhole() || (at >= low && at <= high));
     const length = index === 0 ? plot.bbox.width : plot.bbox.height;
     const most = Math.max(2, Math.floor(length / devicePixelRatio / space));
     return axis.logarithmic ? logarithmicSplits(low, high, most) : linearSplits(low, high, most);

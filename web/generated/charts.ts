@@ -4,7 +4,7 @@
 //
 // ``label`` is what figures that share an abscissa have in common; ``named`` where texts are no numbers, ``bare``
 // where ticks have none; ``size`` (pt) is that of the texts; ``grid`` and ``marked`` where ticks have lines, strokes;
-// ``few`` are the numbers of those ticks that a narrow screen has, where it has not all.
+// ``few`` are the numbers of those ticks that a figure has up to the width ``narrow`` (px), where it has not all.
 export interface Axis {
   label?: string;
   ends: [number, number];
@@ -16,6 +16,7 @@ export interface Axis {
   grid?: boolean;
   marked?: boolean;
   few?: number[];
+  narrow?: number;
 }
 
 // A mark at points of a line: a circle of diameter ``size`` (pt), or the strokes ``outline`` in units of it.
@@ -101,9 +102,9 @@ export interface Note {
   backing?: Backing;
 }
 
-// A figure as wide as the page: its axes keep their distances (px) from its left, top, right and bottom.
+// A figure of any width: its axes keep their distances (px) from its left, top, right and bottom.
 //
-// ``point``: px of a pt.
+// ``point``: px of a pt. ``to_scale``: its height follows its width, so that the axes keep the ratio of their lengths.
 export interface Fluid {
   margins: [number, number, number, number];
   point: number;
@@ -111,11 +112,10 @@ export interface Fluid {
 
 // A pair of axes; ``box`` is left, top, width and height of their area as fractions of the figure.
 //
-// With ``fluid`` margins they are those of a figure as wide as the page's column. The ``title`` stands above the axes.
+// With ``fluid`` margins they are those of a figure as wide as on a wide screen. The ``title`` stands above the axes.
 //
 // A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it.
 export interface Chart<Column = number> {
-  box: [number, number, number, number];
   x: Axis;
   y: Axis;
   title?: string;

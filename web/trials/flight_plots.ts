@@ -34,7 +34,7 @@ export class FlightPlots {
     if (axis !== this.axis) return; // another trial was chosen in the meantime
     this.element.replaceChildren(...plots.map(({ section }) => section));
     const width = plots[0]?.frame.clientWidth ?? 0;
-    for (const { plot } of plots) plot.place({ left: 0, top: 0, width, height: HEIGHT, margins: MARGINS, point: POINT });
+    for (const { plot } of plots) plot.place({ left: 0, top: 0, width, height: HEIGHT, margins: MARGINS, isNarrow: false, point: POINT });
     axis.followCursor(() => {
       if (axis === this.axis && axis.cursor !== null && !this.isFollowing) announceTime(axis.cursor, NAME);
     });

@@ -48,7 +48,6 @@ export class Flights {
     const [low, high] = [Math.min(...finite), Math.max(...finite)].map((each) => each * factor) as [number, number];
     const margin = MARGIN * (high - low) || MARGIN * Math.abs(high) || 1;
     const chart: Chart = {
-      box: [0, 0, 1, 1],
       x: { ...PLAIN, label: "time, s", ends },
       y: { ...PLAIN, ends: finite.length ? [low - margin, high + margin] : [0, 1] },
       curves: lines.map(({ name, colour }, index) => ({

@@ -11,6 +11,7 @@ import numpy as np
 
 from ....common.percent import percent
 from ....common.to_json import to_json
+from ..columns import describe_metrics
 from ..definition.campaign import Group, Metric
 from ..definition.expressions import Expression
 from ..folder.stored import StoredBatch
@@ -130,7 +131,7 @@ class Comparison:
                     **{f"metric.{metric.name}": self.values(label, metric.name) for metric in self.metrics},
                     **{f"draw.{name}": values for name, values in by.items()},
                 }
-            )
+            ).described(describe_metrics(self.metrics))
             for label, contender in self.contenders.items()
         }
         members = {group.label: group.has(values) for group in self.groups for values in by.values()}
@@ -143,7 +144,7 @@ class Comparison:
                 rates=self._rates(label, slice(None)),
             )
 
-        summary = summarise(columns, self.metrics, self.groups, self.group or "")
+        summary = summarise(columns, self.groups, self.group or "")
         return {label: with_rates(label, entry) for label, entry in summary.items()}
 
     def _rates(self, label: str, trials: slice | np.ndarray) -> dict[str, Rate]:

@@ -40,7 +40,7 @@ def input_hashes(columns: InputColumns) -> list[str]:
 
 
 @dataclass(frozen=True)
-class TrialTable:
+class LookupTable:
     """The ``columns`` of a table, arrays (trials,) by name, and the ``hashes`` of its trials' inputs.
 
     ``inputs`` are the formulas of the inputs, a text for each name; ``command`` has made the table, "" if unknown.
@@ -67,7 +67,7 @@ class TrialTable:
         return ("\n".join(lines) + "\n").encode()
 
 
-def read_trial_table(content: bytes, file: str) -> TrialTable:
+def read_lookup_table(content: bytes, file: str) -> LookupTable:
     """Return the table in a CSV file. Raises InputError."""
     try:
         lines = content.decode("utf-8").splitlines()
@@ -89,7 +89,7 @@ def read_trial_table(content: bytes, file: str) -> TrialTable:
         except ValueError as error:
             raise InputError(file, f"row {trial}", f"not numbers: {', '.join(row[2:])}", WRITE) from error
     columns = dict(zip(head[2:], numbers.T, strict=True))
-    return TrialTable(columns, [row[1] for row in rows], {name: text for name, _, text in pairs}, "".join(made[:1]))
+    return LookupTable(columns, [row[1] for row in rows], {name: text for name, _, text in pairs}, "".join(made[:1]))
 
 
 @dataclass(frozen=True)
@@ -120,11 +120,11 @@ class Lookup:
         return [formula for formulas in self.inputs.values() for formula in formulas]
 
     @cached_property
-    def table(self) -> TrialTable:
+    def table(self) -> LookupTable:
         """The table. Raises InputError where there is none, or it has no such column."""
         if self.content is None:
             raise InputError(self.origin, f"{self.element}.file", f"no file {self.file}", WRITE)
-        table = read_trial_table(self.content, self.label)
+        table = read_lookup_table(self.content, self.label)
         if self.column not in table.columns:
             remedy = suggestion(self.column, table.columns)
             raise InputError(self.origin, f"{self.element}.column", f"{self.label} has no {self.column!r}", remedy)

@@ -16,16 +16,19 @@ from ...runtime.system.options import UNTRUSTED, Trust
 from ...runtime.system.prepared import PreparedSystem
 from ..definition.checks import check_plan, prepare_variants
 from ..definition.plan import BatchPlan
+from ..folder.campaign_folder import CampaignFolder
+from ..folder.files import SUMMARY, shard_path
+from ..folder.lock import lock_folder
+from ..folder.manifest import FILE, WRITE, Manifest, read_manifest
+from ..folder.numbering import Numbering
+from ..folder.provenance import Provenance
+from ..folder.summary import read_summary
 from ..lost_trials import lost_status
 from ..trials import TrialTable
 from .folder import begin, cut, resume_folder
-from .folder_lock import lock_folder
 from .identity import campaign_key
-from .manifest import FILE, Manifest, read_manifest
-from .metadata import Provenance, batch_digest, provenance
+from .metadata import provenance
 from .plan_manifest import gather, restore
-from .shards.files import is_flown, shard_path
-from .shards.numbering import Numbering
 from .store import ShardStore
 from .workers import in_threads, needs_children, worker_count
 
@@ -67,12 +70,12 @@ class Campaign:
         return Numbering(self.manifest.trials, self.manifest.shard_size)
 
     @cached_property
-    def batch(self) -> str:
-        """What tells its files from those of others."""
-        return batch_digest(self.provenance)
+    def stored(self) -> CampaignFolder | None:
+        """Its folder as others read it, None without one."""
+        return None if self.folder is None else CampaignFolder(self.folder, self.provenance)
 
     def store(self) -> ShardStore:
-        return ShardStore(self.plan if self.folder is None else self.flown, self.folder, self.batch)
+        return ShardStore(self.plan if self.folder is None else self.flown, self.stored)
 
     def shard_rows(self, shard: int) -> Mapping[str, TrialTable]:
         """The trials of one shard that its folder holds, by variant."""
@@ -80,12 +83,13 @@ class Campaign:
             raise ValueError("a campaign without a folder holds no shards")
         return self.store().rows(self.numbering, range(shard, shard + 1))
 
+    def has(self, shard: int) -> bool:
+        """True if its folder holds a shard. Raises InputError for a damaged one."""
+        return self.stored is not None and self.stored.has(shard, self.numbering.of(shard))
+
     def missing(self) -> list[int]:
         """The shards that its folder does not hold."""
-        shards = range(self.numbering.count)
-        if self.folder is None:
-            return list(shards)
-        return [shard for shard in shards if not is_flown(self.folder, self.batch, shard, self.numbering.of(shard))]
+        return [shard for shard in range(self.numbering.count) if not self.has(shard)]
 
     def discard_lost(self, shards: Iterable[int]) -> None:
         """Remove those of some shards that have trials which crashed, hung or ran out of memory: they fly again.
@@ -163,3 +167,13 @@ def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> Campaign:
     manifest = read_manifest(folder)
     plan = restore(folder, manifest, trust=trust)  # whose draws were looked at when the folder was made
     return Campaign(plan, plan, prepare_variants(plan), manifest, folder, named)
+
+
+def read_folder(folder: Path) -> CampaignFolder:
+    """The folder of a campaign that is whole, or still flying. Raises InputError for what is neither."""
+    folder = folder.absolute()
+    if (folder / SUMMARY).is_file():
+        return CampaignFolder.complete(folder, read_summary(folder / SUMMARY))
+    if not (folder / FILE).is_file():
+        raise InputError(folder, FILE, "not found", WRITE)
+    return CampaignFolder(folder, open_folder(folder).provenance)

@@ -24,8 +24,8 @@ Columns = Mapping[str, np.ndarray]  # of flights, an entry for each: named as in
 COMPLETE = "complete"  # true of a flight that came to its end
 
 
-class Judge:
-    """Takes flights of a variant, one group behind the other, and gives what they have come to."""
+class MetricEvaluator:
+    """The metrics, success and records of a variant's flights, which are added one group behind the other."""
 
     def __init__(self, campaign: Campaign, names: VariantNames) -> None:
         self._campaign = campaign

@@ -19,7 +19,7 @@ from ...runtime.system.prepared import PreparedSystem
 from ..definition.checks import VariantNames, variant_names
 from ..definition.plan import BatchPlan, TrialSamples
 from ..trials import TrialTable
-from .evaluation import Judge
+from .evaluation import MetricEvaluator
 from .fusing import Fusing
 
 AROUND = 4096  # trials whose draws are read together
@@ -114,7 +114,7 @@ class Flyer:
     def fly(self, variant: str, trials: range) -> TrialTable:
         """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
         simulation, names = self.simulation(variant)
-        judge = Judge(self.plan.campaign, names)
+        evaluator = MetricEvaluator(self.plan.campaign, names)
         size = simulation.group_size if self.plan.watch.timeout is None else 0
         flown = trials.start
         while flown < trials.stop:
@@ -129,11 +129,11 @@ class Flyer:
             else:
                 group = self._fly_next(variant, flown, trials)
             numbers = range(flown, flown + len(group.statuses))
-            judge.add(group, numbers, sampled)
+            evaluator.add(group, numbers, sampled)
             if self.halted:
                 raise KeyboardInterrupt
             flown = numbers.stop
-        return judge.trials()
+        return evaluator.trials()
 
     def _fly_next(self, variant: str, trial: int, trials: range) -> FlightGroup:
         """One of ``trials``, and the one behind it announced."""
@@ -185,9 +185,9 @@ class Flyer:
             return fly(simulation, self.plan.watch.timeout)
 
     def _look_at(self, flight: Flight, trial: int, names: VariantNames) -> TrialResult:
-        judge = Judge(self.plan.campaign, names)
-        judge.add(FlightGroup.of(flight), range(trial, trial + 1), self.values_for(trial))
-        return result_of(judge.trials(), 0)
+        evaluator = MetricEvaluator(self.plan.campaign, names)
+        evaluator.add(FlightGroup.of(flight), range(trial, trial + 1), self.values_for(trial))
+        return result_of(evaluator.trials(), 0)
 
     def _flight(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> Flight:
         simulation, _ = self.simulation(variant)

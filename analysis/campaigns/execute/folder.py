@@ -10,11 +10,11 @@ import numpy as np
 from ....common.atomic import remove_partial
 from ....common.errors import InputError
 from ..definition.plan import BatchPlan
+from ..folder.draws import read_draws
+from ..folder.files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
+from ..folder.manifest import CONTENTS, FILE, Manifest, read_manifest, remove_contents, store_contents
+from ..folder.numbering import Numbering
 from .identity import differences
-from .manifest import CONTENTS, FILE, Manifest, read_manifest, remove_contents, store_contents
-from .shards.draws import read_draws
-from .shards.files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
-from .shards.numbering import Numbering
 
 
 def begin(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> Manifest:

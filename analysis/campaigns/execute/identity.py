@@ -9,7 +9,7 @@ from typing import Any
 
 from ....fmus_src.export.identity import guid_of_module
 from ...runtime.system.fmu import Fmu
-from .manifest import Manifest
+from ..folder.manifest import Manifest
 
 LIMITS = ("call_timeout", "memory")  # options that end trials, and change none
 MOST_DIFFERENCES = 3  # named in one line

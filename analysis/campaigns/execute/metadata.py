@@ -2,97 +2,17 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
 from collections.abc import Mapping
 from importlib.metadata import version
-from typing import NotRequired, TypedDict
 
+from ...runtime.system.arrays.axes import names_of_axes
 from ...runtime.system.prepared import PreparedSystem
 from ..definition.campaign import Metric
 from ..definition.plan import BatchPlan
+from ..folder.provenance import CampaignMetadata, MetricMetadata, Provenance, SignalMetadata
 
 TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
-
-
-class SignalMetadata(TypedDict, total=False):
-    """Unit, None where none is declared, and FMI type of a signal."""
-
-    unit: str | None
-    type: str
-
-
-class MetricMetadata(TypedDict):
-    """A metric as its campaign declares it, and whether its value is true or false."""
-
-    condition: NotRequired[str]
-    delay: NotRequired[float]
-    expression: str
-    reduction: str
-    unit: str
-    description: str
-    truth: bool
-
-
-class RecordMetadata(TypedDict):
-    """What trials store over time."""
-
-    every: int | None
-    signals: list[str]
-    trials: int | None
-    traces: str
-
-
-class CampaignMetadata(TypedDict, total=False):
-    """Properties of a batch that its numbers do not show.
-
-    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of given draws and a ``draw_scheme`` that is no table (each where
-    there is any), ``success`` (expression), ``signals`` that are recorded, ``targets`` (parameters target_position and
-    target_velocity by variant).
-    """
-
-    group: str
-    faults: list[str]
-    sweep: dict[str, str]
-    draws_sha256: str
-    draw_scheme: str
-    description: str
-    success: str
-    metrics: dict[str, MetricMetadata]
-    record: RecordMetadata
-    signals: dict[str, SignalMetadata]
-    targets: dict[str, dict[str, float]]
-
-
-class Provenance(CampaignMetadata, total=False):
-    """Return what a batch's numbers depend on, apart from the trials themselves.
-
-    ``batch`` tells it from others; folders of earlier versions have a key of their ``manifest`` instead.
-    """
-
-    system: str
-    system_sha256: str
-    campaign: str
-    campaign_sha256: str
-    parameter_sets: list[str]
-    set: Mapping[str, object]
-    variant: str | None
-    start_time: float
-    steps: int
-    trials: int
-    seed: int
-    step: float
-    algorithm: str
-    feedthrough: list[str]
-    no_feedthrough: list[str]
-    assumptions: list[str]
-    input: object
-    timeout: float
-    fmus: dict[str, dict[str, str]]
-    perilune: str
-    batch: str
-    manifest: str
 
 
 def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Provenance:
@@ -132,16 +52,6 @@ def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Proven
     metadata["perilune"] = version("perilune")
     metadata.update(campaign_metadata(plan, systems))
     return metadata
-
-
-def batch_digest(provenance: Mapping[str, object]) -> str:
-    """Return the SHA-256 that identifies a batch, for any number of trials, since a batch can be resumed with more.
-
-    In folders of earlier versions it is that of the provenance as JSON with sorted keys.
-    """
-    if "batch" in provenance:
-        return str(provenance["batch"])
-    return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()
 
 
 def campaign_metadata(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> CampaignMetadata:
@@ -187,13 +97,15 @@ def _metric(metric: Metric, signals: Mapping[str, SignalMetadata]) -> MetricMeta
         "description": metric.description,
         "truth": truth and metric.reduction in ("final", "min", "max", "first"),
     }
+    if axis := signals.get(expression.text, {}).get("axis"):
+        metadata["axis"] = axis
     if metric.condition is None:
         return metadata
     return {"condition": metric.condition.text, "delay": metric.delay, **metadata}
 
 
 def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]:
-    """Unit and type of every signal of any variant by name."""
+    """Unit, type and axis of every signal of any variant by name."""
     signals: dict[str, SignalMetadata] = {}
     for prepared in systems.values():
         network = prepared.network
@@ -206,6 +118,8 @@ def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]
             if node.component is None and node.kind not in ("parameter", "calculatedParameter"):
                 fact = SignalMetadata(unit=node.unit.name if node.unit else None, type=node.type_name or "Real")
                 signals.setdefault(node.name, fact)
+        for name, axis in names_of_axes(network, signals).items():
+            signals[name].setdefault("axis", axis)
     return signals
 
 

@@ -28,9 +28,9 @@ from ..definition.plan import BatchPlan
 from ..definition.source import CampaignSource
 from ..definition.sweeps import with_sweeps
 from ..draws.given import GivenDraws, part_streams
-from ..stored_options import restore_options, store_options
-from .identity import identity_of
-from .manifest import (
+from ..folder.draws import read_draws
+from ..folder.files import numbers, read_table
+from ..folder.manifest import (
     CONTENTS,
     FILE,
     SAME_VERSION,
@@ -44,9 +44,9 @@ from .manifest import (
     content_name,
     content_path,
 )
-from .shards.draws import read_draws
-from .shards.files import numbers, read_table
-from .shards.numbering import shard_size
+from ..folder.numbering import shard_size
+from ..stored_options import restore_options, store_options
+from .identity import identity_of
 
 
 class _Contents(dict[str, bytes]):

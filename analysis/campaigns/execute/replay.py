@@ -13,12 +13,11 @@ from ...runtime.system.prepared import PreparedSystem
 from ..definition.campaign import Variant
 from ..definition.checks import check_plan
 from ..definition.plan import BatchPlan
+from ..folder.manifest import read_manifest
 from ..trials import TrialTable
 from .campaign import Campaign, open_folder
 from .flyer import Flyer, TrialResult, result_of
-from .manifest import read_manifest
 from .plan_manifest import restore
-from .shards.files import is_flown
 
 CUT_OFF = ("interrupted", TIMED_OUT)
 
@@ -115,14 +114,13 @@ def _variant_of(plan: BatchPlan, file: str | Path, name: str | None) -> Variant:
 
 def _read_stored(campaign: Campaign, variant: Variant, trial: int) -> TrialResult | None:
     """What the folder says of a trial; None where its shard has not flown. Raises InputError for a damaged one."""
-    numbering, folder = campaign.numbering, campaign.folder
-    shard = trial // numbering.size
-    if folder is None or not is_flown(folder, campaign.batch, shard, numbering.of(shard)):
+    shard = trial // campaign.numbering.size
+    if not campaign.has(shard):
         return None
     metrics = [f"metric.{metric.name}" for metric in campaign.plan.campaign.metrics]
     trials = campaign.shard_rows(shard)[variant.name]
     (table,) = trials.tables(["status", "success", "message", "end_time", *metrics])
-    return result_of(TrialTable(table), trial - numbering.of(shard).start)
+    return result_of(TrialTable(table), trial - campaign.numbering.of(shard).start)
 
 
 def _differences(stored: TrialResult, flown: TrialResult) -> tuple[str, ...]:

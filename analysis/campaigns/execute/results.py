@@ -13,7 +13,13 @@ import pyarrow
 
 from ....common.atomic import write_atomically
 from ....common.to_json import to_json
+from ..columns import Column, describe_column, with_metadata
 from ..definition.plan import BatchPlan
+from ..folder.campaign_folder import CampaignFolder
+from ..folder.files import SUMMARY, clear, trial_table, write_draws
+from ..folder.lock import lock_folder
+from ..folder.numbering import Numbering, shard_size
+from ..folder.provenance import Provenance
 from ..plain_text import assumption_lines, faults_line
 from ..plotted_sample import PlottedSample, select_trials
 from ..summary import Summary, summarise
@@ -21,10 +27,6 @@ from ..summary_text import select_metrics, summary_text
 from ..trials import TrialTable
 from .campaign import Campaign
 from .folder import tidy
-from .folder_lock import lock_folder
-from .metadata import Provenance, batch_digest
-from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
-from .shards.numbering import Numbering, shard_size
 
 
 @dataclass
@@ -38,6 +40,12 @@ class BatchResult:
     rows: Mapping[str, TrialTable]
     provenance: Provenance
     folder: Path | None = None
+
+    def __post_init__(self) -> None:
+        self.rows = {variant: trials.described(self._describe) for variant, trials in self.rows.items()}
+
+    def _describe(self, name: str) -> Column:
+        return describe_column(name, self.provenance)
 
     @classmethod
     def finish(cls, campaign: Campaign, rows: Mapping[str, TrialTable], **more: Any) -> Self:
@@ -59,7 +67,6 @@ class BatchResult:
         campaign = self.plan.campaign
         return summarise(
             self.rows,
-            campaign.metrics,
             self.plan.groups,
             campaign.group or "",
             requirements=campaign.requirements,
@@ -79,9 +86,13 @@ class BatchResult:
         return {variant: select_trials(rows, campaign.input_names(), metrics) for variant, rows in self.rows.items()}
 
     def table(self) -> pyarrow.Table:
-        """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics."""
+        """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
+
+        The metadata of a column's field say its ``unit``, ``kind`` and ``meaning``.
+        """
         table = trial_table(self.plan, self.trials)
-        return table.replace_schema_metadata({"perilune": json.dumps(self.provenance)})
+        schema = with_metadata(table.schema, self._describe).with_metadata({"perilune": json.dumps(self.provenance)})
+        return pyarrow.Table.from_arrays(table.columns, schema=schema)
 
     def document(self) -> dict[str, object]:
         """The machine-readable result: provenance and the summary of each variant."""
@@ -102,14 +113,14 @@ class BatchResult:
 
         Every file carries the batch's digest: a folder can hold traces of an earlier batch too.
         """
-        batch = batch_digest(self.provenance)
+        stored = CampaignFolder(folder, self.provenance)
         numbering = Numbering(self.plan.campaign.trials, shard_size(self.plan.campaign.trials))
         with lock_folder(folder, alone=True):
             write_draws(self.plan, folder, numbering.size)
             clear(folder)
             for shard in range(numbering.count):
                 part = {variant: trials.part(numbering.of(shard)) for variant, trials in self.trials.items()}
-                write_shard(folder, batch, shard, self.plan, part)
+                stored.write(shard, self.plan, part)
             self.write_summary(folder)
 
     def write_summary(self, folder: Path) -> None:

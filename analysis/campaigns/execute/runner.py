@@ -12,13 +12,13 @@ import numpy as np
 from ....common.errors import InputError
 from ....common.progress import progress_bar
 from ..definition.plan import BatchPlan
+from ..folder.lock import lock_folder
+from ..folder.numbering import spans
 from ..requirement_verdicts import satisfies, trials_to_decision
 from ..trials import TrialTable
 from .campaign import Campaign, open_campaign
-from .folder_lock import lock_folder
+from .flights import fly_shards, task_size
 from .results import BatchResult
-from .shards.flights import fly_shards, task_size
-from .shards.numbering import spans
 from .store import ShardStore
 from .workers import FlyerPool, in_threads, worker_count
 
@@ -91,16 +91,16 @@ def fly_campaign(
     return _rows(campaign, store, decision)
 
 
-def _decision(campaign: Campaign, missing: Collection[int]) -> Decision:
+def _decision(campaign: Campaign, missing: Collection[int]) -> CampaignDecision:
     """What the shards decide that lie in a campaign's folder."""
-    decision, store, numbering = Decision(campaign.plan), campaign.store(), campaign.numbering
+    decision, store, numbering = CampaignDecision(campaign.plan), campaign.store(), campaign.numbering
     if campaign.plan.until_decided and campaign.folder is not None:
         for shard in sorted(set(range(numbering.count)) - set(missing)):
             decision.add(shard, store.rows(numbering, range(shard, shard + 1)))
     return decision
 
 
-def _rows(campaign: Campaign, store: ShardStore, decision: Decision) -> dict[str, TrialTable]:
+def _rows(campaign: Campaign, store: ShardStore, decision: CampaignDecision) -> dict[str, TrialTable]:
     """The trials of the shards that decide a campaign, or else of all, by variant."""
     numbering = campaign.numbering
     if decision.shards is not None:
@@ -126,7 +126,7 @@ def _fly_here(
         yield from flown
 
 
-class Decision:
+class CampaignDecision:
     """Looks at the shards of a campaign in order of number, whatever the order in which they come.
 
     ``shards`` is how many of the first ones decide the campaign, None as long as they do not: so it depends neither on

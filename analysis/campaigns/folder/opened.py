@@ -16,11 +16,11 @@ import pyarrow.parquet
 from pyarrow.fs import LocalFileSystem
 
 from ....common.errors import suggestion
-from ..execute.metadata import Provenance
-from ..execute.shards.files import read_table
+from ..columns import Column, describe_column
 from ..statistics import quantile
-from .columns import Column, describe_column
-from .folder import ResultFolder
+from .campaign_folder import CampaignFolder
+from .files import read_table
+from .provenance import Provenance
 from .traces import trace_dataset
 
 UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # what Arrow says of a column that there is not
@@ -29,7 +29,7 @@ UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # what Arrow says of a column 
 class OpenedResults:
     """The trials of a campaign's folder, which ``source`` is as it was when it was opened."""
 
-    def __init__(self, source: ResultFolder) -> None:
+    def __init__(self, source: CampaignFolder) -> None:
         self.source = source
 
     @property

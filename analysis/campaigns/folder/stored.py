@@ -1,9 +1,7 @@
-"""A batch read back from the folder that `perilune batch --output` wrote, every file checked against the others."""
+"""A campaign read back whole from the folder that `perilune batch --output` wrote, to be compared with others."""
 
 from __future__ import annotations
 
-import itertools
-import json
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,74 +10,44 @@ from typing import Any
 
 import numpy as np
 import pyarrow
-import pyarrow.compute
 
-from ....common.bounds import INPUT_BYTES
 from ....common.errors import InputError
-from ....common.machine.arrow import numpy_of
-from ....common.regular import read_regular
 from ..definition.campaign import Group, Metric, groups_of
 from ..definition.expressions import Expression
-from ..execute.manifest import FILE as MANIFEST
-from ..execute.manifest import WRITE
-from ..execute.metadata import Provenance, batch_digest
-from ..execute.shards.files import (
-    COLUMNS,
-    DRAWS,
-    FLIGHT,
-    FOLDER,
-    NEW_FOLDER,
-    NUMBER_PREFIXES,
-    SUMMARY,
-    TEXTS,
-    about_of,
-    check_texts,
-    list_traces,
-    numbers,
-    read_table,
-    read_trace,
-    shard_path,
-    trace_path,
-    trials_in,
-)
 from ..trials import TrialTable, join_trials
+from .campaign_folder import CampaignFolder, Shard
+from .files import DRAWS, FLIGHT, FOLDER, NEW_FOLDER, NUMBER_PREFIXES, SUMMARY, numbers, read_table, trace_files
+from .manifest import FILE as MANIFEST
+from .manifest import WRITE
+from .provenance import Provenance
+from .summary import SummaryDocument, read_metrics, read_summary
 
 RESUME = "resume it: the batch's command with `resume`"
 
 
-class SummaryDocument(Provenance, total=False):
-    """summary.json: the provenance, and the summary by variant."""
-
-    variants: Mapping[str, object]
-
-
-FACTS = (
-    "system", "system_sha256", "campaign", "campaign_sha256", "parameter_sets", "set", "variant", "trials", "seed",
-    "step", "algorithm", "fmus", "perilune", "description", "success", "metrics", "record", "signals", "targets",
-)  # fmt: skip
-
-
 @dataclass(frozen=True)
 class StoredBatch:
-    """A batch on disk.
+    """All trials of a campaign in a folder.
 
-    ``document`` is summary.json. ``draws`` are columns over trials, ``variants`` the trials by
-    variant (in order of trial, without traces), ``traced`` the trials of each that have a trace of
-    this batch, and ``strangers`` the number of traces of other batches in the folder.
+    ``document`` is summary.json. ``draws`` are columns over trials, ``variants`` the trials by variant, in order of
+    trial and without traces, ``traced`` the trials of each that have a trace of this campaign.
     """
 
-    folder: Path
+    source: CampaignFolder
     document: SummaryDocument
     metrics: tuple[Metric, ...]
     draws: dict[str, np.ndarray]
     variants: dict[str, TrialTable]
     traced: dict[str, list[int]]
-    strangers: int
+
+    @property
+    def folder(self) -> Path:
+        return self.source.folder
 
     @property
     def provenance(self) -> Provenance:
-        """What the batch's numbers depend on."""
-        return without_summary(self.document)
+        """What the campaign's numbers depend on."""
+        return self.source.provenance
 
     @property
     def group(self) -> str | None:
@@ -90,6 +58,12 @@ class StoredBatch:
     def faults(self) -> list[str]:
         """The faults that flew, the campaign's and the user's."""
         return self.document.get("faults", [])
+
+    @property
+    def strangers(self) -> int:
+        """The number of traces of other campaigns in the folder."""
+        there = sum(len(trace_files(self.folder, variant)) for variant in self.variants)
+        return there - sum(map(len, self.traced.values()))
 
     def judged_expressions(self) -> list[Expression]:
         """Return success and the requirements' expressions."""
@@ -112,8 +86,10 @@ class StoredBatch:
         return groups_of([self.draws[self.group]], where)
 
     def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
-        """The kept signals of one flight, ``time`` (s) among them; of ``names`` those that there are, or all."""
-        return read_trace(trace_path(self.folder, variant, trial), names)
+        """Read the kept signals of a trial that is traced, ``time`` (s) among them: of ``names``, or all."""
+        trace = self.source.trace(variant, trial, names)
+        assert trace is not None  # unless another campaign has replaced it meanwhile
+        return trace
 
 
 def read_batch(folder: Path) -> StoredBatch:
@@ -121,30 +97,29 @@ def read_batch(folder: Path) -> StoredBatch:
     for name in (SUMMARY, FOLDER):
         _check_there(folder, name)
     document = read_summary(folder / SUMMARY)
-    batch = batch_digest(without_summary(document))
-    shards = _read_shards(folder, batch, document["trials"])
-    metrics = _metrics(document, folder / SUMMARY)
+    source = CampaignFolder.complete(folder, document)
+    metrics = read_metrics(document, folder / SUMMARY)
+    shards = {shard: source.read(shard) for shard in source.shards}
     columns = _draws(folder, shards, document.get("draw_scheme") == "counter")
-    variants = _variants(shards, document["trials"], metrics, columns)
+    variants = _variants(source, shards, columns)
     _check_summary(document, variants, folder / SUMMARY)
-    traced, strangers = _list_traces(folder, list(variants), batch)
+    traced = {variant: list(source.traces(variant)) for variant in variants}
     columns.pop("trial")
-    return StoredBatch(folder, document, metrics, columns, variants, traced, strangers)
+    return StoredBatch(source, document, metrics, columns, variants, traced)
 
 
-def _draws(folder: Path, shards: Mapping[Path, pyarrow.Table], is_counted: bool) -> dict[str, np.ndarray]:
+def _draws(folder: Path, shards: Mapping[Shard, pyarrow.Table], is_counted: bool) -> dict[str, np.ndarray]:
     """The draws of all trials: of their table or, where they were drawn without one, of the shards' first variant."""
     if not is_counted:
         _check_there(folder, DRAWS)
         sampled = read_table(folder / DRAWS)
         return {name: numbers(sampled, name, folder / DRAWS) for name in sampled.column_names}
     columns: dict[str, list[np.ndarray]] = {}
-    for path, table in shards.items():
-        first = pyarrow.compute.equal(table["variant"], table["variant"][0])
-        rows = table.filter(first)
+    for shard, table in shards.items():
+        rows = table.slice(0, len(shard.trials))
         for name in rows.column_names:
             if name == "trial" or name.startswith("draw."):
-                columns.setdefault(name.removeprefix("draw."), []).append(numbers(rows, name, path))
+                columns.setdefault(name.removeprefix("draw."), []).append(numbers(rows, name, shard.path))
     return {name: np.concatenate(parts) for name, parts in columns.items()}
 
 
@@ -154,100 +129,26 @@ def _check_there(folder: Path, name: str) -> None:
         raise InputError(folder, name, "not found", RESUME if is_unfinished else WRITE)
 
 
-def _read_shards(folder: Path, batch: str, trials: int) -> dict[Path, pyarrow.Table]:
-    """All shards in order of number, which together hold every trial once."""
-    tables: dict[Path, pyarrow.Table] = {}
-    end = 0
-    for shard in itertools.count():
-        if end == trials:
-            break
-        path = shard_path(folder, shard)
-        if not path.is_file():
-            raise InputError(path, "", f"not found: trials from {end} on are missing", NEW_FOLDER)
-        table = read_table(path)
-        there = trials_in(path, about_of(table.schema), batch, SUMMARY)
-        if there.start != end:
-            raise InputError(path, "", f"begins with trial {there.start}, not {end}", NEW_FOLDER)
-        tables[path] = table
-        end = there.stop
-    return tables
-
-
-def without_summary(document: SummaryDocument) -> Provenance:
-    """summary.json without the summary: what the batch's numbers depend on."""
-    entries = document.copy()
-    del entries["variants"]
-    return entries
-
-
-def read_summary(path: Path) -> SummaryDocument:
-    """The content of summary.json. Raises InputError for what is none, or of an older version."""
-    content = read_regular(path, NEW_FOLDER, INPUT_BYTES.limit)
-    try:
-        document = json.loads(content)
-    except (ValueError, RecursionError) as error:
-        raise InputError(path, "", f"not JSON: {error}", NEW_FOLDER) from error
-    variants = document.get("variants") if isinstance(document, dict) else None
-    if not isinstance(variants, dict) or not variants:
-        raise InputError(path, "variants", "missing", WRITE)
-    for key in FACTS:
-        if key not in document:
-            raise InputError(path, key, "missing, as in results of an older version", "fly the batch again")
-    return document
-
-
-def _metrics(document: SummaryDocument, path: Path) -> tuple[Metric, ...]:
-    try:
-        return tuple(
-            Metric(
-                name=name,
-                expression=Expression(fact["expression"], (str(path), f"metrics.{name}.expression")),
-                reduction=fact["reduction"],
-                unit=fact["unit"],
-                description=fact["description"],
-                condition=Expression(fact["condition"], (str(path), f"metrics.{name}.condition"))
-                if "condition" in fact
-                else None,
-                delay=fact.get("delay", 0.0),
-            )
-            for name, fact in document["metrics"].items()
-        )
-    except (AttributeError, KeyError, TypeError) as error:
-        raise InputError(path, "metrics", "not as perilune batch writes them", NEW_FOLDER) from error
-
-
 def _variants(
-    shards: Mapping[Path, pyarrow.Table], total: int, metrics: tuple[Metric, ...], draws: Mapping[str, np.ndarray]
+    source: CampaignFolder, shards: Mapping[Shard, pyarrow.Table], draws: Mapping[str, np.ndarray]
 ) -> dict[str, TrialTable]:
-    """The trials by variant, ``total`` of each, with the draws that draws.parquet has of them."""
-    parts: dict[str, list[TrialTable]] = {}
-    rows_drawn = {len(column) for column in draws.values()}
-    for path, table in shards.items():
+    """The trials by variant, with the draws that draws.parquet has of them."""
+    by_variant: dict[str, list[TrialTable]] = {variant: [] for variant in source.variants}
+    is_sampled = "trial" in draws and {len(column) for column in draws.values()} == {source.provenance["trials"]}
+    for shard, table in shards.items():
         for name in draws:
             if _column(name) not in table.column_names:
-                raise InputError(path, _column(name), "no such column", NEW_FOLDER)
-        for name in (*COLUMNS, *(f"metric.{metric.name}" for metric in metrics)):
-            if name not in table.column_names:
-                raise InputError(path, name, "no such column", NEW_FOLDER)
-        retained = [
-            name for name in table.column_names if name in FLIGHT or name.startswith((*NUMBER_PREFIXES, "fault."))
-        ]
-        for name in ("variant", *retained):
-            (check_texts if name in TEXTS else numbers)(table, name, path)
-        labels = numpy_of(table["variant"])
-        for variant in dict.fromkeys(labels.tolist()):
-            mine = table.select(retained).filter(pyarrow.array(labels == variant))
-            trials = TrialTable(mine.combine_chunks())
-            sampled = "trial" in draws and rows_drawn == {total}
-            same = sampled and all(
-                np.array_equal(trials.column(_column(name)), column[trials.trial]) for name, column in draws.items()
-            )
-            if not same:
-                raise InputError(path, variant, "its draws are not those of draws.parquet", NEW_FOLDER)
-            parts.setdefault(variant, []).append(trials)
-    if len({sum(map(len, variants)) for variants in parts.values()}) != 1:
-        raise InputError(next(iter(shards)).parent, "variant", "not every variant has every trial", NEW_FOLDER)
-    return {variant: join_trials(variants) for variant, variants in parts.items()}
+                raise InputError(shard.path, _column(name), "no such column", NEW_FOLDER)
+        retained = [name for name in table.column_names if name in FLIGHT or name.startswith(NUMBER_PREFIXES)]
+        trials, size = table.select(retained), len(shard.trials)
+        expected = {_column(name): column[shard.trials.start : shard.trials.stop] for name, column in draws.items()}
+        for number, (variant, joined) in enumerate(by_variant.items()):
+            rows = TrialTable(trials.slice(number * size, size).combine_chunks())
+            is_same = is_sampled and all(np.array_equal(rows.column(name), column) for name, column in expected.items())
+            if not is_same:
+                raise InputError(shard.path, variant, "its draws are not those of draws.parquet", NEW_FOLDER)
+            joined.append(rows)
+    return {variant: join_trials(joined) for variant, joined in by_variant.items()}
 
 
 def _column(draw: str) -> str:
@@ -264,10 +165,3 @@ def _check_summary(document: SummaryDocument, variants: Mapping[str, TrialTable]
         rate = stated.get("success_rate") if isinstance(stated, dict) else None
         if rate != int(trials.success.sum()) / len(trials.success):
             raise InputError(path, f"variants.{name}", "its success rate is not that of trials/", NEW_FOLDER)
-
-
-def _list_traces(folder: Path, variants: list[str], batch: str) -> tuple[dict[str, list[int]], int]:
-    """Trials of each variant with a trace of this batch, and how many traces are of others."""
-    traced = {variant: list(list_traces(folder, batch, variant)) for variant in variants}
-    there = sum(len(list(trace_path(folder, variant, 0).parent.glob("*.parquet"))) for variant in variants)
-    return traced, there - sum(map(len, traced.values()))

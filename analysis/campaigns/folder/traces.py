@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from ....common.errors import InputError, suggestion
-from ..execute.shards.files import NEW_FOLDER, list_traces, numbers, read_table
-from .folder import ResultFolder
+from .campaign_folder import CampaignFolder
+from .files import NEW_FOLDER, numbers, read_table
 
 TIME = "time"
 
 
-def trace_dataset(results: ResultFolder, variant: str, names: Sequence[str] | None = None) -> Any:
+def trace_dataset(results: CampaignFolder, variant: str, names: Sequence[str] | None = None) -> Any:
     """The traces of one variant: a variable (trial, time) for each signal, with its unit.
 
     Flights that ended earlier, or have no row at a time at which others have one, are nan there. Traces of other
@@ -52,9 +52,9 @@ def trace_dataset(results: ResultFolder, variant: str, names: Sequence[str] | No
     )
 
 
-def _paths(results: ResultFolder, variant: str) -> dict[int, Path]:
+def _paths(results: CampaignFolder, variant: str) -> dict[int, Path]:
     """The traces of the variant's flown trials, by trial."""
-    traces = list_traces(results.folder, results.batch, variant)
+    traces = results.traces(variant)
     return {trial: path for trial, path in traces.items() if any(trial in shard.trials for shard in results.shards)}
 
 

@@ -13,8 +13,8 @@ from ....common.progress import progress_bar
 from ...campaigns.definition.checks import check_plan
 from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.execute.flyer import Flyer
-from ...campaigns.execute.shards.files import write_draws
 from ...campaigns.execute.workers import worker_count
+from ...campaigns.folder.files import write_draws
 from ...runtime.system.prepared import PreparedSystem
 from ..laws.law import law_parameters
 from .checkpoint import read_checkpoint, write_checkpoint

@@ -33,14 +33,16 @@ def plotted_signals(signals: Iterable[SignalDifference]) -> tuple[Vectors, int]:
 
 
 def difference_legend(vectors: Vectors) -> list[LegendEntry]:
-    """Return the looks of both runs, and each colour with the indices of the elements that have it."""
+    """Return the looks of both runs, and each colour with the axes or indices of the elements that have it."""
     runs = [
         LegendEntry(Look(INK, dashes, ""), [name]) for dashes, name in zip(DASHES, ("first", "second"), strict=False)
     ]
-    indices: dict[str, list[str]] = {}
+    signals = [each for elements in vectors.values() for each in elements]
+    lines: dict[str, list[str]] = {}
     for index, colour in _palette(vectors).items():
-        indices.setdefault(colour, []).append(f"[{index}]")
-    return [*runs, *(LegendEntry(Look(colour, DASHES[0], ""), lines) for colour, lines in indices.items())]
+        labels = dict.fromkeys(each.axis or f"[{index}]" for each in signals if _index(each.name) == index)
+        lines.setdefault(colour, []).extend(labels)
+    return [*runs, *(LegendEntry(Look(colour, DASHES[0], ""), labels) for colour, labels in lines.items())]
 
 
 def difference_figures(vectors: Vectors, time: np.ndarray) -> list[Figure]:
@@ -51,11 +53,11 @@ def difference_figures(vectors: Vectors, time: np.ndarray) -> list[Figure]:
         ordered = sorted(elements, key=lambda each: each.name)
         label = label_with_unit(name, ordered[0].unit)
         both = [
-            _curve(time, values, f"{which} {each.name.removeprefix(name)}".strip(), each, palette, look)
+            _curve(time, values, f"{which} {each.axis or each.name.removeprefix(name)}".strip(), each, palette, look)
             for each in ordered
             for look, (which, values) in enumerate((("first", each.first), ("second", each.second)))
         ]
-        differences = [_curve(time, each.difference, each.name, each, palette) for each in ordered]
+        differences = [_curve(time, each.difference, each.axis or each.name, each, palette) for each in ordered]
         figures += [
             Figure(label, f"both-{order}", f"{name} in both runs over time", _chart(both), HEIGHT),
             Figure(

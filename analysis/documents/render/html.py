@@ -7,7 +7,7 @@ from pathlib import Path
 
 from markupsafe import Markup, escape
 
-from ...reports.chart.panel import chart_panel, fluid_figure
+from ...reports.chart.panel import chart_panel, wide_figure
 from ...reports.common.page import exact, write_page
 from ...reports.common.panels import HALF_WIDTH, Panel, swatch
 from ...reports.common.quantities import display_unit
@@ -59,7 +59,7 @@ def _is_number(table: Table, column: int) -> bool:
 
 def _panels(figures: Sequence[Figure]) -> list[Panel]:
     return [
-        Panel(each.label, fluid_figure(each.name, each.words, each.chart, each.height))
+        Panel(each.label, wide_figure(each.name, each.words, each.chart, each.height))
         if each.is_wide
         else chart_panel(each.label, each.name, each.words, each.chart, each.height, HALF_WIDTH)
         for each in figures

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+from ...campaigns.columns import describe_metric
 from ...campaigns.draws.declared import input_names
 from ...campaigns.execute.results import BatchResult
 from ...campaigns.judged import worst_trial
@@ -56,6 +58,10 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         Path(__file__).with_name("batch_report.html"),
         title=title,
         campaign=campaign,
+        metrics=[
+            replace(metric, description=describe_metric(result.provenance["metrics"][metric.name]))
+            for metric in campaign.metrics
+        ],
         provenance=result.provenance,
         summary=result.summary,
         verdicts=verdicts,

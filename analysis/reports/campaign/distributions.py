@@ -15,7 +15,7 @@ from ...campaigns.execute.results import BatchResult
 from ...campaigns.verdicts.order_statistics import quantiles
 from ..chart.axes import lane_axis, linear_axis, logarithmic_axis, ticked_axis
 from ..chart.lines import line
-from ..chart.panel import chart_panel, fluid_figure
+from ..chart.panel import chart_panel, wide_figure
 from ..chart.symbols import mark, marker, marks
 from ..common.colours import INK, Look, look
 from ..common.panels import Panel, swatch
@@ -155,7 +155,7 @@ def rates_figure(batch: BatchResult, published: Mapping[str, float] | None = Non
     names = list(batch.summary)
     description = "Success probabilities of " + ", ".join(names)
     height = AXES_HEIGHT + LANE * len(names)
-    return fluid_figure("rates", description, rates_chart(batch, published or {}), height)
+    return wide_figure("rates", description, rates_chart(batch, published or {}), height)
 
 
 def rates_chart(batch: BatchResult, published: Mapping[str, float]) -> Chart:

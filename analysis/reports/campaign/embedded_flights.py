@@ -10,8 +10,8 @@ from typing import TypedDict
 import numpy as np
 
 from ....common.errors import InputError
-from ...campaigns.execute.metadata import Provenance
 from ...campaigns.execute.results import BatchResult
+from ...campaigns.folder.provenance import Provenance
 from ..common.colours import COLOURS
 from ..common.quantities import display_factor, display_unit
 from ..common.signals import vector_of
@@ -20,7 +20,7 @@ from ..figures.scene.declared import Scene
 from ..scene.flights import FlightsView, RecordedFlight, flights_view
 from ..scene.poses import signals_of
 from .recorded_flights import choose_flights, read_flights
-from .recorded_names import is_real, names_of_record, unit_of
+from .recorded_names import axis_of, is_real, names_of_record, unit_of
 
 LINE_LIMIT = 24  # signals of a flight
 
@@ -120,7 +120,10 @@ def _document(provenance: Provenance, names: Sequence[str], flights: Sequence[Re
                 "unit": display_unit(unit_of(provenance, lines[0])),
                 "factor": display_factor(unit_of(provenance, lines[0])),
                 "steps": not is_real(provenance, lines[0]),
-                "lines": [{"name": name, "colour": COLOURS[index % len(COLOURS)]} for index, name in enumerate(lines)],
+                "lines": [
+                    {"name": axis_of(provenance, name) or name, "colour": COLOURS[index % len(COLOURS)]}
+                    for index, name in enumerate(lines)
+                ],
             }
             for base, lines in panels
         ],

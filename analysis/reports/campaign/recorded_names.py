@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ...campaigns.execute.metadata import Provenance
+from ...campaigns.folder.provenance import Provenance
 from ...runtime.ssp.names import split_name
 from ..common.signals import INDEXED, vector_of
 
@@ -13,6 +13,8 @@ DIRECTIONS = ("thrust_direction", "attitude")
 MOTION = ("altitude", "speed", "path_angle", "mass")
 CONSISTENCY = ("normalised_error_square",)
 RATIO = "_error_ratio"
+AxisNames = tuple[str, str, str]
+LETTERS: AxisNames = ("x", "y", "z")
 KNOWN = (*COMMANDS, *DIRECTIONS, *MOTION, *CONSISTENCY, "position", "velocity", "central_angle")
 
 
@@ -49,6 +51,17 @@ def variable_of(provenance: Provenance, name: str) -> str:
 def unit_of(provenance: Provenance, name: str) -> str | None:
     """The unit of a recorded signal; None where none is declared."""
     return provenance["signals"].get(name, {}).get("unit")
+
+
+def axis_of(provenance: Provenance, name: str) -> str:
+    """The name of the axis that a recorded element is along; empty where there is none."""
+    return provenance["signals"].get(name, {}).get("axis", "")
+
+
+def axes_of(provenance: Provenance, vector: tuple[str, str, str]) -> AxisNames:
+    """The names of the axes that the elements of a vector are along, x, y and z where one has none."""
+    x, y, z = (axis_of(provenance, name) for name in vector)
+    return (x, y, z) if x and y and z else LETTERS
 
 
 def is_real(provenance: Provenance, name: str) -> bool:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from ..interactive.charts import Chart
-from .layout import lay_out
+from .layout import lay_out, lay_out_fluid
 
 Ends = tuple[float, float]
 ROUNDS = 4  # of layouts: other ends have other texts at their ticks, which need other room
@@ -22,16 +23,25 @@ def equal_ends(x: Ends, y: Ends, width: float, height: float) -> tuple[Ends, End
 
 
 def to_scale(
-    chart_of: Callable[[Ends, Ends], Chart], x: Ends, y: Ends, width: float, height: float, *, title: str = ""
+    chart_of: Callable[[Ends, Ends], Chart],
+    x: Ends,
+    y: Ends,
+    width: float,
+    height: float,
+    *,
+    title: str = "",
+    fluid: bool = True,
 ) -> Chart:
     """Return a chart that is laid out in a figure of this size (pt), with equal units on its axes.
 
-    ``chart_of`` constructs it with ends of the abscissa and of the ordinate, which contain ``x`` and ``y``.
+    ``chart_of`` constructs it with ends of the abscissa and of the ordinate, which contain ``x`` and ``y``. ``fluid``:
+    it is one of a page, at any width.
     """
-    chart = lay_out(chart_of(x, y), width, height, title=title)
+    lay = partial(lay_out_fluid, to_scale=True) if fluid else lay_out
+    chart = lay(chart_of(x, y), width, height, title=title)
     for _ in range(ROUNDS):
         ends = equal_ends(x, y, width * chart.box[2], height * chart.box[3])
-        chart = lay_out(chart_of(*ends), width, height, title=title)
+        chart = lay(chart_of(*ends), width, height, title=title)
     ends = equal_ends(x, y, width * chart.box[2], height * chart.box[3])
     return replace(chart, x=replace(chart.x, ends=ends[0]), y=replace(chart.y, ends=ends[1]))
 

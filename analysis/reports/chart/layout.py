@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,11 +15,14 @@ from .svg.axes import MARGIN, TITLE_GAP, text_offset
 from .svg.fluid import POINT
 from .svg.frame import fraction
 from .svg.texts import overhang
+from .ticks import STEPS
 
 LABEL_GAP = 4.0  # pt, from the texts of ticks to the label of the axis
-NARROW, BROAD = 366.0 / POINT, 1000.0 / POINT  # pt: a page's column on a telephone and on a wide screen
-SPACE, LABELS = 6.0, 40.0  # pt: between texts of ticks, left of the axes
-FEWEST = 3  # ticks, of which a narrow screen may have each second one
+NARROW, BROAD = 296.0 / POINT, 1000.0 / POINT  # pt: a page's column on the narrowest telephone and on a wide screen
+NARROWS = (320, 400, 480, 640, 800)  # px, up to which a figure may have fewer ticks: those of page.css, `fine`
+SPACE = 6.0  # pt, between texts of ticks
+FEWEST = 2  # ticks
+CLOSE = 1e-6  # of a step, by which a tick may lie aside
 LINE = ASCENT + DESCENT  # of a text, of its size
 
 
@@ -29,32 +34,109 @@ def lay_out(chart: Chart, width: float, height: float, *, title: str = "", left:
     return replace(chart, box=_box(_margins(chart, width, height, title, left), width, height))
 
 
-def lay_out_fluid(chart: Chart, height: float, *, title: str = "", left: float = 0.0) -> Chart:
-    """Return the chart with ``fluid`` margins in a figure of this height (pt), as wide as a telephone or a page.
+def lay_out_fluid(
+    chart: Chart,
+    width: float,
+    height: float,
+    *,
+    title: str = "",
+    left: float = 0.0,
+    right: float = 0.0,
+    to_scale: bool = False,
+) -> Chart:
+    """Return the chart with ``fluid`` margins in a figure of this height (pt), which may be wider or narrower.
 
-    Its ``box`` is that in the page's column; a narrow screen has the ticks that are ``few``.
+    Its ``box`` is that at this ``width`` (pt), at which texts of ticks do not overlap, since those that would are left
+    out; on a narrow screen those that are ``few`` do not. ``left`` and ``right`` (pt) are the room there at least, for
+    charts below each other. ``to_scale``: the height follows the width.
     """
-    few = _few(chart.x)
-    ticks = [chart.x.ticks[index] for index in few] if few else chart.x.ticks
-    on_narrow = _margins(replace(chart, x=replace(chart.x, ticks=ticks)), NARROW, height, title, left)
-    margins = np.ceil(POINT * np.maximum(on_narrow, _margins(chart, BROAD, height, title, left)))
-    fluid = Fluid(tuple(margins.tolist()), POINT)
-    return replace(chart, x=replace(chart.x, few=few), box=_box(margins / POINT, BROAD, height), fluid=fluid)
+
+    def margins_of(axis: Axis, at: float) -> np.ndarray:
+        return _margins(replace(chart, x=axis), at, height, title, left, right)
+
+    def sparse(axis: Axis, at: float) -> Sequence[int]:
+        room = margins_of(axis, at)
+        return sparse_ticks(axis, float(at - room[0] - room[2]))
+
+    axis = _select(chart.x, sparse(chart.x, width))
+    few = sparse(axis, NARROW)
+    margins = np.maximum(margins_of(axis, width), margins_of(_select(axis, few), NARROW))
+    if len(few) < len(axis.ticks):
+        needed = POINT * (_length_for(axis) + margins[0] + margins[2])
+        narrow = next((each for each in NARROWS if each >= needed), NARROWS[-1])
+        margins = np.maximum(margins, margins_of(axis, narrow / POINT))
+        axis = replace(axis, few=few, narrow=narrow)
+    margins = np.ceil(POINT * margins)
+    fluid = Fluid(tuple(margins.tolist()), POINT, to_scale)
+    return replace(chart, x=axis, box=_box(margins / POINT, width, height), fluid=fluid)
 
 
-def _few(axis: Axis) -> list[int]:
-    """Each second tick, if all are too many for a narrow screen: that of 0 and others are at whole multiples."""
-    length = sum(text_width(text, axis.size) + SPACE for _, text in axis.ticks if text)
-    if len(axis.ticks) < FEWEST or length <= NARROW - MARGIN - LABELS:
-        return []
-    (first, _), (second, _) = axis.ticks[:2]
-    begin = 0 if axis.named or axis.logarithmic else round(first / (second - first)) % 2
-    return list(range(begin, len(axis.ticks), 2))
+def axes_size(chart: Chart, width: float, height: float) -> tuple[float, float]:
+    """Return the size (pt) of the area of the axes in a figure of this size; where it is `Fluid` on a narrow screen."""
+    across, up = width * chart.box[2], height * chart.box[3]
+    if not chart.fluid:
+        return across, up
+    narrow = min(across, NARROW - (chart.fluid.margins[0] + chart.fluid.margins[2]) / POINT)
+    return narrow, up * narrow / across if chart.fluid.to_scale else up
 
 
-def _margins(chart: Chart, width: float, height: float, title: str, left: float) -> np.ndarray:
-    """The room (pt) left, above, right and below the axes."""
-    room = np.maximum(_room(chart, title), [left, 0.0, 0.0, 0.0])
+def _select(axis: Axis, ticks: Sequence[int]) -> Axis:
+    return replace(axis, ticks=[axis.ticks[index] for index in ticks])
+
+
+def sparse_ticks(axis: Axis, length: float) -> Sequence[int]:
+    """Return the most ticks of an abscissa of this length (pt) whose texts do not overlap, the fewer the rounder."""
+    chosen: Sequence[int] = range(len(axis.ticks))
+    for ticks in _rounder(axis):
+        if len(ticks) >= FEWEST:
+            chosen = ticks
+        if _length_for(_select(axis, chosen)) <= length:
+            break
+    return chosen
+
+
+def _rounder(axis: Axis) -> Iterator[Sequence[int]]:
+    """Yield all ticks, then ever fewer: of names each second, third, ...; of numbers multiples of a round step."""
+    everything: Sequence[int] = range(len(axis.ticks))
+    yield everything
+    at = np.array([each for each, _ in axis.ticks])
+    if axis.logarithmic and not axis.named:
+        exponents = np.log10(at)
+        at = np.round(exponents)
+        everything = np.flatnonzero(np.abs(exponents - at) < CLOSE).tolist()
+        yield everything
+    step = 1.0 if axis.logarithmic or at.size < FEWEST else at[1] - at[0]
+    counts = np.round(at / step)
+    if axis.named or np.any(np.abs(at / step - counts) > CLOSE):
+        counts, step = np.arange(at.size), 0.0
+    for each in range(FEWEST, at.size + 1):
+        if axis.logarithmic or not _is_round(step) or _is_round(each * step):
+            yield [index for index in everything if counts[index] % each == 0]
+
+
+def _is_round(step: float) -> bool:
+    """True if a step is one of `STEPS` times a power of ten."""
+    if not step:
+        return False
+    mantissa = abs(step) / 10.0 ** math.floor(math.log10(abs(step)) + CLOSE)
+    return any(abs(mantissa - each) < CLOSE for each in STEPS)
+
+
+def _length_for(axis: Axis) -> float:
+    """Return the length (pt) of an abscissa from which on texts of its ticks do not overlap."""
+    written = [(at, text) for at, text in axis.ticks if text]
+    if axis.bare or len(written) < FEWEST:
+        return 0.0
+    halves = np.array([text_width(text, axis.size) / 2.0 for _, text in written])
+    apart = np.abs(np.diff(fraction(axis, np.array([at for at, _ in written]))))
+    return float(np.max((halves[:-1] + halves[1:] + SPACE) / apart))
+
+
+def _margins(
+    chart: Chart, width: float, height: float, title: str, left: float = 0.0, right: float = 0.0
+) -> np.ndarray:
+    """The room (pt) left, above, right and below the axes, ``left`` and ``right`` at least."""
+    room = np.maximum(_room(chart, title), [left, 0.0, right, 0.0])
     for _ in range(2):  # the room for what is placed in fractions of the axes depends on their size
         across, up = width - room[0] - room[2], height - room[1] - room[3]
         first, last = _ends_of_ticks(chart, across)

@@ -15,7 +15,7 @@ from .svg.marks import draw_marks
 
 WIDTH, HEIGHT = 26.0, 8.0  # px
 UNIT = Axis(ends=(0.0, 1.0), size=0.0)
-FRAME = Frame(UNIT, UNIT, 0.0, 0.0, WIDTH, HEIGHT, (0.0, HEIGHT))
+FRAME = Frame(UNIT, UNIT, 0.0, 0.0, WIDTH, HEIGHT)
 THIN, SMALL = 2.0, 4.0  # px, the least width of a line and size of a mark
 
 Legend = list[tuple[Markup, str]]

@@ -10,7 +10,8 @@ from ..common.panels import PANEL_HEIGHT, PANEL_WIDTH, Panel
 from ..interactive.charts import NO_BOX, Chart, Curve, Drawing
 from ..interactive.columns import Coarse, has_enough_digits
 from ..interactive.envelope import envelope
-from .layout import BROAD, lay_out, lay_out_fluid
+from .layout import BROAD, lay_out_fluid
+from .svg.fluid import POINT
 from .write_svg import TrialPositions, no_trials, write_svg
 
 POINTS = 72.0  # in an inch
@@ -27,19 +28,17 @@ def chart_panel(
     *,
     title: str = "",
     kind: str = "",
-    left: float = 0.0,
     trials: TrialPositions = no_trials,
     reduced: bool = False,
 ) -> Panel:
     """Return the panel of a ``chart``, sizes in inches; ``name`` must differ between the figures of a page.
 
-    A chart that has its box keeps it, others are laid out. ``title`` stands above the axes; ``kind`` is a class more,
-    for the style; ``left`` (pt) is the room left of the axes at least; ``trials`` returns the positions of its marks of
-    trials; ``reduced``: the page has only envelopes of its curves. A chart whose numbers a page cannot tell apart
-    remains a picture.
+    A chart that has its box keeps it, others are laid out. Text has one size at any width. ``title`` stands above the
+    axes; ``kind`` is a class more, for the style; ``trials`` returns the positions of its marks of trials; ``reduced``:
+    the page has only envelopes of its curves. A chart whose numbers a page cannot tell apart remains a picture.
     """
     across, up = POINTS * width, POINTS * height
-    placed = chart if chart.box != NO_BOX else lay_out(chart, across, up, title=title, left=left)
+    placed = chart if chart.box != NO_BOX else lay_out_fluid(chart, across, up, title=title)
     svg = write_svg(placed, name, description, across, up, title=title, kind=kind, trials=trials)
     if not _is_exact(placed):
         return Panel(label, Drawing(svg, [_picture(placed)]))
@@ -47,23 +46,9 @@ def chart_panel(
     return Panel(label, Drawing(svg, [replace(placed, curves=curves)]))
 
 
-def fluid_figure(
-    name: str,
-    description: str,
-    chart: Chart,
-    height: float,
-    *,
-    title: str = "",
-    left: float = 0.0,
-    trials: TrialPositions = no_trials,
-) -> Drawing:
-    """Return the figure of a ``chart`` as wide as the page, ``height`` in inches; text has one size at any width.
-
-    Other arguments are those of `chart_panel`.
-    """
-    placed = lay_out_fluid(chart, POINTS * height, title=title, left=left)
-    svg = write_svg(placed, name, description, BROAD, POINTS * height, title=title, trials=trials)
-    return Drawing(svg, [placed if _is_exact(placed) else _picture(placed)])
+def wide_figure(name: str, description: str, chart: Chart, height: float, *, title: str = "") -> Drawing:
+    """Return the figure of a ``chart`` as wide as the page; the arguments are those of `chart_panel`."""
+    return chart_panel("", name, description, chart, height, BROAD / POINTS, title=title).figure
 
 
 def stack_panel(
@@ -71,25 +56,19 @@ def stack_panel(
 ) -> Panel:
     """Return the panel of two charts over the same abscissa, whose texts the lower one has; sizes in inches."""
     upper, lower = charts
-    bare = replace(upper, x=replace(upper.x, bare=True))
+    stacked = (replace(upper, x=replace(upper.x, bare=True)), lower)
     heights = [(height - ABSCISSA) / 2.0, (height + ABSCISSA) / 2.0]
-    placed = [
-        lay_out(chart, POINTS * width, POINTS * high, title=chart.title)
-        for chart, high in zip((bare, lower), heights, strict=True)
-    ]
-    left = max(chart.box[0] for chart in placed)
-    wide = round(min(chart.box[0] + chart.box[2] for chart in placed) - left, 5)
+
+    def lay_out_both(left: float = 0.0, right: float = 0.0) -> list[Chart]:
+        return [
+            lay_out_fluid(chart, POINTS * width, POINTS * high, title=chart.title, left=left, right=right)
+            for chart, high in zip(stacked, heights, strict=True)
+        ]
+
+    left, _, right, _ = np.max([chart.fluid.margins for chart in lay_out_both() if chart.fluid], axis=0) / POINT
     above, below = (
-        chart_panel(
-            label,
-            f"{name}-{order}",
-            f"{description}; {chart.title}",
-            replace(chart, box=(left, chart.box[1], wide, chart.box[3])),
-            high,
-            width,
-            title=chart.title,
-        )
-        for order, (chart, high) in enumerate(zip(placed, heights, strict=True))
+        chart_panel(label, f"{name}-{order}", f"{description}; {chart.title}", chart, high, width, title=chart.title)
+        for order, (chart, high) in enumerate(zip(lay_out_both(left, right), heights, strict=True))
     )
     return Panel(label, above.figure._replace(below=below.figure))
 

@@ -11,7 +11,6 @@ from ..interactive.charts import Chart, Dots
 from ..interactive.measures import LABEL_SIZE
 from .svg.axes import draw_axes, draw_labels
 from .svg.fluid import FluidFrame, in_pixels
-from .svg.frame import Frame
 from .svg.lines import draw_area, draw_curve, draw_rule
 from .svg.marks import draw_dots, draw_marks
 from .svg.texts import draw_note
@@ -35,32 +34,26 @@ def write_svg(
     kind: str = "",
     trials: TrialPositions = no_trials,
 ) -> Markup:
-    """Return the <svg> element of a chart that was laid out in a figure of this size (pt).
+    """Return the <svg> element of a chart that was laid out by `lay_out_fluid` in a figure of this size (pt).
 
     ``name`` must differ between the figures of a page; ``description`` is what a screen reader says; ``title``
     stands above the axes; ``kind`` is a class more; ``trials`` returns the positions of its `Dots`.
     """
-    if chart.fluid:
-        scaled, point, (left, top, right, bottom) = in_pixels(chart), chart.fluid.point, chart.fluid.margins
-        high = point * height
-        edges = (-left, high - top)
-        frame: Frame = FluidFrame(scaled.x, scaled.y, 0.0, 0.0, width, high - top - bottom, edges)
-        size, kind = f'style="height:{high:g}px;padding:{top:g}px {right:g}px {bottom:g}px {left:g}px"', f"fluid {kind}"
-        elements = _elements(frame, scaled, name, title, trials, point * LABEL_SIZE)
-    else:
-        left, top, wide, high = chart.box
-        frame = Frame(chart.x, chart.y, left * width, top * height, wide * width, high * height, (0.0, height))
-        size = f'viewBox="0 0 {width:g} {height:g}"'
-        paper = f'<rect width="{width:g}" height="{height:g}" fill="#fff"/>'
-        elements = paper + _elements(frame, chart, name, title, trials, LABEL_SIZE)
+    assert chart.fluid
+    scaled, point, (left, top, right, bottom) = in_pixels(chart), chart.fluid.point, chart.fluid.margins
+    across, up = round(point * width - left - right, 2), round(point * height - top - bottom, 2)
+    frame = FluidFrame(scaled.x, scaled.y, 0.0, 0.0, across, up, name, chart.fluid.margins)
+    size = f"aspect-ratio:{across:g}/{up:g}" if chart.fluid.to_scale else f"height:{up:g}px"
+    style = f"width:calc(100% - {left + right:g}px);{size};padding:{top:g}px {right:g}px {bottom:g}px {left:g}px"
+    elements = _elements(frame, scaled, title, trials, point * LABEL_SIZE)
     classes = f"figure {kind}".rstrip()
     return Markup(
-        f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img" aria-label="{escape(description)}" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" style="{style}" role="img" aria-label="{escape(description)}" '
         f'class="{classes}" font-family="DejaVu Sans, sans-serif">{elements}</svg>'
     )
 
 
-def _elements(frame: Frame, chart: Chart, name: str, title: str, trials: TrialPositions, label_size: float) -> str:
+def _elements(frame: FluidFrame, chart: Chart, title: str, trials: TrialPositions, label_size: float) -> str:
     """Return the elements of the picture, from the back to the front."""
     below = "".join(draw_area(frame, each) for each in chart.areas)
     below += "".join(draw_rule(frame, each) for each in chart.rules)
@@ -72,7 +65,7 @@ def _elements(frame: Frame, chart: Chart, name: str, title: str, trials: TrialPo
     return "".join(
         (
             *draw_axes(frame),
-            frame.clip(name, frame.stretch(below) + dots + curves),
+            frame.clip(frame.stretch(below) + dots + curves),
             *(draw_marks(frame, curve) for curve in chart.curves if curve.beyond),
             *(draw_note(frame, note) for note in chart.notes),
             *draw_labels(frame, title, label_size),

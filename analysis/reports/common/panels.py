@@ -1,13 +1,12 @@
 """Small figures of one size that a page lays out side by side, or below each other on a narrow screen.
 
-Text is never below 8 pt of a figure's own size. A figure fills what it stands in, so on a screen 390 px wide, of which
-366 are the page's, text of 8 pt in the widest panel is 9 px high.
+A figure fills what it stands in, and its text is at least 11 px high at any width.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from markupsafe import Markup
@@ -15,12 +14,9 @@ from markupsafe import Markup
 from ..interactive.charts import Drawing, Marker
 from .colours import Look
 
-if TYPE_CHECKING:
-    pass
-
-PANEL_WIDTH = 3.4  # in; three in the page's column
+PANEL_WIDTH = 3.24  # in of 99 px; three in the page's column
 PANEL_HEIGHT = 2.5  # in
-HALF_WIDTH = 4.5  # in; two in the page's column
+HALF_WIDTH = 4.95  # in; two in the page's column
 SWATCH = 6.0  # px, the size of a mark in a legend
 KILOMETRES = 1e4  # m, from which on lengths are in km
 

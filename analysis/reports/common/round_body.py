@@ -64,6 +64,14 @@ def track_angles(
     return along, across
 
 
+def downrange(position: np.ndarray, radius: float, target: np.ndarray | None = None) -> np.ndarray:
+    """How far (m) along the ground positions, [3, n], are past the target, as `track_angles` has it.
+
+    In figures it grows to the right: flights begin at the left, where it is negative, and end near 0.
+    """
+    return radius * track_angles(position, radius, target)[0]
+
+
 def track_normal(position: np.ndarray, centre: Sequence[float]) -> np.ndarray:
     """The unit normal, [3], of the great circle that fits a track of positions, [3, n], around a ``centre`` best.
 
@@ -81,15 +89,3 @@ def _normal(direction: np.ndarray, up: np.ndarray) -> np.ndarray:
     if np.linalg.norm(normal) < 1e-12:
         normal = np.cross(up, [1.0, 0.0, 0.0])
     return normal / np.linalg.norm(normal)
-
-
-def ground_range(position: np.ndarray, radius: float) -> np.ndarray:
-    """How far (m) along the ground positions, [3, n], are from the origin; nan for what is not finite.
-
-    Up to a quarter of the circumference the shortest way; beyond, along the great circle of the track, past half the
-    circumference too. Both are the same at a quarter, whatever lies across.
-    """
-    along, _ = track_angles(position, radius)
-    x, y, z = position
-    shortest = np.arctan2(np.hypot(x, y), z + radius)
-    return radius * np.where(np.abs(along) <= 0.5 * np.pi, shortest, np.abs(along))

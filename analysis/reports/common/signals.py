@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,12 +29,27 @@ def vector_of(name: str) -> str:
     return indexed[1] if indexed else name
 
 
+def axes_of(result: Result) -> Mapping[str, str]:
+    """The names of axes by signal, as the system of a run declares them."""
+    return result.provenance.get("axes", {})
+
+
+def displayed_name(name: str, axes: Mapping[str, str]) -> str:
+    """A signal as pages name it: ``plant.position north`` for an element along a named axis, else by its own name."""
+    return f"{vector_of(name)} {axes[name]}" if name in axes else name
+
+
+def names_of_elements(names: Sequence[str], axes: Mapping[str, str]) -> tuple[str, ...]:
+    """The axes along which these elements are; none where one of them has no name."""
+    return tuple(axes[name] for name in names) if all(name in axes for name in names) else ()
+
+
 @dataclass(frozen=True)
 class SignalGroup:
     """A scalar, or the elements of a vector that share name, unit and type.
 
     ``component`` is empty for a connector of the system itself. ``indices`` are as written,
-    ``1`` or ``2,3``; empty for a scalar.
+    ``1`` or ``2,3``; empty for a scalar. ``labels`` are names of axes where all elements have one, else ``[1]`` ...
     """
 
     component: str
@@ -43,10 +58,25 @@ class SignalGroup:
     type: str
     names: tuple[str, ...]
     indices: tuple[str, ...]
+    labels: tuple[str, ...]
 
     @property
     def label(self) -> str:
         return f"{self.component}.{self.variable}" if self.component else self.variable
+
+    @property
+    def is_named(self) -> bool:
+        """True if its elements are along named axes."""
+        return bool(self.labels) and not self.labels[0].startswith("[")
+
+    @property
+    def axes(self) -> str:
+        """The axes of its elements in words, empty where they have no names."""
+        return ", ".join(self.labels) if self.is_named else ""
+
+    @property
+    def heading(self) -> str:
+        return f"{self.label} ({self.axes})" if self.is_named else self.label
 
     @property
     def is_real(self) -> bool:
@@ -59,7 +89,7 @@ class SignalGroup:
 
 def signal_groups(result: Result) -> list[SignalGroup]:
     """All signals in their order, elements of vectors grouped."""
-    components = result.provenance["fmus"]
+    components, axes = result.provenance["fmus"], axes_of(result)
     by_key: dict[tuple[str, str, str | None, str, bool], list[tuple[str, str]]] = {}
     for name in result.signals:
         component, variable = split_name(name, components)
@@ -71,7 +101,8 @@ def signal_groups(result: Result) -> list[SignalGroup]:
     for (component, variable, unit, kind, _), elements in by_key.items():
         names = tuple(name for name, _ in elements)
         indices = tuple(index for _, index in elements if index)
-        groups.append(SignalGroup(component, variable, unit, kind, names, indices))
+        labels = names_of_elements(names, axes) or tuple(f"[{index}]" for index in indices)
+        groups.append(SignalGroup(component, variable, unit, kind, names, indices, labels))
     return groups
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -10,16 +11,17 @@ import numpy as np
 
 from ...campaigns.compare.comparison import Contender
 from ...campaigns.verdicts.order_statistics import quantiles
-from ..campaign.recorded_names import find_vector, variable_of, vectors
+from ..campaign.recorded_names import LETTERS, AxisNames, axes_of, find_vector, variable_of, vectors
 from ..chart.axes import linear_axis
 from ..chart.equal import Ends as Pair
 from ..chart.equal import to_scale
 from ..chart.lines import line
 from ..chart.marks import note_above
 from ..chart.panel import POINTS, chart_panel
-from ..chart.symbols import mark, marker, marks
+from ..chart.symbols import arrow, mark, marker, marks
 from ..common.colours import FAINT, INK, Look
 from ..common.panels import PANEL_WIDTH, Panel, far
+from ..common.quantities import number
 from ..interactive.charts import NO_BOX, Chart, Curve
 from .recorded import ALL
 
@@ -37,13 +39,14 @@ class Target:
 
 @dataclass(frozen=True)
 class Ends:
-    """Errors at the end of a contender's flights: final less target, trials by elements, SI."""
+    """Errors at the end of a contender's flights: final less target, trials by elements along ``axes``, SI."""
 
     signal: str
     variable: str
     target: str
     errors: np.ndarray
     success: np.ndarray
+    axes: AxisNames = LETTERS
 
 
 def target_of(contender: Contender, variable: str) -> Target:
@@ -68,12 +71,14 @@ def ends_of(contender: Contender, variable: str) -> Ends | None:
         return None
     target = target_of(contender, variable)
     finals = np.stack([contender.trials.final[name] for name in vector], axis=1)
-    return Ends(vector[0].removesuffix("[1]"), variable, target.name, finals - target.values, contender.trials.success)
+    signal, axes = vector[0].removesuffix("[1]"), axes_of(contender.stored.document, vector)
+    return Ends(signal, variable, target.name, finals - target.values, contender.trials.success, axes)
 
 
 SIGMAS = (1.0, 2.0, 3.0)
 RADII = (0.5, 0.99)  # fractions of the trials that end within the distances shown
-UNEVEN = 4.0  # scales that differ by more are shown a second time, each contender to its own
+BULK, UNEVEN = 0.9, 6.0  # of the trials of the least dispersed contender; of their extent, what the scale is at most
+EDGE, ARROW = 0.9, 10.0  # of the way to the edge, from which on an arrow points out; its length, pt
 HEIGHT = 3.1  # in
 
 
@@ -120,21 +125,22 @@ def ellipse(good: np.ndarray, sigma: float) -> np.ndarray:
     return good[:, :2].mean(axis=0)[:, np.newaxis] + sigma * directions @ circle
 
 
-def dispersion_panels(
-    ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: str, name: str
-) -> tuple[list[Panel], list[Panel]]:
-    """Panels to one scale; and, where these differ much, each to its own."""
-    reaches = {label: reach_of(points) for label, points in ends.items()}
-    maximum = max(reaches.values())
-    uneven = maximum > UNEVEN * min(reaches.values())
-    numbered = [(i, *item) for i, item in enumerate(ends.items())]
-    common = [_panel(label, points, styles[label], maximum, unit, f"{name}-{i}") for i, label, points in numbered]
-    own = [
-        _panel(label, points, styles[label], reaches[label], unit, f"{name}-own-{i}")
-        for i, label, points in numbered
-        if uneven
+def dispersion_panels(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: str, name: str) -> list[Panel]:
+    """Panels to one scale."""
+    extent = common_extent(ends)
+    return [
+        _panel(label, points, styles[label], extent, unit, f"{name}-{index}")
+        for index, (label, points) in enumerate(ends.items())
     ]
-    return common, own
+
+
+def common_extent(ends: Mapping[str, Ends]) -> float:
+    """How far from the target all panels go: as the farthest successful trial or 3-sigma ellipse of a contender, at
+    most `UNEVEN` times the distance within which `BULK` of the successful trials of the least dispersed one end.
+    """
+    extents = [extent_of(each) for each in ends.values()]
+    limit = UNEVEN * min(bulk for _, bulk in extents)
+    return 1.08 * min([max(extent for extent, _ in extents), *([limit] if limit else [])]) or 1.0
 
 
 def select_ends(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
@@ -143,23 +149,24 @@ def select_ends(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
     return ends.errors[finite & ends.success], ends.errors[finite & ~ends.success]
 
 
-def reach_of(ends: Ends) -> float:
-    """How far from the target a contender's panel goes: its successful trials and 3-sigma ellipse, if any."""
+def extent_of(ends: Ends) -> tuple[float, float]:
+    """How far from the target successful trials and the 3-sigma ellipse go, and how far `BULK` of the trials."""
     good, bad = select_ends(ends)
-    points = good if good.size else bad
-    values = [np.abs(points[:, :2]).ravel()]
-    if len(good) > 1:
-        values.append(np.abs(ellipse(good, SIGMAS[-1])).ravel())
-    largest = float(np.max(np.concatenate(values), initial=0.0))
-    return 1.08 * largest or 1.0
+    away = np.max(np.abs((good if good.size else bad)[:, :2]), axis=1)
+    if not away.size:
+        return 0.0, 0.0
+    around = np.abs(ellipse(good, SIGMAS[-1])).max() if len(good) > 1 else 0.0
+    (bulk,) = quantiles(away, (BULK,)).tolist()
+    return float(max(away.max(), around)), bulk
 
 
-def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: str) -> Panel:
-    factor, displayed = far(np.array([reach])) if unit == "m" else (1.0, unit)
+def _panel(label: str, ends: Ends, style: Look, extent: float, unit: str, name: str) -> Panel:
+    factor, displayed = far(np.array([extent])) if unit == "m" else (1.0, unit)
     description = f"Final {ends.variable} of {label} about the target, with covariance ellipses"
     chart_of = partial(dispersion_chart, ends, style.colour, factor, displayed)
-    chart = _about_target(chart_of, factor * reach, displayed)
-    return chart_panel(label, name, description, chart, HEIGHT, title=f"y, {displayed}")
+    title = f"{ends.axes[1]}, {displayed}"
+    chart = _about_target(chart_of, factor * extent, title)
+    return chart_panel(label, name, description, chart, HEIGHT, title=title)
 
 
 def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: Pair, y_ends: Pair) -> Chart:
@@ -177,12 +184,28 @@ def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: 
             x, y = ellipse(good, sigma)
             curves.append(line(x, y, INK, width=0.9))
         curves.append(_mean(good, INK))
-    limit = np.array([x_ends[1], y_ends[1]])
-    outside = int(np.sum(np.any(np.abs(bad[:, :2]) > limit, axis=1)))
+    failed, successful = (_outside(points[:, :2], x_ends, y_ends) for points in (bad, good))
+    outside, notes = np.concatenate([failed, successful]), []
+    if outside.size:
+        which = f" ({len(failed)} failed)" if successful.size and failed.size else " (failed)" if failed.size else ""
+        farthest = number(float(np.hypot(*outside.T).max()), 3)
+        notes.append(f"{len(outside)} outside{which}, farthest {farthest} {unit}")
+        curves.append(_arrow_out(outside, colour if successful.size else FAINT, x_ends, y_ends))
     missing = len(ends.errors) - len(good) - len(bad)
-    notes = [f"{outside} failed outside"] if outside else []
     notes += [f"{missing} without an end"] if missing else []
-    return _chart(curves, unit, x_ends, y_ends, ", ".join(notes))
+    return _chart(curves, f"{ends.axes[0]}, {unit}", x_ends, y_ends, "; ".join(notes))
+
+
+def _outside(points: np.ndarray, x_ends: Pair, y_ends: Pair) -> np.ndarray:
+    """The points, [n, 2], beyond the ends of axes about the target."""
+    return points[np.any(np.abs(points) > [x_ends[1], y_ends[1]], axis=1)]
+
+
+def _arrow_out(outside: np.ndarray, colour: str, x_ends: Pair, y_ends: Pair) -> Curve:
+    """An arrow at the edge of the axes in the direction of the farthest point outside."""
+    x, y = outside[np.argmax(np.hypot(*outside.T))].tolist()
+    inward = EDGE / max(abs(x) / x_ends[1], abs(y) / y_ends[1])
+    return arrow((inward * x, inward * y), math.atan2(y, x), ARROW, colour)
 
 
 def _mean(good: np.ndarray, colour: str) -> Curve:
@@ -190,29 +213,29 @@ def _mean(good: np.ndarray, colour: str) -> Curve:
     return mark(x, y, marker("+", 8.0, colour, width=1.4))
 
 
-def _chart(curves: Sequence[Curve], unit: str, x_ends: Pair, y_ends: Pair, note: str = "") -> Chart:
+def _chart(curves: Sequence[Curve], label: str, x_ends: Pair, y_ends: Pair, note: str = "") -> Chart:
     return Chart(
         NO_BOX,
-        linear_axis(x_ends, 4, label=f"x, {unit}"),
+        linear_axis(x_ends, 4, label=label),
         linear_axis(y_ends, 4),
         curves=[*curves, mark(0.0, 0.0, TARGET)],
         notes=[note_above(note)] if note else [],
     )
 
 
-def _about_target(chart_of: Callable[[Pair, Pair], Chart], reach: float, unit: str) -> Chart:
-    """Return a chart to scale that contains a square about the target, ``reach`` in ``unit``."""
-    square = (-reach, reach)
-    return to_scale(chart_of, square, square, POINTS * PANEL_WIDTH, POINTS * HEIGHT, title=f"y, {unit}")
+def _about_target(chart_of: Callable[[Pair, Pair], Chart], extent: float, title: str) -> Chart:
+    """Return a chart to scale that contains a square about the target, ``extent`` as displayed; ``title`` above it."""
+    square = (-extent, extent)
+    return to_scale(chart_of, square, square, POINTS * PANEL_WIDTH, POINTS * HEIGHT, title=title)
 
 
 def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: str, name: str) -> list[Panel]:
     """Mean and 3-sigma ellipse of each contender about the target; none of a single one."""
     if len(ends) < 2:
         return []
-    with_ellipse = [each for each in ends.values() if len(select_ends(each)[0]) > 1] or ends.values()
-    reach = max(map(reach_of, with_ellipse))
-    factor, displayed = far(np.array([reach])) if unit == "m" else (1.0, unit)
+    with_ellipse = [(label, each) for label, each in ends.items() if len(select_ends(each)[0]) > 1] or ends.items()
+    extent = common_extent(dict(with_ellipse))
+    factor, displayed = far(np.array([extent])) if unit == "m" else (1.0, unit)
     ellipses, means = [], []
     for label, each in ends.items():
         good, style = factor * select_ends(each)[0], styles[label]
@@ -220,7 +243,25 @@ def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], unit: st
         ellipses.append(line(x, y, style.colour, dashes=style.lengths))  # by index, as the legend hides them
         if len(good) > 1:
             means.append(_mean(good, style.colour))
-    what = next(iter(ends.values())).variable
-    chart = _about_target(partial(_chart, [*ellipses, *means], displayed), factor * reach, displayed)
+    first = next(iter(ends.values()))
+    what, (across, title) = first.variable, (f"{axis}, {displayed}" for axis in first.axes[:2])
+    chart = _about_target(partial(_overlaid_chart, ellipses, means, displayed, across), factor * extent, title)
     description = f"Final {what} about the target: 3-sigma ellipses, {ALL}"
-    return [chart_panel(f"final {what}, {ALL}", name, description, chart, HEIGHT, title=f"y, {displayed}")]
+    return [chart_panel(f"final {what}, {ALL}", name, description, chart, HEIGHT, title=title)]
+
+
+def _overlaid_chart(
+    ellipses: Sequence[Curve], means: Sequence[Curve], unit: str, across: str, x_ends: Pair, y_ends: Pair
+) -> Chart:
+    """Return ellipses about the target, with an arrow to each that leaves the frame."""
+    outside = [
+        (curve.colour, points)
+        for curve in ellipses
+        if (points := _outside(np.stack([curve.x, curve.displayed], axis=1), x_ends, y_ends)).size
+    ]
+    note = ""
+    if outside:
+        farthest = number(max(float(np.hypot(*points.T).max()) for _, points in outside), 3)
+        note = f"{len(outside)} of {len(ellipses)} reach outside, farthest {farthest} {unit}"
+    arrows = [_arrow_out(points, colour, x_ends, y_ends) for colour, points in outside]
+    return _chart([*ellipses, *means, *arrows], across, x_ends, y_ends, note)

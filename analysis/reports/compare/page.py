@@ -12,7 +12,7 @@ from ...campaigns.compare.comparison import Comparison, name_of
 from ...campaigns.definition.campaign import Metric
 from ...campaigns.judged import MetricLimits, worst_row
 from ...campaigns.summary import SummaryRow
-from ..campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, names_of_record, variable_of
+from ..campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, LETTERS, AxisNames, names_of_record, variable_of
 from ..campaign.tables import HEADINGS, anchors_of, fmu_rows, group_rows, variant_rows
 from ..campaign.verdict_table import axis_start, verdict_table
 from ..common.colours import Look
@@ -20,7 +20,7 @@ from ..common.page import write_page
 from ..common.panels import Panel, swatch
 from .bands import band_panels, bands_of, expectation, overlaid_bands
 from .differences import significant_differences
-from .dispersions import UNITS, Dispersion, dispersion, dispersion_panels, ends_of, overlaid_ends
+from .dispersions import BULK, UNEVEN, UNITS, Dispersion, dispersion, dispersion_panels, ends_of, overlaid_ends
 from .metrics import (
     LIMITS,
     MASS,
@@ -53,15 +53,15 @@ class History:
 
 @dataclass(frozen=True)
 class End:
-    """Final positions or velocities: all contenders in a panel, to one scale and to own scales, rows of the table."""
+    """Final positions or velocities: all contenders in a panel, a panel of each to one scale, rows of the table."""
 
     what: str
     unit: str
     signal: str
+    axes: AxisNames
     targets: list[str]
     together: list[Panel]
-    common: list[Panel]
-    own: list[Panel]
+    panels: list[Panel]
     rows: dict[str, Dispersion]
 
 
@@ -112,10 +112,13 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         side=side_panels(bundles, analyses) if bundles else [],
         plan=plan_panels(bundles, analyses) if bundles else [],
         radius=next((bundle.radius for bundle in bundles.values() if bundle.radius is not None), None),
+        plan_axes=next((bundle.axes for bundle in bundles.values()), LETTERS),
         over_ground=all(bundle.over_ground for bundle in bundles.values()),
         flights={label: len(flight) for label, flight in flights.items()},
         most_drawn=DRAWN,
         ends=ends,
+        uneven=UNEVEN,
+        bulk=BULK,
         distributions=[distribution_panel(metric, displayed[metric], analyses) for metric in judged],
         other_distributions=[
             distribution_panel(metric, displayed[metric], analyses) for metric in plotted if metric not in judged
@@ -195,15 +198,14 @@ def _end(comparison: Comparison, variable: str, looks: Mapping[str, Look]) -> En
     }
     if not ends:
         return None
-    common, own = dispersion_panels(ends, looks, UNITS[variable], f"end-{variable}")
     return End(
         what=variable,
         unit=UNITS[variable],
         signal=", ".join(dict.fromkeys(point.signal for point in ends.values())),
+        axes=next(iter(ends.values())).axes,
         targets=list(dict.fromkeys(point.target for point in ends.values())),
         together=overlaid_ends(ends, looks, UNITS[variable], f"end-{variable}-all"),
-        common=common,
-        own=own,
+        panels=dispersion_panels(ends, looks, UNITS[variable], f"end-{variable}"),
         rows={label: dispersion(point) for label, point in ends.items()},
     )
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...campaigns.compare.comparison import Contender
-from ...campaigns.execute.metadata import Provenance
+from ...campaigns.folder.provenance import Provenance
 from ..campaign.recorded_names import (
     COMMANDS,
     CONSISTENCY,

@@ -12,7 +12,7 @@ from markupsafe import Markup
 from ...campaigns.compare.comparison import Comparison, name_of
 from ...campaigns.compare.paired import PairedRates, PairedValues
 from ...campaigns.definition.campaign import Metric
-from ...campaigns.execute.manifest import FILE as MANIFEST
+from ...campaigns.folder.manifest import FILE as MANIFEST
 from ...commands.campaigns import replay_of_folder
 from ..campaign.tables import FAILURES, Replay, with_anchors, worst_reasons
 from ..campaign.verdict_table import VerdictTable

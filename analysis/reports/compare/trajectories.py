@@ -9,7 +9,16 @@ from functools import partial
 import numpy as np
 
 from ...campaigns.compare.comparison import Contender
-from ..campaign.recorded_names import find_vector, names_of_record, owner_of, variable_of
+from ..campaign.recorded_names import (
+    LETTERS,
+    AxisNames,
+    axes_of,
+    axis_of,
+    find_vector,
+    names_of_record,
+    owner_of,
+    variable_of,
+)
 from ..chart.axes import linear_axis
 from ..chart.equal import Ends, to_scale
 from ..chart.lines import line
@@ -18,7 +27,8 @@ from ..chart.panel import POINTS, chart_panel
 from ..chart.symbols import mark
 from ..common.colours import GRID, INK, Look
 from ..common.panels import PANEL_HEIGHT, PANEL_WIDTH, Panel, far
-from ..common.round_body import radius_of, track_angles
+from ..common.round_body import downrange, radius_of
+from ..common.signals import displayed_name
 from ..interactive.charts import NO_BOX, Axis, Chart, Curve
 from ..interactive.measures import FAILED_DASHES
 from .dispersions import TARGET, target_of
@@ -46,12 +56,14 @@ class Bundle:
     """The paths of one contender, the horizontal place of its target, and what its height is called.
 
     ``radius`` (m) is that of the body over whose ground downrange goes; None where no altitude shows that it is round.
+    ``axes`` are those of the frame of positions.
     """
 
     paths: list[Path]
     target: np.ndarray
     height: str
     radius: float | None
+    axes: AxisNames = LETTERS
 
     @property
     def over_ground(self) -> bool:
@@ -87,9 +99,12 @@ def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
     radius = next((fit for fit in fits if fit is not None), None)  # of all flights: they are drawn in one figure
     paths = []
     for success, path, heights, aim in plotted:
-        along = _along(path[:2], aim[:2]) if radius is None else radius * track_angles(path, radius, aim)[0]
+        along = _along(path[:2], aim[:2]) if radius is None else downrange(path, radius, aim)
         paths.append(Path(success, along, heights, path[:2]))
-    return Bundle(paths, target.values[0, :2], height, radius) if paths else None
+    if not paths:
+        return None
+    title = displayed_name(height, {name: axis for name in position if (axis := axis_of(document, name))})
+    return Bundle(paths, target.values[0, :2], title, radius, axes_of(document, position))
 
 
 def _along(plan: np.ndarray, target: np.ndarray) -> np.ndarray:
@@ -138,13 +153,14 @@ def plan_panels(bundles: Mapping[str, Bundle], styles: Mapping[str, Look]) -> li
     x_scale, x_unit = far(np.concatenate([x, y]) if is_to_scale else x)
     y_scale, y_unit = (x_scale, x_unit) if is_to_scale else far(y)
     x_ends, y_ends = _limits(x_scale * x), _limits(y_scale * y)
-    title = f"y, {y_unit}"
+    axes = next(iter(bundles.values())).axes
+    title = f"{axes[1]}, {y_unit}"
     panels = []
     for index, (label, bundle) in enumerate(bundles.items()):
         paths = [(x_scale * path.plan[0], y_scale * path.plan[1], path.success) for path in bundle.paths]
         target = mark(x_scale * bundle.target[0], y_scale * bundle.target[1], TARGET)
         curves = [*(_line(path, styles[label].colour) for path in paths), target]
-        chart_of = partial(_plan_chart, curves, x_unit)
+        chart_of = partial(_plan_chart, curves, f"{axes[0]}, {x_unit}")
         if is_to_scale:
             chart = to_scale(chart_of, x_ends, y_ends, POINTS * PANEL_WIDTH, POINTS * PANEL_HEIGHT, title=title)
         else:
@@ -154,8 +170,8 @@ def plan_panels(bundles: Mapping[str, Bundle], styles: Mapping[str, Look]) -> li
     return panels
 
 
-def _plan_chart(curves: Sequence[Curve], unit: str, x_ends: Ends, y_ends: Ends) -> Chart:
-    return Chart(NO_BOX, linear_axis(x_ends, 5, label=f"x, {unit}"), linear_axis(y_ends, 5), curves=curves)
+def _plan_chart(curves: Sequence[Curve], label: str, x_ends: Ends, y_ends: Ends) -> Chart:
+    return Chart(NO_BOX, linear_axis(x_ends, 5, label=label), linear_axis(y_ends, 5), curves=curves)
 
 
 def _line(path: Polyline, colour: str) -> Curve:

@@ -10,15 +10,15 @@ import numpy as np
 from ...runtime.flight.results import Flight
 from ...runtime.ssp.conversions import Unit
 from ..common.quantities import display_factor
-from ..common.round_body import ground_range
+from ..common.round_body import downrange
 
 
 @dataclass(frozen=True)
 class Signal:
     """A Real or Integer scalar, or a vector of them, in the unit of a figure.
 
-    ``label`` is its name, ``names`` those of its elements in the record. A recorded value x of element k stands for
-    ``factor`` * x + ``offsets[k]`` in ``unit``, None where there is none.
+    ``label`` is its name on pages, ``names`` those of its elements in the record. A recorded value x of element k
+    stands for ``factor`` * x + ``offsets[k]`` in ``unit``, None where there is none.
     """
 
     label: str
@@ -44,7 +44,7 @@ class Signal:
 
 @dataclass(frozen=True)
 class Arc:
-    """Ground range of a ``position`` from the origin of its frame, see common/round_body.py.
+    """Downrange of a ``position`` from the origin of its frame, see common/round_body.py.
 
     The origin is on a sphere of ``radius`` (m) around (0, 0, -radius); the position has three elements in m.
     """
@@ -54,7 +54,7 @@ class Arc:
 
     @property
     def label(self) -> str:
-        return f"range of {self.position.label}"
+        return f"downrange of {self.position.label}"
 
     @property
     def unit_name(self) -> str:
@@ -62,7 +62,7 @@ class Arc:
 
     def plot_values(self, flight: Flight) -> np.ndarray:
         """Values to be plotted, in m, as of a scalar; nan where not finite."""
-        return ground_range(self.position.plot_values(flight), self.radius)[None]
+        return downrange(self.position.plot_values(flight), self.radius)[None]
 
 
 @dataclass(frozen=True)
@@ -137,10 +137,11 @@ class Band(Figure):
 
     @property
     def line_names(self) -> tuple[str, ...]:
-        """The names of the elements of what is plotted: those of the signal unless something was subtracted from it."""
-        if self.less is None and not any(self.signal.offsets):
-            return self.signal.names
-        return tuple(f"{self.title} {label}".rstrip() for label in self.labels)
+        """The names of the elements of what is plotted: a scalar is the signal unless something is subtracted."""
+        if len(self.labels) > 1:
+            return self.labels
+        is_signal = self.less is None and not any(self.signal.offsets)
+        return (self.signal.label if is_signal else f"{self.title} {self.labels[0]}".rstrip(),)
 
     def plot_values(self, flight: Flight) -> np.ndarray:
         """The same values to be plotted: angles in deg, nan where not finite."""

@@ -144,7 +144,7 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
 
     def chart(which: Sequence[int], intervals: int = 6) -> Chart:
         lines = [
-            quantity_curve(time, values[index], curve.signals[index].label, unit_name, index if curve.together else 0)
+            quantity_curve(time, values[index], curve.labels[index], unit_name, index if curve.together else 0)
             for index in which
         ]
         limits = [display_factor(unit_name) * limit for limit in (curve.low, curve.high) if limit is not None]

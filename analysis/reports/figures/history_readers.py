@@ -93,7 +93,7 @@ def read_curve(reader: SignalReader, element: etree._Element) -> Curve:
     return Curve(
         title=reader.title(element, attributes["signals"]),
         signals=tuple(signals),
-        labels=labels or tuple(names),
+        labels=labels or tuple(signal.label for signal in signals),
         low=low,
         high=high,
         together=reader.truth(element, "together"),

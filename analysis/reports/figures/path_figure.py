@@ -13,7 +13,7 @@ from ...runtime.flight.results import Result
 from ..chart.axes import linear_axis
 from ..chart.equal import Ends, to_scale
 from ..chart.marks import level
-from ..chart.panel import POINTS, chart_panel, fluid_figure
+from ..chart.panel import POINTS, chart_panel, wide_figure
 from ..chart.quantity import quantity_curve
 from ..chart.symbols import marker, marks
 from ..chart.ticks import axis_ends
@@ -46,7 +46,6 @@ def path_section(path: Path, result: Result, name: str) -> Section:
 
     ends = path_ends(path, position, others)
     chart_of = partial(path_chart, path, result.time[rows], position, others, _axis(path.x, scales[0]))
-    beyond = isinstance(path.x, Arc) and bool(np.nanmax(x, initial=0.0) > 0.5 * np.pi * path.x.radius)
     description = f"{path.title}: {path.y.label} over {path.x.label}"
     panels, plot = [], None
     if path.equal:
@@ -54,13 +53,13 @@ def path_section(path: Path, result: Result, name: str) -> Section:
         panels = [chart_panel(title, name, description, chart, EQUAL_HEIGHT, HALF_WIDTH)]
     else:
         chart = chart_of(*ends, WIDE_INTERVALS)
-        plot = fluid_figure(name, description, chart, HEIGHT, title=title)
+        plot = wide_figure(name, description, chart, HEIGHT, title=title)
     return Section(
         title=path.title,
         panels=panels,
         plot=plot,
         legend=[(mark_swatch(_final_mark(index)), each.name) for index, each in enumerate(path.points, 1)],
-        notes=[_caption(path, beyond), *path.notes],
+        notes=[_caption(path), *path.notes],
     )
 
 
@@ -135,7 +134,7 @@ def _axis(signal: Signal | Arc, scale: float) -> str:
     return label_with_unit(signal.label, "km" if scale != 1.0 else display_unit(signal.unit_name))
 
 
-def _caption(path: Path, beyond: bool) -> Markup:
+def _caption(path: Path) -> Markup:
     text = Markup("circle: end")
     if path.points:
         names = ", ".join(f"{point.name} ({point.x.label}, {point.y.label})" for point in path.points)
@@ -145,9 +144,8 @@ def _caption(path: Path, beyond: bool) -> Markup:
     scale = Markup("equal scales") if path.equal else Markup("not to scale")
     text = Markup("{}; {}").format(text, scale)
     if isinstance(path.x, Arc):
-        text = Markup("{}; range: ground range of {} from the origin").format(text, path.x.position.label)
-        if beyond:
-            text = Markup("{}, along the great circle of the track beyond a quarter of the circumference").format(text)
+        words = "{}; downrange: way of {} along the great circle of its track, 0 at the origin, growing in flight"
+        text = Markup(words).format(text, path.x.position.label)
     if _over_ground(path):
         text = Markup("{}; black line: surface").format(text)
     return sentence(text)

@@ -12,7 +12,7 @@ from markupsafe import Markup
 from ...runtime.flight.results import Flight, Result
 from ..chart.axes import lane_axis, linear_axis
 from ..chart.marks import SQUARE, instant
-from ..chart.panel import chart_panel, fluid_figure
+from ..chart.panel import chart_panel, wide_figure
 from ..common.colours import BLUE, INK, VERMILION
 from ..common.page import Table, exact
 from ..common.panels import HALF_WIDTH, Panel
@@ -183,7 +183,7 @@ def _panels(
     lanes = dict.fromkeys(span.name for span in spans)
     height, description = 0.75 + LANE * len(lanes), f"{phases.title}: {', '.join(lanes)} over time"
     if len(windows) == 1:
-        return [], fluid_figure(name, description, phase_chart(spans, statuses, windows[0], 10), height)
+        return [], wide_figure(name, description, phase_chart(spans, statuses, windows[0], 10), height)
     panels = []
     for index, window in enumerate(windows):
         begin, end = (number(each, 5) for each in window)

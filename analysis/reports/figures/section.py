@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from ...runtime.flight.results import Result
 from ..chart.axes import linear_axis
-from ..chart.panel import chart_panel, fluid_figure
+from ..chart.panel import chart_panel, wide_figure
 from ..common.colours import look
 from ..common.page import Table, data, exact
 from ..common.panels import HALF_WIDTH, Panel, swatch
@@ -74,7 +74,7 @@ def history_panel(label: str, name: str, description: str, unit: str, chart: Cha
 
 def wide_history(name: str, description: str, unit: str, chart: Chart) -> Drawing:
     """Return a plot over time as wide as the page, with the ``unit`` above its axes."""
-    return fluid_figure(name, description, chart, HEIGHT, title=unit)
+    return wide_figure(name, description, chart, HEIGHT, title=unit)
 
 
 def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:

@@ -14,6 +14,7 @@ from ...runtime.ssp.conversions import Unit
 from ...runtime.ssp.names import elements, split_name
 from ...runtime.ssp.types import WHOLE
 from ...runtime.system.prepared import PreparedSystem
+from ..common.signals import displayed_name, names_of_elements
 from .declared import Rows, Signal
 
 NUMBERS = ("Real", *WHOLE)
@@ -103,10 +104,13 @@ class SignalReader(AnnotationReader):
         return Rows(self.scalar(element, "where"), low, high)
 
     def labels(self, element: etree._Element, signal: Signal) -> tuple[str, ...]:
-        """The names of the elements of a vector: as declared, else by index; empty for a scalar."""
+        """The names of the elements of a vector: of the figure or its frame, else by index; empty for a scalar."""
         labels = tuple(element.get("labels", "").split())
+        if not labels and self.displayed(signal.names[0]) == signal.label:
+            return ("",)
         if not labels:
-            return tuple(name.removeprefix(signal.label) for name in signal.names)
+            axes = names_of_elements(signal.names, self.network.axes)
+            return axes or tuple(name.removeprefix(signal.label) for name in signal.names)
         self.check_size(element, f"labels has {len(labels)} names", len(labels), signal)
         return labels
 
@@ -115,6 +119,10 @@ class SignalReader(AnnotationReader):
         if size != len(signal.names):
             problem = f"{problem}, {signal.label} has {len(signal.names)} elements"
             raise self.unfit(element, signal.label, problem, "give as many")
+
+    def displayed(self, name: str) -> str:
+        """A signal's name as figures have it."""
+        return displayed_name(name, self.network.axes)
 
     def optional(self, element: etree._Element, attribute: str, read: Callable[[str], Signal]) -> Signal | None:
         """An optional signal; None with a note where a substituted FMU lacks it."""
@@ -130,7 +138,7 @@ class SignalReader(AnnotationReader):
         """One scalar of several in an attribute."""
         if name not in self.types or self.types[name] not in NUMBERS:
             raise self.unfit(element, name, f"{attribute} {name}: no such scalar", suggestion(name, self.types))
-        return Signal(name, (name,), self.network.unit_of(name), 1.0, (0.0,))
+        return Signal(self.displayed(name), (name,), self.network.unit_of(name), 1.0, (0.0,))
 
     def scalar(
         self,
@@ -169,7 +177,7 @@ class SignalReader(AnnotationReader):
         unit_of_first = self.network.unit_of(names[0])
         if any(self.network.unit_of(item) != unit_of_first for item in names):
             raise self.unfit(element, name, f"{what}: its elements differ in unit", "name one of them")
-        signal = Signal(name, names, unit_of_first, 1.0, (0.0,) * len(names))
+        signal = Signal(self.displayed(name), names, unit_of_first, 1.0, (0.0,) * len(names))
         if like is not None:
             self.check_size(element, f"{what} has {len(names)} elements", len(names), like)
             unit = like.unit

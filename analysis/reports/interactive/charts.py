@@ -1,19 +1,21 @@
 """A figure as numbers: the form of its axes, lines, areas and notes, from which the page's script draws them again.
 
 Titles, labels of axes and legends are not in it: they remain where the figure's picture has them. Fields with an empty
-default are left out of a page where they are empty.
+default are left out of a page where they are empty, those of `PICTURE` always.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 from markupsafe import Markup
 
 from .columns import Coarse
+
+PICTURE = {"picture": True}  # the metadata of a field that the picture alone is made of
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +24,7 @@ class Axis:
 
     ``label`` is what figures that share an abscissa have in common; ``named`` where texts are no numbers, ``bare``
     where ticks have none; ``size`` (pt) is that of the texts; ``grid`` and ``marked`` where ticks have lines, strokes;
-    ``few`` are the numbers of those ticks that a narrow screen has, where it has not all.
+    ``few`` are the numbers of those ticks that a figure has up to the width ``narrow`` (px), where it has not all.
     """
 
     label: str = ""
@@ -35,6 +37,7 @@ class Axis:
     grid: bool = False
     marked: bool = False
     few: Sequence[int] = ()
+    narrow: int | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -144,13 +147,14 @@ class Note:
 
 @dataclass(frozen=True)
 class Fluid:
-    """A figure as wide as the page: its axes keep their distances (px) from its left, top, right and bottom.
+    """A figure of any width: its axes keep their distances (px) from its left, top, right and bottom.
 
-    ``point``: px of a pt.
+    ``point``: px of a pt. ``to_scale``: its height follows its width, so that the axes keep the ratio of their lengths.
     """
 
     margins: tuple[float, float, float, float]
     point: float
+    to_scale: bool = field(default=False, metadata=PICTURE)
 
 
 NO_BOX = (0.0, 0.0, 0.0, 0.0)  # of a chart that has not been laid out
@@ -160,12 +164,12 @@ NO_BOX = (0.0, 0.0, 0.0, 0.0)  # of a chart that has not been laid out
 class Chart:
     """A pair of axes; ``box`` is left, top, width and height of their area as fractions of the figure.
 
-    With ``fluid`` margins they are those of a figure as wide as the page's column. The ``title`` stands above the axes.
+    With ``fluid`` margins they are those of a figure as wide as on a wide screen. The ``title`` stands above the axes.
 
     A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it.
     """
 
-    box: tuple[float, float, float, float]
+    box: tuple[float, float, float, float] = field(metadata=PICTURE)
     x: Axis
     y: Axis
     title: str = ""

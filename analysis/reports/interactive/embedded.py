@@ -11,7 +11,7 @@ import numpy as np
 from markupsafe import Markup
 
 from .bundles import policy, read_bundle
-from .charts import Chart
+from .charts import PICTURE, Chart
 from .columns import Coarse, Columns
 
 
@@ -76,7 +76,7 @@ class Embedded:
         if isinstance(node, Coarse):
             return self._columns.add(node.numbers, coarse=True)
         if is_dataclass(node):
-            entries = [(each, getattr(node, each.name)) for each in fields(node)]
+            entries = [(each, getattr(node, each.name)) for each in page_fields(type(node))]
             return {
                 each.name: self._plain(entry) for each, entry in entries if not (is_optional(each) and _is_empty(entry))
             }
@@ -85,6 +85,11 @@ class Embedded:
         if isinstance(node, list | tuple):
             return [self._plain(entry) for entry in node]
         return node
+
+
+def page_fields(declared: type) -> list[Field[Any]]:
+    """Return the fields of a dataclass that pages have."""
+    return [each for each in fields(declared) if each.metadata != PICTURE]
 
 
 def is_optional(declared: Field[Any]) -> bool:

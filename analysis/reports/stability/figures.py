@@ -45,13 +45,15 @@ def _plane_panel(label: str, name: str, description: str, chart: Chart, height: 
     return _panel(label, name, description, _to_scale(chart, PANEL_WIDTH, height), height)
 
 
-def _to_scale(chart: Chart, width: float, height: float) -> Chart:
+def _to_scale(chart: Chart, width: float, height: float, *, fluid: bool = True) -> Chart:
 
     def chart_of(x: Ends, y: Ends) -> Chart:
         abscissa = linear_axis(x, intervals(x[1] - x[0]), label=chart.x.label)
         return replace(chart, x=abscissa, y=linear_axis(y, 5))
 
-    return to_scale(chart_of, chart.x.ends, chart.y.ends, POINTS * width, POINTS * height, title=chart.title)
+    return to_scale(
+        chart_of, chart.x.ends, chart.y.ends, POINTS * width, POINTS * height, title=chart.title, fluid=fluid
+    )
 
 
 def sight_panels(loop: LoopReport, name: str) -> list[Panel]:
@@ -204,4 +206,4 @@ def loop_charts(loop: LoopReport, diagram: Diagram) -> list[Chart]:
     if diagram is Diagram.BODE:
         return list(bode_charts(loop))
     chart = single[diagram](loop)
-    return [_to_scale(chart, SIZE, SIZE) if diagram in (Diagram.NYQUIST, Diagram.POLES) else chart]
+    return [_to_scale(chart, SIZE, SIZE, fluid=False) if diagram in (Diagram.NYQUIST, Diagram.POLES) else chart]

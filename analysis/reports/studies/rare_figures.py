@@ -16,7 +16,7 @@ from ..chart import marks as shapes
 from ..chart.axes import fine_axis, lane_axis, linear_axis
 from ..chart.legend import legend_of
 from ..chart.lines import line
-from ..chart.panel import chart_panel, fluid_figure
+from ..chart.panel import chart_panel, wide_figure
 from ..chart.symbols import mark, marker, marks
 from ..chart.ticks import axis_ends
 from ..common.colours import BLUE, FAINT, INK, VERMILION
@@ -69,7 +69,7 @@ def level_spans(result: RareResult) -> list[Span]:
 def limit_state_figure(result: RareResult) -> Drawing:
     """Return the limit state of every simulation over its number."""
     words = f"Limit state of {result.flights} simulations in {len(result.simulation.levels)} levels"
-    return fluid_figure("limit-state", words, limit_state_chart(result), HEIGHT)
+    return wide_figure("limit-state", words, limit_state_chart(result), HEIGHT)
 
 
 def limit_state_chart(result: RareResult) -> Chart:
@@ -268,7 +268,7 @@ def interval_figure(result: RareResult) -> Drawing:
     """Return the interval of this study and those of Monte Carlo."""
     rows = equivalents(result)
     words, chart = f"{PERCENT} intervals of the probability", interval_chart(rows, result.probability)
-    return fluid_figure("interval", words, chart, 0.8 + 0.5 * len(rows))
+    return wide_figure("interval", words, chart, 0.8 + 0.5 * len(rows))
 
 
 def interval_chart(rows: Sequence[Equivalent], probability: float | None) -> Chart:

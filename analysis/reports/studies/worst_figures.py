@@ -16,7 +16,7 @@ from ..chart.axes import lane_axis, linear_axis, ticked_axis
 from ..chart.legend import Legend
 from ..chart.lines import line
 from ..chart.marks import instant, outline, rectangle
-from ..chart.panel import chart_panel, fluid_figure
+from ..chart.panel import chart_panel, wide_figure
 from ..chart.symbols import mark, marker, marks
 from ..chart.ticks import axis_ends
 from ..common.colours import BLUE, FAINT, GRID, INK, VERMILION, Look
@@ -98,7 +98,7 @@ def select_values(study: WorstResult, values: np.ndarray) -> np.ndarray:
 def search_figure(study: WorstResult) -> Drawing:
     """Return the objective over the points of the search, the worst so far, the phases."""
     words = f"{study.badness.text} at {objective_of(study).values.size} points of the search"
-    return fluid_figure("search", words, search_chart(study), HEIGHT)
+    return wide_figure("search", words, search_chart(study), HEIGHT)
 
 
 def search_chart(study: WorstResult) -> Chart:
@@ -274,7 +274,7 @@ def box_figure(study: WorstResult) -> Drawing:
     """Return where in the search box the worst case lies, a lane for each dispersed parameter."""
     lanes = box_lanes(study)
     words = f"The worst case within the search box of {len(lanes)} parameters"
-    return fluid_figure("box", words, box_chart(lanes), 0.7 + LANE * len(lanes))
+    return wide_figure("box", words, box_chart(lanes), 0.7 + LANE * len(lanes))
 
 
 RANDOM, WORST = marker("o", 7.0, INK, fill="#ffffff"), marker("D", 6.0, VERMILION)

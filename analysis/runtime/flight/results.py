@@ -22,6 +22,7 @@ from ...options.fault import Fault
 from ..ssp.given_values import ParameterValue
 from ..ssp.names import elements, split_name, vectors
 from ..ssp.types import WHOLE
+from ..system.arrays.axes import names_of_axes
 from ..system.inputs import DrivenInput, InputFacts
 from ..system.network import Network
 from ..system.passing.settings import Settings
@@ -117,6 +118,7 @@ class Provenance(TypedDict):
     algorithm: str
     input: NotRequired[DrivenInput]
     relative_quantities: NotRequired[list[str]]  # signals that are differences in their unit
+    axes: NotRequired[dict[str, str]]  # names of those signals that are elements along a named axis
     perilune: str
 
 
@@ -240,8 +242,9 @@ def provenance_of(
     faults: Sequence[Fault | None],
     signals: Iterable[str],
 ) -> Provenance:
-    """Return parameter values, hashes, options and version; which of the ``signals`` are differences, where any are."""
+    """Return values, hashes, options, version; which ``signals`` are differences or along named axes, where any are."""
     units = {name: prepared.network.unit_of(name) for name in signals}
+    axes = names_of_axes(prepared.network, units)
     relative = [name for name, unit in units.items() if unit is not None and unit.is_relative]
     provenance: Provenance = {
         "system": prepared.archive.name,
@@ -265,4 +268,8 @@ def provenance_of(
         **(prepared.drive.facts() if prepared.drive is not None else InputFacts()),
         "perilune": version("perilune"),
     }
-    return provenance | {"relative_quantities": relative} if relative else provenance
+    if relative:
+        provenance["relative_quantities"] = relative
+    if axes:
+        provenance["axes"] = axes
+    return provenance

@@ -89,7 +89,7 @@ def feedthrough_of_component(component: etree._Element, file: str) -> bool | Non
 
 
 PREFIX = "org.perilune."
-KINDS = ("bound", "feedthrough", "report", "stability", "step")
+KINDS = ("bound", "feedthrough", "frames", "report", "stability", "step")
 OURS = {f"{PREFIX}{name}": f"https://perilune.org/{name}" for name in KINDS}
 NEARLY = 0.9  # of difflib's ratio
 

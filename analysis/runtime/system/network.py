@@ -66,6 +66,7 @@ class Network:
     """The flat system. ``notes`` are remarks for `perilune validate`.
 
     ``mixed`` are connectors without an FMU that values and differences of values (relativeQuantity) are connected with.
+    ``frames`` are the names of the axes of frames that the SSD declares, ``axes`` those of the signals along them.
     """
 
     description: Description
@@ -76,6 +77,8 @@ class Network:
     notes: list[str] = field(default_factory=list)
     driven: dict[str, str] = field(default_factory=dict)  # inputs that a series drives, with its columns
     mixed: set[str] = field(default_factory=set)
+    frames: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    axes: dict[str, str] = field(default_factory=dict)
 
     @property
     def file(self) -> str:

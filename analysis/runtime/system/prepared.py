@@ -14,6 +14,7 @@ from ..ssp.archive import SystemArchive, open_system, read_fmu
 from ..ssp.description import System
 from ..ssp.reading import read_description
 from .alone import describe_alone
+from .arrays.axes import read_frames
 from .arrays.crosswise import crosswise_notes
 from .arrays.elements import expand_arrays
 from .assignments import collect_settings
@@ -168,6 +169,7 @@ def _read_network(fmus: ComponentFmus) -> tuple[Network, list[str]]:
     for slot in options.use:
         if slot not in network.fmus:
             raise InputError("`use`", slot, "no such component", suggestion(slot, network.fmus))
+    read_frames(network, options.use)
     _refuse_seconds(network)
     check_namesakes(network.fmus.values(), in_process=options.trust["in_process"])
     return network, remarks

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...campaigns.columns import describe_metrics
 from ...campaigns.definition.campaign import Metric
 from ...campaigns.definition.expressions import Expression
 from ...campaigns.definition.plan import BatchPlan
@@ -121,13 +122,14 @@ def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Express
     nothing = np.full(1, np.nan)
     metrics = {f"metric.{metric.name}": nothing for metric in plan.campaign.metrics}
     blank = TrialTable.of({"status": [""], "success": np.zeros(1, dtype=bool), **metrics})
+    blank = blank.described(describe_metrics(plan.campaign.metrics))
     variants = [variant.name for variant in plan.campaign.variants()]
     columns = dict.fromkeys(variants, blank)
     summary = {
         name: replace(
             entry, groups={group.label: replace(entry, value=group.value, requirements={}) for group in plan.groups}
         )
-        for name, entry in summarise(columns, plan.campaign.metrics, requirements=plan.campaign.requirements).items()
+        for name, entry in summarise(columns, requirements=plan.campaign.requirements).items()
     }
     known = requirement_values(summary)
     statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))

@@ -20,7 +20,7 @@ from ...campaigns.definition.sweeps import part_sweeps
 from ...campaigns.draws.given import ALL, GivenDraws
 from ...campaigns.execute.campaign import Campaign
 from ...campaigns.execute.cluster.tasks import WorkersDiedError
-from ...campaigns.execute.manifest import FILE as MANIFEST
+from ...campaigns.folder.manifest import FILE as MANIFEST
 from ...commands.campaigns import campaign_command, replay_command
 from ...options.fault import faults_of
 from ...options.option import FilePath

@@ -110,6 +110,8 @@ def _system_lines(document: Mapping[str, Any]) -> list[str]:
     lines = wrap(f"{document['system']}: {document['file']}, {times}", 4)
     for title in ("parameter_sets", "campaigns", "loops"):
         lines += wrap(f"{title.replace('_', ' '):{INDENT}}{', '.join(document[title]) or 'none'}", INDENT)
+    for name, axes in document["frames"].items():
+        lines += wrap(f"{'frame':{INDENT}}{name}: {', '.join(axes)}", INDENT)
     if document["connectors"]:
         connectors = ", ".join(f"{each['name']} ({each['kind']})" for each in document["connectors"])
         lines += wrap(f"{'connectors':{INDENT}}{connectors}", INDENT)

@@ -17,8 +17,8 @@ from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.definition.file import read_campaign
 from perilune.analysis.campaigns.definition.plan import read_plan
 from perilune.analysis.campaigns.draws.table import draw_table
-from perilune.analysis.campaigns.execute.metadata import batch_digest
 from perilune.analysis.campaigns.execute.runner import run_batch
+from perilune.analysis.campaigns.folder.provenance import batch_digest
 from perilune.analysis.campaigns.summary import requirement_values
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.common.errors import InputError

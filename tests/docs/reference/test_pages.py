@@ -5,6 +5,7 @@ Truth: argparse's own help, the public names, the pages' sources; a site with kn
 
 from __future__ import annotations
 
+import inspect
 import re
 import subprocess
 
@@ -82,6 +83,16 @@ def test_every_page_is_in_the_navigation(pages):
     assert sorted(listed) == sorted(written | set(pages))
 
 
+def test_the_site_has_four_doors():
+    """Those that README names; the derived reference is behind one of them, and README fits two screens."""
+    doors = [name for door in site_settings()["nav"] for name in door]
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert doors == re.findall(r"^- \*\*(.+?)\*\*: ", readme, re.MULTILINE) == ["Learn", "Do", "Look up", "Understand"]
+    (behind,) = [door["Look up"] for door in site_settings()["nav"] if "Look up" in door]
+    assert {"Reference": reference_navigation()} in behind
+    assert readme.count("\n") < 120
+
+
 def test_links_of_the_front_pages_lead_to_the_same_places(pages):
     """A link of README to docs/x.md is one to x.md from the site's top."""
     linked = set(re.findall(r"\]\(docs/([\w./-]+)", (ROOT / "README.md").read_text(encoding="utf-8")))
@@ -127,3 +138,16 @@ def test_no_file_holds_marks_of_a_merge():
         if path.is_file() and not path.is_symlink():
             text = path.read_bytes()
             assert not re.search(rb"^(<{7} |>{7} |\|{7} |={7}$)", text, re.MULTILINE), name
+
+
+@pytest.mark.parametrize("name", ["simulate", "batch", "stability", "compare"])
+def test_the_page_of_a_function_has_its_keywords(pages, name):
+    """Truth: the signature."""
+    page = pages["reference/python/flying.md"].split(f"::: perilune.{name}\n", 1)[1].split(":::")[0]
+    parameters = inspect.signature(getattr(perilune, name)).parameters.values()
+    keywords = {each.name: repr(each.default) for each in parameters if each.kind is each.KEYWORD_ONLY}
+    rows = {row[0]: row[1] for row in re.findall(r"^\| `(\w+)` \| (.*?) (?<!\\)\| ", page, re.MULTILINE)}
+    assert list(rows) == list(keywords)
+    given = {name: text for name, text in keywords.items() if text not in ("()", "{}", "mappingproxy({})")}
+    assert all(rows[name].endswith(f"default {escaped(text)}") for name, text in given.items())
+    assert f"perilune.{name}(" in page

@@ -76,6 +76,9 @@ def test_a_panel_for_each_vector_and_a_column_for_each_signal(monkeypatch):
         ("ship.mass", "deg", False, 1),
         ("ship.count", "", True, 1),
     ]
+    batch.provenance["signals"]["ship.position[3]"]["axis"] = "up"
+    named = embedded_flights(batch).document["panels"][0]["lines"]
+    assert [each["name"] for each in named] == ["ship.position[1]", "ship.position[2]", "up"]
     first = embedded.document["flights"][0]
     assert (first["variant"], first["trial"]) == ("one", 1)
     trace = batch.rows["one"].traces[1]

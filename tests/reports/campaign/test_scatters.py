@@ -1,6 +1,6 @@
 """A metric over another on the page of a batch, and how many trials saw each status.
 
-Truth: outcomes made by hand, whose marks are counted in the figure and whose places follow from its ticks.
+Truth: outcomes made by hand, whose marks are counted in the figure and whose ticks_at follow from its ticks.
 """
 
 import contextlib
@@ -64,15 +64,20 @@ def test_every_finite_trial_has_its_mark():
 def test_the_circle_is_round_and_to_scale():
     (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + CONTACTS))
     root = etree.fromstring(actual.panels[0].figure.svg)
-    (path,) = root.xpath("//*[local-name()='g'][@clip-path]/*[local-name()='path'][@stroke='#222222'][1]/@d")
+    wide, high = map(float, re.search(r"aspect-ratio:([\d.]+)/([\d.]+)", root.get("style")).groups())
+    path = next(path for path in root.xpath("//*[@stroke='#222222']/@d") if path.count("M") > 30)
     starts = np.array([re.findall(NUMBER, stroke)[:2] for stroke in path.split("M")[1:]], dtype=float)
     width, height = np.ptp(starts, axis=0)
-    places = {}  # of the texts at the abscissa's ticks, in points
+    view = root.xpath("//*[@viewBox][@width='100%'][@height='100%']/@viewBox")[0].split()
+    np.testing.assert_allclose([wide, high], list(map(float, view[2:])))
+    ticks_at = {}  # of the texts at the abscissa's ticks, px
     for text in root.xpath("//*[local-name()='g'][@text-anchor='middle']/*[local-name()='text']"):
         with contextlib.suppress(ValueError):
-            places[float(text.text.replace("\N{MINUS SIGN}", "-"))] = float(text.get("x"))
-    low, high = min(places), max(places)
-    scale = (places[high] - places[low]) / (high - low)
+            ticks_at[float(text.text.replace("\N{MINUS SIGN}", "-"))] = (
+                float(text.get("x").removesuffix("%")) / 100.0 * wide
+            )
+    low, high = min(ticks_at), max(ticks_at)
+    scale = (ticks_at[high] - ticks_at[low]) / (high - low)
     np.testing.assert_allclose([width, height], 20.0 * scale, rtol=5e-3)
 
 

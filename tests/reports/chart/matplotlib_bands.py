@@ -6,7 +6,7 @@ from perilune.analysis.reports.common.style import FAINT, house_style, new_figur
 from perilune.analysis.reports.compare.bands import Bands, Frame
 from perilune.analysis.reports.interactive.charts import Chart
 from tests.support.figures.axes import FAILED
-from tests.support.figures.inline_svg import inline_svg
+from tests.support.figures.read_figure import read_charts
 
 
 def read_bands(bands: Bands, frame: Frame, colour: str, *, is_stepped: bool) -> Chart:
@@ -34,5 +34,5 @@ def read_bands(bands: Bands, frame: Frame, colour: str, *, is_stepped: bool) -> 
         axes.set_ylim(frame.factor * (frame.low - margin), frame.factor * (frame.high + margin))
         axes.set_xlabel("time, s")
         plain_ticks(axes, x=5, y=5, whole_y=frame.held)
-        (chart,) = inline_svg(figure, "a", "a").charts
+        (chart,) = read_charts(figure, reduced=False)
     return chart

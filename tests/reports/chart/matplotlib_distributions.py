@@ -13,7 +13,7 @@ from perilune.analysis.reports.common.quantities import display_factor, label_wi
 from perilune.analysis.reports.common.style import Look, house_style, new_figure, plain_ticks
 from perilune.analysis.reports.interactive.charts import Chart
 from tests.support.figures.axes import log_ticks_x
-from tests.support.figures.inline_svg import inline_svg
+from tests.support.figures.read_figure import read_charts
 
 
 def read_distribution(metric: Metric, samples: Mapping[str, np.ndarray], styles: Sequence[Look]) -> Chart:
@@ -46,5 +46,5 @@ def read_distribution(metric: Metric, samples: Mapping[str, np.ndarray], styles:
         axes.set_ylim(-3.0, 103.0)
         axes.set_yticks([0, 25, 50, 75, 100])
         axes.set_xlabel(label_with_unit(metric.name, metric.unit))
-        (chart,) = inline_svg(figure, "a", "a").charts
+        (chart,) = read_charts(figure, reduced=False)
     return chart

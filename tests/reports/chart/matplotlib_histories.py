@@ -24,8 +24,8 @@ from perilune.analysis.reports.figures.declared import Band, Curve, Error
 from perilune.analysis.reports.figures.section import HEIGHT, select_rows
 from perilune.analysis.reports.interactive.charts import Chart
 from perilune.analysis.runtime.flight.results import Result
-from tests.support.figures.inline_svg import inline_svg
 from tests.support.figures.lines import plot_quantity
+from tests.support.figures.read_figure import read_charts
 
 
 def _read(unit: str, time: np.ndarray, draw: Callable[[Axes], None], width: float = HALF_WIDTH) -> Chart:
@@ -37,7 +37,7 @@ def _read(unit: str, time: np.ndarray, draw: Callable[[Axes], None], width: floa
         axes.set_xlabel("time, s")
         axes.set_title(unit, loc="left", pad=4)
         plain_ticks(axes, x=6 if width < WIDTH else 12, y=5)
-        (chart,) = inline_svg(figure, "a", "a").charts
+        (chart,) = read_charts(figure, reduced=False)
     return chart
 
 

@@ -14,15 +14,15 @@ from perilune.analysis.reports.figures.declared import Band, Path, Signal
 from perilune.analysis.reports.figures.section import select_rows
 from perilune.analysis.reports.interactive.charts import Chart
 from perilune.analysis.runtime.flight.results import Result
-from tests.support.figures.inline_svg import inline_svg
 from tests.support.figures.lines import plot_path, plot_quantity
+from tests.support.figures.read_figure import read_charts
 
 
 def _read(draw: Callable[[Axes], None], height: float, width: float) -> Chart:
     with house_style():
         figure = new_figure(height, width)
         draw(figure.subplots())
-        (chart,) = inline_svg(figure, "a", "a").charts
+        (chart,) = read_charts(figure, reduced=False)
     return chart
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,15 +17,26 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from lxml import etree
 
-from perilune.analysis.reports.chart.axes import bare_axis, lane_axis, linear_axis, logarithmic_axis
+from perilune.analysis.reports.chart.axes import (
+    bare_axis,
+    fine_axis,
+    lane_axis,
+    linear_axis,
+    logarithmic_axis,
+    named_axis,
+)
 from perilune.analysis.reports.chart.equal import to_scale
-from perilune.analysis.reports.chart.layout import lay_out
-from perilune.analysis.reports.chart.panel import chart_panel, fluid_figure
+from perilune.analysis.reports.chart.layout import NARROWS, lay_out_fluid
+from perilune.analysis.reports.chart.panel import chart_panel, wide_figure
 from perilune.analysis.reports.chart.quantity import quantity_curve
+from perilune.analysis.reports.chart.svg.fluid import POINT
 from perilune.analysis.reports.chart.symbols import arrow, marker, marks
 from perilune.analysis.reports.chart.write_svg import write_svg
+from perilune.analysis.reports.common import panels
+from perilune.analysis.reports.common.quantities import MINUS
 from perilune.analysis.reports.font.text import text_width
 from perilune.analysis.reports.interactive.charts import NO_BOX, Area, Backing, Chart, Dots, Note
+from tests.support.figures.fluid import position
 
 WIDTH, HEIGHT = 245.0, 180.0  # pt
 NUMBER = re.compile(r"-?(?:\d+\.?\d*|\.\d+)")
@@ -33,7 +45,7 @@ UNIT = linear_axis((0.0, 1.0), 4)
 
 def draw(chart, **options):
     """The laid out chart, and the root of its picture."""
-    placed = lay_out(chart, WIDTH, HEIGHT)
+    placed = lay_out_fluid(chart, WIDTH, HEIGHT)
     return placed, etree.fromstring(str(write_svg(placed, "a", "what it shows", WIDTH, HEIGHT, **options)))
 
 
@@ -44,9 +56,10 @@ def expected(axis, at, begin, length):
     return begin + (at - low) / (high - low) * length
 
 
-def inside(chart):
-    left, top, width, height = chart.box
-    return left * WIDTH, top * HEIGHT, width * WIDTH, height * HEIGHT
+def area_of(chart):
+    """Width and height (px) of the area of the axes, from whose corner positions count."""
+    left, top, right, bottom = chart.fluid.margins
+    return POINT * WIDTH - left - right, POINT * HEIGHT - top - bottom
 
 
 @st.composite
@@ -72,42 +85,46 @@ def test_positions(x, y, fractions):
     circles = marks(abscissas, ordinates, marker("o", 4.0, "#0072B2", fill="white"))
     note = Note("here", points[0], (False, False), (3.0, -2.0), ("left", "baseline"), "#222222", 9.0)
     placed, root = draw(Chart(NO_BOX, x, y, curves=[circles], notes=[note]))
-    left, top, width, height = inside(placed)
-    positions = [(expected(x, across, left, width), expected(y, up, top + height, -height)) for across, up in points]
+    width, height = area_of(placed)
+    positions = [(expected(x, across, 0.0, width), expected(y, up, height, -height)) for across, up in points]
     circles_in_picture = root.findall(".//{*}circle")
     assert len(circles_in_picture) == len(points)
-    for element, position in zip(circles_in_picture, positions, strict=True):
-        assert (float(element.get("cx")), float(element.get("cy"))) == pytest.approx(position, abs=0.06)
+    for element, at in zip(circles_in_picture, positions, strict=True):
+        assert position(element, (width, height)) == pytest.approx(at, abs=0.07)
     text = root.findall(".//{*}text")[-1]
     assert text.text == "here"
-    assert (float(text.get("x")) - 3.0, float(text.get("y")) - 2.0) == pytest.approx(positions[0], abs=0.02)
+    across, up = position(text, (width, height))
+    assert (across - 3.0 * POINT, up - 2.0 * POINT) == pytest.approx(positions[0], abs=0.03)
 
 
 @given(axes(), axes())
 def test_texts_of_ticks_lie_in_the_figure_and_do_not_overlap(x, y):
     assume(all(len(axis.ticks) > 1 for axis in (x, y)))
     placed, root = draw(Chart(NO_BOX, x, y))
-    left, top, width, height = inside(placed)
-    for group, axis in zip(root.findall("./{*}g"), (x, y), strict=False):
-        for element, (at, text) in zip(group.findall("{*}text"), axis.ticks, strict=False):
-            assert element.text == text
-            half = text_width(text, axis.size) / 2.0
-            if axis is x:
-                assert float(element.get("x")) == pytest.approx(expected(x, at, left, width), abs=0.02)
-                assert half - 0.1 <= float(element.get("x")) <= WIDTH - half + 0.1
-            else:
-                assert float(element.get("y")) - 0.365 * 8.0 == pytest.approx(
-                    expected(y, at, top + height, -height), abs=0.02
-                )
-                assert float(element.get("x")) - 2.0 * half >= 0.0
+    (left, _, right, _), (width, height) = placed.fluid.margins, area_of(placed)
+    texts = [each for each in root.iter("{*}text") if each.text]
+    ticks = [(axis, *tick) for axis in (placed.x, placed.y) for tick in axis.ticks if tick[1]]
+    assert sorted(each.text for each in texts) == sorted(text for *_, text in ticks)
+    for axis, at, text in ticks:
+        half = text_width(text, POINT * axis.size) / 2.0
+        is_up = axis is placed.y
+        expected_at = expected(axis, at, height if is_up else 0.0, -height if is_up else width)
+        texts_at = [position(each, (width, height)) for each in texts if each.text == text]
+        assert min(abs(each[is_up] - (0.365 * 11.0 if is_up else 0.0) - expected_at) for each in texts_at) < 0.03
+        if is_up:
+            assert 2.0 * half <= left
+        else:
+            assert half - left - 0.1 <= expected_at <= width + right - half + 0.1
 
 
 def test_marks_beyond_the_axes_are_left_out():
     rows = np.linspace(-1.0, 2.0, 31)
     _, root = draw(Chart(NO_BOX, UNIT, UNIT, curves=[marks(rows, rows, marker("s", 3.0, "#D55E00"))]))
     (path,) = [each for each in root.iter("{*}path") if each.get("fill") == "#d55e00"]
-    assert path.get("d").count("M") == np.count_nonzero((rows >= -1e-9) & (rows <= 1.0 + 1e-9)) == 11
-    assert path.get("d").count("z") == 11
+    key = path.getparent().get("id")
+    assert path.get("d").count("z") == 1
+    copies = [each for each in root.iter("{*}use") if each.get("href") == f"#{key}"]
+    assert len(copies) == np.count_nonzero((rows >= -1e-9) & (rows <= 1.0 + 1e-9)) == 11
 
 
 @pytest.mark.parametrize("trials", [0, 1, 40, 4000])
@@ -116,22 +133,21 @@ def test_dots_of_trials(trials, cross):
     x, y = np.random.default_rng(trials).uniform(-0.2, 1.2, (2, trials))
     dots = Dots(variant="nominal", names=("a", "b"), colour="#9a9a9a", size=3.0, cross=cross)
     placed, root = draw(Chart(NO_BOX, UNIT, UNIT, dots=[dots]), trials=lambda each: (x, y))
-    left, top, width, height = inside(placed)
-    positions = np.stack([left + width * x, top + height * (1.0 - y)], axis=1)
-    positions = positions[
-        np.all((positions > [left - 0.05, top - 0.05]) & (positions < [left + width + 0.05, top + height + 0.05]), 1)
-    ]
+    area = area_of(placed)
+    positions = np.array(area) * np.stack([x, 1.0 - y], axis=1)
+    positions = positions[np.all((positions > -0.05) & (positions < np.array(area) + 0.05), axis=1)]
     paths = [each for each in root.iter("{*}path") if each.get("stroke") == "#9a9a9a"]
     if not positions.size:
         assert not paths
         return
     (path,) = paths
-    begins = path.get("d").split("M")[1::2] if cross else path.get("d").split("m")[1:]
-    centres = np.array([NUMBER.findall(each)[:2] for each in begins]).astype(float)
     if cross:
-        centres += [1.5, -1.5]  # from the end of its first stroke to its middle
+        assert path.get("d").count("M") == 2
+        copies = list(root.iter("{*}use")) or [path]
+        centres = np.array([position(each, area) for each in copies])
     else:
         assert "stroke-linecap:round" in path.get("style")
+        centres = np.array([NUMBER.findall(each)[:2] for each in path.get("d").split("m")[1:]]).astype(float)
         centres = np.cumsum(centres, axis=0)
     apart = np.abs(centres[:, None] - positions[None]).max(axis=2)
     assert apart.min(axis=0).max() < 0.11  # each trial has a mark
@@ -151,13 +167,15 @@ def test_strokes_of_an_area():
     y = np.array([0.2, 0.2, 0.2, 0.8, 0.8, 0.8, 0.8, 0.2, 0.5, 0.5])
     area = Area(x, y, (True, False), "#222222", 0.5, 1.5, (4.0, 2.0))
     placed, root = draw(Chart(NO_BOX, UNIT, UNIT, areas=[area]))
-    (path,) = [each for each in root.iter("{*}path") if each.get("stroke-width") == "1.5"]
+    (path,) = [each for each in root.iter("{*}path") if each.get("stroke-width") == f"{1.5 * POINT:g}"]
     assert path.get("d").count("M") == 2
-    assert (path.get("stroke-dasharray"), path.get("opacity"), path.get("fill")) == ("6 3", "0.5", None)
-    left, top, width, height = inside(placed)
+    assert (path.get("stroke-dasharray"), path.get("opacity"), path.get("fill")) == (
+        f"{6 * POINT:g} {3 * POINT:g}", "0.5", None
+    )  # fmt: skip
+    width, height = area_of(placed)
     square = np.cumsum(np.array(NUMBER.findall(path.get("d").split("M")[1]), dtype=float).reshape(-1, 2), axis=0)
-    corners = [(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8), (0.2, 0.2)]
-    assert square == pytest.approx(np.array([(left + a * width, top + (1 - b) * height) for a, b in corners]), abs=0.1)
+    corners = np.array([(0.2, 0.8), (0.8, 0.8), (0.8, 0.2), (0.2, 0.2), (0.2, 0.8)])
+    assert square == pytest.approx(corners * [width, height], abs=0.1)
 
 
 def test_opacity_backing_and_bare_axes():
@@ -170,11 +188,14 @@ def test_opacity_backing_and_bare_axes():
     (line,) = [each for each in root.iter("{*}path") if each.get("stroke-linejoin")]
     assert line.get("opacity") == "0.4"
     (backing,) = [each for each in root.iter("{*}rect") if each.get("fill-opacity")]
-    left, _, width, _ = inside(placed)
-    assert float(backing.get("width")) == pytest.approx(text_width("limit", 8.0, is_bold=True) + 4.0, abs=0.01)
-    assert float(backing.get("x")) + float(backing.get("width")) / 2.0 == pytest.approx(left + width / 2.0, abs=0.02)
+    area = area_of(placed)
+    assert float(backing.get("width")) == pytest.approx(
+        POINT * (text_width("limit", 8.0, is_bold=True) + 4.0), abs=0.02
+    )
+    middle = position(backing, area)[0] + float(backing.get("width")) / 2.0
+    assert middle == pytest.approx(area[0] / 2.0, abs=0.02)
     grid = [each for each in root.iter("{*}path") if each.get("stroke-width") == "0.6"]
-    assert "H" not in grid[0].get("d")  # lanes have no lines
+    assert "h" not in grid[0].get("d")  # lanes have no lines
 
 
 @pytest.mark.parametrize(
@@ -185,11 +206,12 @@ def test_room_for_notes_at_the_edge(at, align, side):
     without, _ = draw(Chart(NO_BOX, UNIT, UNIT))
     placed, root = draw(Chart(NO_BOX, UNIT, UNIT, notes=[note]))
     text = root.findall(".//{*}text")[-1]
-    length = text_width(note.text, 9.0)
-    begin = float(text.get("x")) - (length / 2.0 if align[0] == "center" else 0.0)
+    length, (left, top, *_) = POINT * text_width(note.text, 9.0), placed.fluid.margins
+    across, up = position(text, area_of(placed))
+    begin = left + across - (length / 2.0 if align[0] == "center" else 0.0)
     assert begin >= 0.0
-    assert begin + length <= WIDTH
-    assert float(text.get("y")) - 0.9 * 9.0 >= 0.0
+    assert begin + length <= POINT * WIDTH
+    assert top + up - POINT * 0.9 * 9.0 >= 0.0
     assert placed.box != without.box
 
 
@@ -200,9 +222,9 @@ def test_equal_units(across, up):
 
     x, y = (-across, across), (up, 2.0 * up)
     chart = to_scale(chart_of, x, y, WIDTH, HEIGHT)
-    _, _, width, height = inside(chart)
+    width, height = area_of(chart)
     lengths = [axis.ends[1] - axis.ends[0] for axis in (chart.x, chart.y)]
-    assert lengths[0] / width == pytest.approx(lengths[1] / height, rel=1e-9)
+    assert lengths[0] / width == pytest.approx(lengths[1] / height, rel=1e-4)
     for axis, (low, high) in ((chart.x, x), (chart.y, y)):
         slack = 1e-9 * (high - low)
         assert axis.ends[0] <= low + slack
@@ -210,6 +232,7 @@ def test_equal_units(across, up):
         assert len(axis.ticks) >= 2
     figure = chart_panel("", "a", "a", chart, HEIGHT / 72.0, WIDTH / 72.0).figure
     assert figure.charts[0].box == chart.box
+    assert f"aspect-ratio:{round(width, 2):g}/{round(height, 2):g}" in figure.svg
 
 
 @pytest.mark.parametrize("degrees", [0.0, 90.0, 200.0])
@@ -224,7 +247,7 @@ def test_arrows_point(degrees):
     )
 
 
-WIDTHS = (366.0, 700.0, 1000.0)  # px, of a page's column
+WIDTHS = (296.0, 366.0, 500.0, 700.0, 1000.0)  # px, of a page's column
 
 
 @given(axes(), axes(), st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(0.0, 1.0)), min_size=1, max_size=4))
@@ -233,33 +256,29 @@ def test_a_fluid_chart_at_any_width(x, y, fractions):
     points = [(between(x, across), between(y, up)) for across, up in fractions]
     abscissas, ordinates = (np.array(each) for each in zip(*points, strict=True))
     circles = marks(abscissas, ordinates, marker("o", 4.0, "#0072B2", fill="#ffffff"))
-    figure = fluid_figure("a", "a", Chart(NO_BOX, x, y, curves=[circles]), 2.5)
+    figure = wide_figure("a", "a", Chart(NO_BOX, x, y, curves=[circles]), 2.5)
     (chart,) = figure.charts
     root = etree.fromstring(str(figure.svg))
     left, top, right, bottom = chart.fluid.margins
-    height = 2.5 * 72.0 * chart.fluid.point
-    assert f"height:{height:g}px;padding:{top:g}px {right:g}px {bottom:g}px {left:g}px" in root.get("style")
+    height = 2.5 * 72.0 * POINT - top - bottom
+    size = f"height:{height:g}px;padding:{top:g}px {right:g}px {bottom:g}px {left:g}px"
+    assert root.get("style") == f"width:calc(100% - {left + right:g}px);{size}"
     elements = root.findall(".//{*}circle")
     assert len(elements) == len(points)
     texts = [each for group in root.iter("{*}g") for each in group.findall("{*}text") if "%" in each.get("x")]
-    fine = {each.text for group in root.iter("{*}g") if group.get("class") == "fine" for each in group.iter("{*}text")}
+    fine = {each for group in root.iter("{*}g") if "fine-" in group.get("class", "") for each in group.iter("{*}text")}
     for width in WIDTHS:
         length = width - left - right
-
-        def px(attribute, left=left, length=length):
-            return left + float(attribute.removesuffix("%")) / 100.0 * length
-
         for element, (across, up) in zip(elements, points, strict=True):
-            assert px(element.get("cx")) == pytest.approx(expected(x, across, left, length), abs=0.2)
-            assert top + float(element.get("cy")) == pytest.approx(
-                expected(y, up, height - bottom, top + bottom - height), abs=0.06
-            )
+            at = expected(x, across, 0.0, length), expected(y, up, height, -height)
+            assert position(element, (length, height)) == pytest.approx(at, abs=0.2)
+        is_narrow = bool(chart.x.narrow) and width <= chart.x.narrow
         spans = sorted(
-            (px(each.get("x")), text_width(each.text, x.size * chart.fluid.point) / 2.0)
+            (left + position(each, (length, height))[0], text_width(each.text, x.size * POINT) / 2.0)
             for each in texts
-            if width > 640.0 or each.text not in fine
+            if not is_narrow or each not in fine
         )
-        assert len(spans) == len(chart.x.few if chart.x.few and width <= 640.0 else x.ticks)
+        assert len(spans) == len(chart.x.few if is_narrow else chart.x.ticks)
         for at, half in spans:
             assert at - half >= -0.1
             assert at + half <= width + 0.1
@@ -267,8 +286,27 @@ def test_a_fluid_chart_at_any_width(x, y, fractions):
             assert after - before >= one + other + 2.0
 
 
-def test_few_ticks_are_at_whole_multiples():
-    axis = linear_axis((3450.0, 4020.0), 12)
-    (chart,) = fluid_figure("a", "a", Chart(NO_BOX, axis, UNIT), 2.5).charts
-    assert [chart.x.ticks[index][1] for index in chart.x.few] == ["3500", "3600", "3700", "3800", "3900", "4000"]
-    assert fluid_figure("a", "a", Chart(NO_BOX, linear_axis((0.0, 4.0), 5), UNIT), 2.5).charts[0].x.few == []
+NAMES = ["one of the candidates", "another one of these", "a third one", "the last one"]
+
+
+@pytest.mark.parametrize(
+    ("axis", "few"),
+    [
+        (linear_axis((3450.0, 4020.0), 12), ["3500", "3600", "3700", "3800", "3900", "4000"]),
+        (linear_axis((0.0, 100000.0), 10), ["0", "50000", "100000"]),  # not each third of them
+        (linear_axis((-0.3, 0.3), 12), [f"{MINUS}0.3", f"{MINUS}0.2", f"{MINUS}0.1", "0", "0.1", "0.2", "0.3"]),
+        (fine_axis((0.02, 3e9), 12), ["1", "100", "10⁴", "10⁶", "10⁸"]),
+        (named_axis((0.0, 3.0), list(enumerate(NAMES))), NAMES[::2]),
+        (linear_axis((0.0, 4.0), 5), []),
+    ],
+)  # fmt: skip
+def test_a_narrow_screen_has_ticks_at_round_numbers(axis, few):
+    """As many as have room, at multiples of 1, 2, 2.5 or 5 times a power of ten."""
+    (chart,) = wide_figure("a", "a", Chart(NO_BOX, axis, UNIT), 2.5).charts
+    assert [chart.x.ticks[index][1] for index in chart.x.few] == few
+
+
+def test_the_sheet_hides_fine_ticks_up_to_each_width():
+    sheet = (Path(panels.__file__).parent / "page.css").read_text(encoding="utf-8")
+    rules = re.findall(r"@container \(max-width: (\d+)px\) \{ \.fine-(\d+) \{ display: none; \} \}", sheet)
+    assert rules == [(str(width), str(width)) for width in NARROWS]

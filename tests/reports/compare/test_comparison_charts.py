@@ -5,13 +5,16 @@ Truth: percentiles and covariances by numpy, the chi-square distribution by scip
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from perilune.analysis.reports.common.panels import PANEL_WIDTH
 from perilune.analysis.reports.common.style import FAINT, INK, look
 from perilune.analysis.reports.compare.bands import LEVELS, band_chart, bands_of, frame_of, overlaid_bands
-from perilune.analysis.reports.compare.dispersions import Ends, dispersion_chart, overlaid_ends
+from perilune.analysis.reports.compare.dispersions import Ends, dispersion_chart, dispersion_panels, overlaid_ends
 from perilune.analysis.reports.compare.recorded import Flight, Quantity
 from perilune.analysis.reports.compare.trajectories import Bundle, Path, plan_panels, side_panels
 from tests.reports.chart.matplotlib_bands import read_bands
@@ -20,6 +23,12 @@ from tests.reports.chart.test_history_charts import plain
 STYLES = {"one": look(0), "two": look(1)}
 ENDS = (-20.0, 20.0)
 STEPS = np.arange(30.0)
+AXES = ("north", "west", "up")
+
+
+def has_axes(panel, abscissa, ordinate):
+    """True if its picture has these words at its axes."""
+    return panel.figure.charts[0].x.label == abscissa and f">{ordinate}<" in str(panel.figure.svg)
 
 
 def quantity(kind="motion", unit="m", name="a.b", *, is_stepped=False):
@@ -99,7 +108,7 @@ def test_ends_have_their_ellipses_and_marks():
     errors = ends(1)
     chart = dispersion_chart(errors, "#0072B2", 1.0, "m", ENDS, ENDS)
     good = errors.errors[1:-4, :2]
-    failed, successful, *ellipses, mean, target = chart.curves
+    failed, successful, *ellipses, mean, arrow, target = chart.curves
     np.testing.assert_array_equal(np.stack([successful.x, successful.y], axis=1), good)
     assert failed.x.size == 4
     for sigma, curve in enumerate(ellipses, 1):
@@ -108,7 +117,39 @@ def test_ends_have_their_ellipses_and_marks():
         np.testing.assert_allclose(distance, sigma, rtol=1e-9)
     np.testing.assert_allclose([mean.x[0], mean.y[0]], good.mean(axis=0), rtol=1e-12)
     assert (target.x[0], target.y[0]) == (0.0, 0.0)
-    assert chart.notes[0].text == "1 failed outside, 1 without an end"
+    assert (arrow.x[0], arrow.y[0]) == pytest.approx((0.9 * ENDS[1], 0.0))
+    assert chart.notes[0].text == "1 outside (failed), farthest 1000 m; 1 without an end"
+
+
+def test_one_scale_whatever_lies_outside():
+    """Six times the maximum norm below which 90 % of the successful trials of the least dispersed contender are."""
+    one, other = (ends(seed, spread=spread) for seed, spread in ((1, 1.0), (2, 40.0)))
+    panels = dispersion_panels({"one": one, "two": other}, STYLES, "m", "x")
+    charts = [panel.figure.charts[0] for panel in panels]
+    away = np.sort(np.abs(one.errors[1:-4, :2]).max(axis=1))
+    assert 1.08 * 6.0 * away[-8] <= charts[0].y.ends[1] <= 1.08 * 6.0 * away[-4]  # of 55, at least 90 %
+    assert charts[0].x.ends == pytest.approx(charts[1].x.ends, rel=0.02)
+    limits = [charts[1].x.ends[1], charts[1].y.ends[1]]
+    points = other.errors[1:, :2]
+    outside = np.any(np.abs(points) > limits, axis=1)
+    failed, farthest = outside[-4:].sum(), np.hypot(*points.T).max()
+    assert charts[1].notes[0].text == (
+        f"{outside.sum()} outside ({failed} failed), farthest {farthest:.0f} m; 1 without an end"
+    )
+    arrow = charts[1].curves[-2]
+    assert (arrow.x[0], arrow.y[0]) == pytest.approx((0.9 * limits[0], 0.0), abs=1e-6)  # to the trial at (1000, 0) m
+    (together,) = overlaid_ends({"one": one, "two": other}, STYLES, "m", "x")
+    (chart,) = together.figure.charts
+    assert chart.notes[0].text.startswith("1 of 2 reach outside, farthest ")
+
+
+def test_a_lone_trial_far_away_does_not_stretch_the_scale():
+    near = ends(3)
+    stray = replace(near, errors=np.where(np.arange(60)[:, None] == 5, [2e3, -1e3, 0.0], near.errors))
+    (alone,), (with_stray,) = (dispersion_panels({"one": each}, STYLES, "m", "x") for each in (near, stray))
+    chart = with_stray.figure.charts[0]
+    assert chart.x.ends[1] < 4.0 * alone.figure.charts[0].x.ends[1]
+    assert chart.notes[0].text.startswith("2 outside (1 failed), farthest 2240 m")  # the root of 5
 
 
 def test_overlaid_ellipses_are_in_the_order_of_the_legend():
@@ -117,7 +158,10 @@ def test_overlaid_ellipses_are_in_the_order_of_the_legend():
     (chart,) = panel.figure.charts
     assert [curve.colour for curve in chart.curves[:2]] == [STYLES[name].colour.lower() for name in STYLES]
     assert np.isnan(chart.curves[0].x).all()
-    assert is_to_scale(chart, 3.4, 3.1)
+    assert is_to_scale(chart, PANEL_WIDTH, 3.1)
+    assert has_axes(panel, "x, m", "y, m")
+    (other,) = overlaid_ends({name: replace(ends(2), axes=AXES) for name in STYLES}, STYLES, "m", "x")
+    assert has_axes(other, "north, m", "west, m")
 
 
 def test_paths_are_to_scale_where_their_sides_are_alike():
@@ -133,5 +177,8 @@ def test_paths_are_to_scale_where_their_sides_are_alike():
     assert (chart.areas[0].y.min(), chart.areas[0].y.max()) == (chart.y.ends[0], 0.0)
     (plan,) = plan_panels({"one": bundle}, STYLES)
     (chart,) = plan.figure.charts
-    assert is_to_scale(chart, 3.4, 2.5)
+    assert is_to_scale(chart, PANEL_WIDTH, 2.5)
+    assert has_axes(plan, "x, m", "y, m")
+    (other,) = plan_panels({"one": replace(bundle, axes=AXES)}, STYLES)
+    assert has_axes(other, "north, m", "west, m")
     assert (chart.curves[-1].x[0], chart.curves[-1].y[0]) == (1.0, 1.0)

@@ -444,7 +444,7 @@ def test_traces_of_failures_only_are_called_biased(tmp_path):
         for trial in [trial for trial in trials.traces if trials.success[trial]]:
             del trials.traces[trial]
     result.write(tmp_path / "other")
-    from perilune.analysis.campaigns.execute.shards.files import write_draws
+    from perilune.analysis.campaigns.folder.files import write_draws
 
     write_draws(result.plan, tmp_path / "other", 50)
     page = write([tmp_path / "other"], tmp_path / "page.html")

@@ -76,7 +76,7 @@ def bars(section):
     for panel in section.panels:
         (chart,) = panel.figure.charts
         for area in [each for each in chart.areas if each.stroke == 1.1]:
-            path = f"//*[local-name()='path'][@stroke='{area.colour}'][@stroke-width='1.1']/@d"
+            path = f"//*[local-name()='path'][@stroke='{area.colour}'][@stroke-width='1.5125']/@d"
             (outline,) = etree.fromstring(panel.figure.svg).xpath(path)
             assert outline.count("M") == area.x.size // 2
             assert np.array_equal(area.x[::2], area.x[1::2])

@@ -10,8 +10,8 @@ from matplotlib.ticker import FixedLocator
 
 from perilune.analysis.reports.common.style import house_style, new_figure
 from tests.support.figures.axes import label_lanes, log_ticks_x
-from tests.support.figures.inline_svg import inline_svg
 from tests.support.figures.lines import plot_path, plot_quantity
+from tests.support.figures.read_figure import read_charts
 
 TIME = np.linspace(0.0, 10.0, 3001)
 ANGLE = np.sin(TIME)
@@ -21,7 +21,7 @@ def charts_of(draw, *, count=1, reduced=False):
     with house_style():
         figure = new_figure(2.0 * count, 4.0)
         draw(*np.atleast_1d(figure.subplots(count, 1, sharex=True)))
-        return inline_svg(figure, "x", "a figure", reduced=reduced).charts
+        return read_charts(figure, reduced=reduced)
 
 
 def test_a_line_has_every_row_in_si():

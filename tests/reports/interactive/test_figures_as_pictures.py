@@ -124,7 +124,7 @@ SHIPPED = {  # pages of our systems
     write_landing: [],
     write_many_trials: [],
     write_recorded: [],
-    write_demo: ["A landing from the side"],
+    write_demo: [],
 }
 PAGES = either(KINDS | SHIPPED, KINDS)
 

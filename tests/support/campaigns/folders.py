@@ -11,7 +11,7 @@ from pathlib import Path
 import psutil
 import pyarrow.parquet
 
-from perilune.analysis.campaigns.execute.folder_lock import FILE
+from perilune.analysis.campaigns.folder.lock import FILE
 
 SERVER = "process.server import main"  # what the command line of a flight server, and of its children, has
 

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from perilune.analysis.campaigns.execute.metadata import batch_digest
-from perilune.analysis.campaigns.execute.shards.files import write_shard
+from perilune.analysis.campaigns.folder.campaign_folder import CampaignFolder
 from tests.support.campaigns.trial_tables import changed
 from tests.support.pages.comparison_samples import sample_batch
 
@@ -19,11 +18,11 @@ def write_large(folder: Path, trials: int) -> None:
     sample = sample_batch(trials=min(trials, SIZE), variants=("alpha",), traced=0)
     plan = replace(sample.plan, campaign=replace(sample.plan.campaign, trials=trials, draw_scheme="counter"))
     provenance = {**sample.provenance, "trials": trials, "draw_scheme": "counter"}
-    source, digest = np.random.default_rng(1), batch_digest(provenance)
+    source, stored = np.random.default_rng(1), CampaignFolder(folder, provenance)
     alpha = sample.trials["alpha"]
     for shard in range(-(-trials // SIZE)):
         numbers = np.arange(shard * SIZE, min((shard + 1) * SIZE, trials))
         part = alpha.part(range(numbers.size))
         part = changed(part, {"trial": numbers, "metric.miss": source.normal(size=numbers.size) ** 2})
-        write_shard(folder, digest, shard, plan, {"alpha": part})
+        stored.write(shard, plan, {"alpha": part})
     (folder / "summary.json").write_text(json.dumps({**provenance, "variants": {"alpha": {}}}))

@@ -9,8 +9,7 @@ import numpy as np
 
 from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.table import Table
-from perilune.analysis.campaigns.execute.metadata import batch_digest
-from perilune.analysis.campaigns.execute.shards.files import write_shard
+from perilune.analysis.campaigns.folder.campaign_folder import CampaignFolder
 from perilune.analysis.campaigns.trials import TrialTable
 from tests.support.pages.comparison_samples import END, sample_batch
 from tests.support.pages.comparison_samples import facts as metadata_of
@@ -68,7 +67,7 @@ def write_many(
     campaign = replace(parse_campaign(Table(tomllib.loads(text), "test.toml")), trials=trials, draw_scheme="counter")
     plan = replace(sample.plan, campaign=campaign)
     provenance = {**sample.provenance, "trials": trials, "draw_scheme": "counter", **metadata_of(campaign, variants)}
-    source, digest = np.random.default_rng(1), batch_digest(provenance)
+    source, stored = np.random.default_rng(1), CampaignFolder(folder, provenance)
     for shard in range(-(-trials // size)):
         numbers = np.arange(shard * size, min((shard + 1) * size, trials))
         rows = {}
@@ -86,5 +85,5 @@ def write_many(
                     **{f"metric.{metric}": values for metric, values in columns.items()},
                 }
             )
-        write_shard(folder, digest, shard, plan, rows)
+        stored.write(shard, plan, rows)
     (folder / "summary.json").write_text(json.dumps({**provenance, "variants": {name: {} for name in variants}}))

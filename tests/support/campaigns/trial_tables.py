@@ -1,13 +1,21 @@
 """Tables of trials for tests of what reads them."""
 
+from perilune.analysis.campaigns.columns import Column
 from perilune.analysis.campaigns.trials import TrialTable
+
+UNITS = {"metric.miss": "m", "metric.mass": "kg"}
+
+
+def describe(name):
+    """The unit of a column; one that is none of these has none."""
+    return Column(UNITS.get(name, "1"), "")
 
 
 def trial_table(statuses, success, metrics, draws=None):
     """A variant's trials from their statuses, successes and metrics, each (trials,), and draws by name."""
     columns = {f"metric.{name}": values for name, values in metrics.items()}
     columns |= {f"draw.{name}": values for name, values in (draws or {}).items()}
-    return TrialTable.of({"status": statuses, "success": success, **columns})
+    return TrialTable.of({"status": statuses, "success": success, **columns}).described(describe)
 
 
 def changed(trials, columns):

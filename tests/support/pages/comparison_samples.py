@@ -9,7 +9,7 @@ from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.plan import BatchPlan
 from perilune.analysis.campaigns.definition.table import Table
 from perilune.analysis.campaigns.execute.results import BatchResult
-from perilune.analysis.campaigns.execute.shards.files import with_draws, write_draws
+from perilune.analysis.campaigns.folder.files import with_draws, write_draws
 from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.runtime.system.options import SystemOptions
 
@@ -59,7 +59,7 @@ SAMPLING = "every = 2\nsignals = {signals}\ntrials = {traced}"
 
 
 def facts(campaign, variants, targets=True):
-    """What `perilune.analysis.campaigns.execute.metadata` would say of the hand-made batch."""
+    """What `perilune.analysis.campaigns.folder.provenance` would say of the hand-made batch."""
     names = dict.fromkeys([*campaign.record.final, *campaign.record.signals])
     target = {f"pilot.target_{kind}[{i + 1}]": float(value) for kind, at in
               (("position", TARGET), ("velocity", np.zeros(3))) for i, value in enumerate(at)}  # fmt: skip

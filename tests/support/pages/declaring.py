@@ -1,5 +1,6 @@
 """A system's description with figures of its own asked for."""
 
+import re
 from functools import cache
 
 from perilune.common.paths import SYSTEMS
@@ -11,10 +12,19 @@ def shipped_ssd(name):
     return (SYSTEMS / name / "SystemStructure.ssd").read_text(encoding="utf-8")
 
 
-def with_report(ssd, inside):
-    """The description with the elements of Report in its annotation's place, on lines of their own."""
+def with_frames(ssd, inside):
+    """The description with these elements of Frames instead of those it has, each on its line."""
+    whole = re.search(r"( *<Frames [^>]*>\n).*?( *</Frames>\n)", ssd, flags=re.DOTALL)
+    return f"{ssd[: whole.end(1)]}{inside}\n{ssd[whole.start(2) :]}"
+
+
+def with_report(ssd, inside, frames=""):
+    """The description with these elements of Report and Frames as its annotations, on lines of their own."""
+    names = f'<Frames xmlns="https://perilune.org/frames">{frames}</Frames>'
     note = (
-        '<ssd:Annotations><ssc:Annotation type="org.perilune.report">\n'
+        "<ssd:Annotations>"
+        + (f'<ssc:Annotation type="org.perilune.frames">{names}</ssc:Annotation>' if frames else "")
+        + '<ssc:Annotation type="org.perilune.report">\n'
         f'<Report xmlns="https://perilune.org/report">\n{inside}\n</Report>\n'
         "</ssc:Annotation></ssd:Annotations>"
     )

@@ -1,6 +1,6 @@
-"""A page on a narrow screen, measured by a real browser: how small the text of its figures is, what runs out of it.
+"""A page on screens of two widths, measured by a real browser: how small the text of its figures is, what runs out.
 
-Chromium's window is never narrower than 500 px, so the page stands in a frame of the width that is wanted.
+Chromium's window is never narrower than 500 px, so the page stands in a frame of each width, with scripts and without.
 """
 
 from __future__ import annotations
@@ -13,10 +13,13 @@ from pathlib import Path
 
 from tests.support.pages.browser import start
 
-PHONE = 390  # px
+PHONE, WIDE = 390, 1400  # px
 SCRIPT = """<script>
 addEventListener("load", () => {
-  const frame = document.querySelector("iframe"), page = frame.contentDocument, view = frame.contentWindow;
+  document.body.dataset.measured = JSON.stringify([...document.querySelectorAll("iframe")].map(measure));
+});
+const measure = (frame) => {
+  const page = frame.contentDocument, view = frame.contentWindow;
   const seen = [...page.querySelectorAll("svg.figure text")].filter(text => text.getClientRects().length);
   const height = text => {
     const matrix = text.getScreenCTM();
@@ -24,13 +27,17 @@ addEventListener("load", () => {
   };
   const wide = [...page.querySelectorAll("body *")].filter(element => !element.closest(".scroll")
     && !element.closest("svg") && element.getBoundingClientRect().right > view.innerWidth + 1);
-  document.body.dataset.measured = JSON.stringify({
+  return {
     width: view.innerWidth, texts: seen.length, smallest: Math.min(...seen.map(height)),
     overflow: page.documentElement.scrollWidth - page.documentElement.clientWidth,
     wide: wide.map(element => element.tagName + "." + element.className),
-  });
-});
+  };
+};
 </script>"""
+
+
+SMALLEST = 11.0  # px
+SCRIPTS = re.compile("<script.*?</script>", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -45,23 +52,28 @@ class Measured:
     wide: list[str]
 
 
-def measure(browser: str, page: Path, folder: Path, width: int = PHONE) -> Measured:
+def measure(browser: str, page: Path, folder: Path) -> list[Measured]:
     """What the browser says of a page with all that is folded away unfolded."""
     text = re.sub(r"<details(?! open)([^>]*)>", r"<details\1 open>", page.read_text(encoding="utf-8"))
-    frame = f'<iframe style="width: {width}px; height: 3000px; border: 0" srcdoc="{html.escape(text)}"></iframe>'
+    frames = "".join(
+        f'<iframe style="width: {width}px; height: 3000px; border: 0" srcdoc="{html.escape(written)}"></iframe>'
+        for width in (PHONE, WIDE)
+        for written in (text, SCRIPTS.sub("", text))
+    )
     framed = folder / "framed.html"
-    document = f'<!DOCTYPE html><meta charset="utf-8"><body>{frame}{SCRIPT}</body>'
+    document = f'<!DOCTYPE html><meta charset="utf-8"><body>{frames}{SCRIPT}</body>'
     framed.write_text(document, encoding="utf-8")
     dom = start(browser, framed, folder, "--dump-dom")
     collected = re.search(r'data-measured="([^"]*)"', dom)
     assert collected is not None, "the page did not load"
-    return Measured(**json.loads(html.unescape(collected[1])))
+    return [Measured(**each) for each in json.loads(html.unescape(collected[1]))]
 
 
-def assert_legible(browser: str, page: Path, folder: Path, smallest: float = 8.5) -> None:
-    """On a telephone no text of a figure is smaller (px), and nothing makes the page wider than the screen."""
-    collected = measure(browser, page, folder)
-    assert collected.width == PHONE
-    assert collected.texts > 8
-    assert collected.smallest >= smallest
-    assert (collected.overflow, collected.wide) == (0, [])
+def assert_legible(browser: str, page: Path, folder: Path) -> None:
+    """No text of a figure is smaller than `SMALLEST`, and nothing makes the page wider than the screen."""
+    measured = measure(browser, page, folder)
+    assert [each.width for each in measured] == [PHONE, PHONE, WIDE, WIDE]
+    for each in measured:
+        assert each.texts > 8
+        assert each.smallest >= SMALLEST - 1e-6
+        assert (each.overflow, each.wide) == (0, [])

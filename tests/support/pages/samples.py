@@ -9,10 +9,11 @@ from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.plan import BatchPlan
 from perilune.analysis.campaigns.definition.table import Table
 from perilune.analysis.campaigns.execute.results import BatchResult
-from perilune.analysis.campaigns.execute.shards.files import with_draws
+from perilune.analysis.campaigns.folder.files import with_draws
 from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions
+from tests.support.pages.comparison_samples import facts as metadata_of
 
 DIGEST = "0123456789abcdef" * 4
 HEAD = 'system = "ship"\ntrials = {trials}\nseed = 7\n'
@@ -127,6 +128,8 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
         "algorithm": "sequential",
         "fmus": {variant: {"ship": DIGEST, "guidance": variant} for variant in outcomes},
         "perilune": "0.0.1",
+        "success": campaign.success.text,
+        "metrics": metadata_of(campaign, outcomes)["metrics"],
     }
     plan = BatchPlan("ship", campaign, SystemOptions())
     rows = {name: with_draws(rows, plan.values_of(range(len(rows)))) for name, rows in collected.items()}

@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from typing import Any
 
 from .....common.errors import InputError
-from .flights import Cluster
 from .sent import identity, refuse_others
+from .shard_tasks import Cluster
 
 OPTION = "`scheduler`"
 ANSWER = 10.0  # s that a scheduler has to answer

@@ -13,10 +13,10 @@ from tempfile import TemporaryDirectory
 
 from .....common.errors import InputError
 from .....common.paths import PACKAGE
+from ...folder.files import DRAWS, write_draws
+from ...folder.manifest import CONTENTS, Manifest, content_path
 from ..campaign import Campaign
-from ..manifest import CONTENTS, Manifest, content_path
 from ..plan_manifest import gather
-from ..shards.files import DRAWS, write_draws
 from ..workers import in_threads
 
 ROOMS = ("analysis", "common", "fmus_src")

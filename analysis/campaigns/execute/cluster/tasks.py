@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from ..shards.numbering import Numbering
+from ...folder.numbering import Numbering
 
 MOST_DEATHS = 3  # of workers with one trial, before it is held to end them
 FIRST = 4  # trials of a task as long as nobody knows how long one takes
@@ -78,7 +78,7 @@ OWN = MOST_DEATHS - 1  # how often a part counts as given up at most before it h
 Task = tuple[Piece, ...]
 
 
-class Again:
+class RetryQueue:
     """Parts of tasks that were given up; halved each time, so that what ends workers takes no others with it."""
 
     def __init__(self) -> None:
@@ -96,7 +96,7 @@ class Again:
         """What has waited longest; empty where nothing does."""
         return self._waiting.popleft() if self._waiting else ()
 
-    def hopeless(self, under_way: Iterable[Task]) -> list[Task]:
+    def single_trials_left(self, under_way: Iterable[Task]) -> list[Task]:
         """All that is left, if these are single trials that were given up often enough; else nothing."""
         left = [*self._waiting, *under_way]
         worn = all(len(halves(task)) == 1 and self._times.get(task, 0) >= MOST_DEATHS for task in left)

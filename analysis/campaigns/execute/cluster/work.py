@@ -14,18 +14,18 @@ from pathlib import Path
 
 from .....common.atomic import write_atomically
 from ...definition.plan import BatchPlan
+from ...folder.files import DRAWS
+from ...folder.manifest import CONTENTS, store_contents
 from ...trials import TrialTable
 from ..flyer import Flyer
-from ..manifest import CONTENTS, store_contents
 from ..plan_manifest import restore
-from ..shards.files import DRAWS
 from .sent import Sent, identity, refuse_others
 from .tasks import Piece
 
 FOLDER = "perilune"  # within the worker's own, which dask removes
-MOST_HELD = 3  # campaigns whose simulations are kept for the next task
+MOST_LOADED = 3  # campaigns whose simulations are kept for the next task
 _looking = threading.Lock()
-_held: dict[str, _Held] = {}  # by key, the last used one last
+_loaded: dict[str, _LoadedCampaign] = {}  # by key, the last used one last
 
 
 class HaltedError(RuntimeError):
@@ -33,7 +33,7 @@ class HaltedError(RuntimeError):
 
 
 @dataclass
-class _Held:
+class _LoadedCampaign:
     """A campaign that this process flies: its plan, and a flyer for each thread that has flown it at once."""
 
     plan: BatchPlan
@@ -67,8 +67,8 @@ def fly(sent: Sent, task: Sequence[Piece]) -> list[tuple[TrialTable, float]]:
 def halt(key: str) -> None:
     """End what flies of a campaign at its next communication points."""
     with _looking:
-        held = _held.get(key)
-        for flyer in held.busy if held is not None else ():
+        loaded = _loaded.get(key)
+        for flyer in loaded.busy if loaded is not None else ():
             flyer.interrupt()
 
 
@@ -76,33 +76,33 @@ def halt(key: str) -> None:
 def _flyer(sent: Sent, folder: Path) -> Iterator[Flyer]:
     """A flyer that no other thread has."""
     with _looking:
-        held = _campaign(sent, folder)
-        flyer = held.idle.pop() if held.idle else Flyer(held.plan, in_child=sent.in_child)
-        held.busy.append(flyer)
+        loaded = _campaign(sent, folder)
+        flyer = loaded.idle.pop() if loaded.idle else Flyer(loaded.plan, in_child=sent.in_child)
+        loaded.busy.append(flyer)
     try:
         yield flyer
     finally:
         with _looking:
-            held.busy.remove(flyer)
+            loaded.busy.remove(flyer)
             if flyer.halted:
                 flyer.close()
             else:
-                held.idle.append(flyer)
+                loaded.idle.append(flyer)
 
 
-def _campaign(sent: Sent, folder: Path) -> _Held:
+def _campaign(sent: Sent, folder: Path) -> _LoadedCampaign:
     """A campaign as it was sent; others that no thread flies are freed where too many are kept, or can be."""
-    if sent.key in _held:
-        _held[sent.key] = _held.pop(sent.key)
-        return _held[sent.key]
+    if sent.key in _loaded:
+        _loaded[sent.key] = _loaded.pop(sent.key)
+        return _loaded[sent.key]
     store_contents(folder / CONTENTS, dict(sent.contents))
     own = folder / sent.key
     if sent.draws:
         write_atomically(own / DRAWS, sent.draws)
     plan = restore(folder, sent.manifest, sent.log, draws=own)
-    free = [key for key, held in _held.items() if not held.busy]
-    for key in free[: max(0, len(free) + 1 - MOST_HELD)]:
-        for flyer in _held.pop(key).idle:
+    free = [key for key, loaded in _loaded.items() if not loaded.busy]
+    for key in free[: max(0, len(free) + 1 - MOST_LOADED)]:
+        for flyer in _loaded.pop(key).idle:
             flyer.close()
-    _held[sent.key] = _Held(plan)
-    return _held[sent.key]
+    _loaded[sent.key] = _LoadedCampaign(plan)
+    return _loaded[sent.key]

@@ -1,13 +1,14 @@
-"""Charts as wide as the page: px are px at any width of it, so that text and lines keep their sizes.
+"""Charts as wide as what they stand in: px are px at any width of it, so that text and lines keep their sizes.
 
-The area of the axes is that of the <svg> element, whose padding texts overflow. Abscissas of marks and texts are
-percentages; paths are stretched, their strokes are not.
+The area of the axes is that of the <svg> element, whose padding texts overflow. Positions of marks and texts are
+percentages of it; paths are stretched, their strokes are not.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from ...interactive.charts import Axis, Backing, Chart, Curve, Note
 from .frame import Frame
@@ -15,25 +16,52 @@ from .frame import Frame
 POINT = 1.375  # px of a pt: the least text has 11 px
 
 
+@dataclass(frozen=True)
 class FluidFrame(Frame):
-    """A rectangle with 0 at its left upper corner, as wide as may be."""
+    """A rectangle with 0 at its left upper corner, of any size.
 
-    @property
-    def is_fluid(self) -> bool:
-        return True
+    ``name`` differs between the figures of a page; ``margins`` (px) are left, above, right and below.
+    """
+
+    name: str
+    margins: tuple[float, float, float, float]
 
     def along(self, x: float) -> str:
         return f"{100.0 * x / self.width:.3f}%"
 
-    def put(self, x: float, y: float, element: Callable[[float, float], str]) -> str:
-        return f'<svg x="{self.along(x)}" y="{y:.2f}" overflow="visible">{element(0.0, 0.0)}</svg>'
+    def rise(self, y: float) -> str:
+        return f"{100.0 * y / self.height:.3f}%"
+
+    def put(self, x: float, y: float, element: str) -> str:
+        """Return an element, which is written for the origin, at a position."""
+        return f'<svg x="{self.along(x)}" y="{self.rise(y)}" overflow="visible">{element}</svg>'
 
     def stretch(self, elements: str) -> str:
-        view = f'viewBox="0 0 {self.width:g} {self.height:.2f}" preserveAspectRatio="none"'
-        return f'<svg width="100%" height="100%" overflow="visible" {view}>{elements}</svg>' if elements else ""
+        return _stretch(elements, self.width, self.height, 'width="100%" height="100%"')
 
-    def clip(self, name: str, elements: str) -> str:
+    def stretch_up(self, elements: str, width: float) -> str:
+        """Return paths left of the rectangle that are as high as it is, and have a ``width`` of their own."""
+        return _stretch(elements, width, self.height, f'x="{-width:g}" width="{width:g}" height="100%"')
+
+    def stretch_across(self, elements: str, height: float) -> str:
+        """Return paths below the rectangle that are as wide as it is, and have a ``height`` of their own."""
+        return _stretch(elements, self.width, height, f'y="100%" width="100%" height="{height:g}"')
+
+    def clip(self, elements: str) -> str:
+        """Return elements without what lies outside."""
         return f'<svg width="100%" height="100%" fill="none">{elements}</svg>'
+
+    def repeat(self, element: str, positions: Sequence[tuple[float, float]]) -> str:
+        if len(positions) == 1:
+            return self.put(*positions[0], element)
+        key = f"{self.name}-{zlib.crc32(element.encode()):x}"
+        copies = (f'<use href="#{key}" x="{self.along(x)}" y="{self.rise(y)}"/>' for x, y in positions)
+        return f'<defs><g id="{key}">{element}</g></defs>{"".join(copies)}'
+
+
+def _stretch(elements: str, width: float, height: float, frame: str) -> str:
+    view = f'viewBox="0 0 {width:g} {height:g}" preserveAspectRatio="none"'
+    return f'<svg {frame} overflow="visible" {view}>{elements}</svg>' if elements else ""
 
 
 def in_pixels(chart: Chart) -> Chart:

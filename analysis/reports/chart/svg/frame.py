@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,7 +32,6 @@ class Frame:
     top: float
     width: float
     height: float
-    edges: tuple[float, float]  # the left and the lower one of the picture
 
     @property
     def right(self) -> float:
@@ -57,28 +56,21 @@ class Frame:
         x, y = (np.array([each]) for each in at)
         return float(self.across(x, of_axes=of_axes[0])[0]), float(self.down(y, of_axes=of_axes[1])[0])
 
-    @property
-    def is_fluid(self) -> bool:
-        """True if abscissas are stretched to any width."""
-        return False
-
     def along(self, x: float) -> str:
         """Return an abscissa as an attribute."""
         return f"{x:.2f}"
 
-    def put(self, x: float, y: float, element: Callable[[float, float], str]) -> str:
-        """Return an element that is written for its position."""
-        return element(x, y)
+    def rise(self, y: float) -> str:
+        """Return an ordinate as an attribute."""
+        return f"{y:.2f}"
 
     def stretch(self, elements: str) -> str:
         """Return paths, whose coordinates are those of this rectangle."""
         return elements
 
-    def clip(self, name: str, elements: str) -> str:
-        """Return elements without what lies outside; ``name`` salts the identifier."""
-        area = f'x="{self.left:.2f}" y="{self.top:.2f}" width="{self.width:.2f}" height="{self.height:.2f}"'
-        clip = f'<clipPath id="{name}-clip"><rect {area}/></clipPath>'
-        return f'{clip}<g clip-path="url(#{name}-clip)" fill="none">{elements}</g>'
+    def repeat(self, element: str, positions: Sequence[tuple[float, float]]) -> str:
+        """Return an element, which is written for the origin, at each of these positions."""
+        return "".join(f'<g transform="translate({x:g} {y:g})">{element}</g>' for x, y in positions)
 
     def has(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return which positions lie in the rectangle or on its edge, [rows]."""

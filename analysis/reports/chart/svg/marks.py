@@ -47,7 +47,7 @@ def _draw(frame: Frame, marker: Marker, positions: np.ndarray) -> str:
     paint = f'fill="{marker.fill or "none"}"{edge}'
     if not marker.outline:
         return "".join(
-            f'<circle cx="{frame.along(x / 10)}" cy="{y / 10:g}" r="{marker.size / 2.0:g}" {paint}/>'
+            f'<circle cx="{frame.along(x / 10)}" cy="{frame.rise(y / 10)}" r="{marker.size / 2.0:g}" {paint}/>'
             for x, y in positions.tolist()
         )
     return _shapes(frame, positions, marker.outline, marker.size, paint)
@@ -63,20 +63,13 @@ def _round(positions: np.ndarray, diameter: float, colour: str) -> str:
 
 
 def _shapes(frame: Frame, positions: np.ndarray, outline: Sequence[Sequence[float]], size: float, paint: str) -> str:
-    """An outline at all positions, in one path where it has a size in the units of the frame."""
+    """An outline at all positions."""
     strokes = [np.rint(10.0 * size * np.reshape(stroke, (-1, 2)) * (1.0, -1.0)).astype(np.int64) for stroke in outline]
     moves = [in_tenths(np.diff(stroke, axis=0).ravel().tolist()) for stroke in strokes]
     ends = ["z" if np.array_equal(stroke[0], stroke[-1]) else "" for stroke in strokes]
 
-    def path(positions: np.ndarray) -> str:
-        lines = (
-            f"M{in_tenths((position + stroke[0]).tolist())}l{move}{end}"
-            for position in positions
-            for stroke, move, end in zip(strokes, moves, ends, strict=True)
-        )
-        return f'<path d="{"".join(lines)}" {paint}/>'
-
-    if not frame.is_fluid:
-        return path(positions) if positions.size else ""
-    origin = path(np.zeros((1, 2), dtype=np.int64))
-    return "".join(frame.put(x / 10.0, y / 10.0, lambda *_: origin) for x, y in positions.tolist())
+    lines = (
+        f"M{in_tenths(stroke[0].tolist())}l{move}{end}" for stroke, move, end in zip(strokes, moves, ends, strict=True)
+    )
+    path = f'<path d="{"".join(lines)}" {paint}/>'
+    return frame.repeat(path, [(x / 10.0, y / 10.0) for x, y in positions.tolist()]) if positions.size else ""

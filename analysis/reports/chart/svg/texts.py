@@ -7,24 +7,24 @@ from markupsafe import escape
 
 from ...font.text import ASCENT, DEEP, DESCENT, MIDDLE, TALL, text_width
 from ...interactive.charts import Note
-from .frame import Frame
+from .fluid import FluidFrame
 
 ANCHORS = {"left": "start", "center": "middle", "right": "end"}
 BEGINS = {"left": 0.0, "center": -0.5, "right": -1.0}  # of its width, from the point of a text to its left end
 RISES = {"top": ASCENT, "center": MIDDLE, "bottom": -DESCENT, "baseline": 0.0}
 
 
-def draw_note(frame: Frame, note: Note) -> str:
+def draw_note(frame: FluidFrame, note: Note) -> str:
     """Return a text at a point of the data or of the axes, over its backing; nothing where the data lie outside."""
     x, y = frame.point(note.at, note.of_axes)
     of_data = (frame.left if note.of_axes[0] else x, frame.top if note.of_axes[1] else y)
     if not frame.has(*np.array(of_data)[:, np.newaxis]).all():
         return ""
-    return frame.put(x, y, lambda x, y: _write(note, x, y))
+    return frame.put(x, y, _write(note))
 
 
-def _write(note: Note, x: float, y: float) -> str:
-    x, y = x + note.offset[0], y - note.offset[1] + RISES[note.align[1]] * note.size
+def _write(note: Note) -> str:
+    x, y = note.offset[0], RISES[note.align[1]] * note.size - note.offset[1]
     bold = ' font-weight="700"' if note.bold else ""
     return (
         f'{_backing(note, x, y)}<text x="{x:.2f}" y="{y:.2f}" font-size="{note.size:g}" '

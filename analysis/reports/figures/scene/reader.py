@@ -70,10 +70,16 @@ def _axes(
     reader: SignalReader, element: etree._Element, local: bool, surface: Surface | None
 ) -> tuple[AxisNames, AxisLetter]:
     """The names of the axes, and which of them is up."""
+    frame, frames = element.get("frame", "").strip(), reader.network.frames
     axes, up = tuple(element.get("axes", "x y z").split()), element.get("up", "z").strip()
     for name in ("frame", "axes"):
         if local and name in element.attrib:
             raise reader.refuse(element, f"{name}, with longitude and latitude", f"leave {name} out: east, north, up")
+    if frame in frames and "axes" in element.attrib:
+        raise reader.refuse(element, f"axes, which Frame {frame} declares, too", "leave axes out")
+    if frame and frames and frame not in frames and "axes" not in element.attrib:
+        raise reader.refuse(element, f"frame {frame}: no such Frame", suggestion(frame, frames))
+    axes = frames.get(frame, axes)
     if len(axes) != 3:
         raise reader.refuse(element, f"axes has {len(axes)} names", "give three, separated by spaces")
     if up not in ("x", "y", "z"):

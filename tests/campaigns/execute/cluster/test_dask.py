@@ -10,7 +10,7 @@ import threading
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.execute.cluster import connection, flights
+from perilune.analysis.campaigns.execute.cluster import connection, shard_tasks
 from perilune.analysis.campaigns.execute.cluster.sent import refuse_others
 from perilune.analysis.cli import main
 from perilune.common.errors import InputError
@@ -139,7 +139,7 @@ def test_killed_workers_fly_again(cluster, line, place):
 @pytest.mark.parametrize("lost", ["scheduler", "workers"])
 def test_a_cluster_that_is_gone(line, tmp_path, capsys, monkeypatch, lost):
     """After the first of sixteen shards."""
-    monkeypatch.setattr(flights, "WITHOUT_WORKERS", 2.0)
+    monkeypatch.setattr(shard_tasks, "WITHOUT_WORKERS", 2.0)
     line = [*line[:-1], "400"]
     out = tmp_path / f"without_{lost}"
     with dask_cluster(tmp_path) as alone:

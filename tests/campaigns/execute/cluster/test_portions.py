@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.analysis.campaigns.execute.cluster.tasks import FIRST, LONGEST, SHORTEST, Piece, Portions, halves
-from perilune.analysis.campaigns.execute.shards.numbering import Numbering
+from perilune.analysis.campaigns.folder.numbering import Numbering
 
 VARIANTS = ("a", "b")
 

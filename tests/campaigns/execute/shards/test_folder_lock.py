@@ -10,7 +10,7 @@ from contextlib import closing
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.execute.folder_lock import FILE, lock_folder
+from perilune.analysis.campaigns.folder.lock import FILE, lock_folder
 from perilune.analysis.cli import main
 from tests.support.campaigns.folders import bytes_of
 from tests.support.foreign.odd_fmu import COUNTS, odd_fmu

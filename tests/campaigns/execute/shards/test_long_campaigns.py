@@ -16,7 +16,7 @@ import pytest
 import perilune
 from perilune.analysis.campaigns import plotted_sample as shown_trials
 from perilune.analysis.campaigns import statistics, summary
-from perilune.analysis.campaigns.definition.campaign import Group, Metric
+from perilune.analysis.campaigns.definition.campaign import Group
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.definition.requirements import Requirement
 from perilune.analysis.campaigns.execute.campaign import open_folder
@@ -168,6 +168,7 @@ class Made(TrialTable):
     """Trials made as they are read, as a folder of shards gives them."""
 
     def __init__(self, trials):
+        super().__init__(TrialTable.of({"metric.miss": np.zeros(0), "draw.case": np.zeros(0)}).table)
         self.trials = trials
 
     def tables(self, names):
@@ -183,14 +184,13 @@ class Made(TrialTable):
 def test_summing_up_takes_no_more_memory_for_more_trials(monkeypatch):
     for module in (statistics, summary):
         monkeypatch.setattr(module, "IN_MEMORY", 20_000)
-    metrics = [Metric("miss", Expression("p.x"), "final", unit="m")]
     requirement = Requirement("near", Expression("miss < 3"), 0.99, 0.9, "miss")
     groups = [Group("1", 1.0)]
 
     def most(trials):
         rows = Made(trials)
         tracemalloc.start()
-        actual = summarise({"made": rows}, metrics, groups, "case", requirements=[requirement])
+        actual = summarise({"made": rows}, groups, "case", requirements=[requirement])
         figures = select_trials(rows, ["case"], ["miss"])
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()

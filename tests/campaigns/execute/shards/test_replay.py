@@ -15,7 +15,7 @@ import pyarrow.parquet
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.execute.shards.files import shard_path
+from perilune.analysis.campaigns.folder.files import shard_path
 from perilune.analysis.cli import main
 from perilune.analysis.reports.campaign.tables import extremes_to_replay, failures_to_replay
 from perilune.analysis.reports.compare.tables import failures_to_replay as compared_failures

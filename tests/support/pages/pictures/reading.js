@@ -147,7 +147,7 @@
     const [width, height] = [Math.round(origin.width * SIZE), Math.round(origin.height * SIZE)];
     const copy = picture.cloneNode(true);
     for (const each of copy.querySelectorAll("text, .still")) each.remove();
-    const whole = picture.classList.contains("fluid") ? inside(copy, picture, origin) : copy;
+    const whole = inside(copy, picture, origin);
     whole.setAttribute("width", width);
     whole.setAttribute("height", height);
     whole.setAttribute("style", "stroke-linecap: butt; stroke-linejoin: round");

@@ -5,10 +5,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Generator, Iterator, Sequence
 
-from ...trials import TrialTable, join_trials
-from ..flyer import Flyer
-from ..workers import FlyerPool
-from .numbering import Numbering
+from ..folder.numbering import Numbering
+from ..trials import TrialTable, join_trials
+from .flyer import Flyer
+from .workers import FlyerPool
 
 MOST_IN_THREAD, MOST_IN_PROCESS = 500, 10  # trials of a task: enough to send, few enough to share out or lose
 TASKS = 16  # for each worker, at least: few trials at the end, when some have nothing left to do
@@ -34,7 +34,7 @@ def fly_shards(
                     owners[next(places)] = shard, variant
                     yield variant, piece
 
-    parts = Parts(numbering, variants)
+    parts = ShardAssembler(numbering, variants)
     for place, flown_trials in pool.work(Flyer.fly, tasks()):
         shard, variant = owners.pop(place)
         whole = parts.add(shard, variant, flown_trials)
@@ -47,7 +47,7 @@ def task_size(trials: int, workers: int, threads: bool) -> int:
     return max(1, min(MOST_IN_THREAD if threads else MOST_IN_PROCESS, trials // (TASKS * workers)))
 
 
-class Parts:
+class ShardAssembler:
     """Takes pieces of shards in any order, and gives a shard back as soon as all of its trials are there."""
 
     def __init__(self, numbering: Numbering, variants: Sequence[str]) -> None:

@@ -1,11 +1,14 @@
-"""What the columns of files of trials mean, and their units."""
+"""What the columns of tables of trials mean, and their units; in Arrow's schemas in the metadata of each field."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple
 
-from ..draws.given import stream_component
-from ..execute.metadata import Provenance
+import pyarrow
+
+from .definition.campaign import Metric
+from .draws.given import stream_component
 
 
 class Column(NamedTuple):
@@ -15,6 +18,7 @@ class Column(NamedTuple):
     meaning: str
 
 
+Describe = Callable[[str], Column]
 FLIGHT = {
     "variant": Column(None, "which FMUs fly in the compared slots"),
     "trial": Column("1", "number of the trial: its draws, the same in every variant"),
@@ -29,8 +33,8 @@ FAULT = {
 }
 
 
-def describe_column(name: str, provenance: Provenance) -> Column:
-    """Unit and meaning of a column, as ``provenance`` of its campaign says."""
+def describe_column(name: str, provenance: Mapping[str, Any]) -> Column:
+    """Return unit and meaning of a column, as ``provenance`` of its campaign says."""
     if name in FLIGHT:
         return FLIGHT[name]
     if name == "success":
@@ -38,7 +42,7 @@ def describe_column(name: str, provenance: Provenance) -> Column:
     kind, _, remainder = name.partition(".")
     if kind == "metric":
         fact = provenance["metrics"][remainder]
-        return Column(fact["unit"], fact["description"] or f"{fact['reduction']} of {fact['expression']}")
+        return Column(fact["unit"], describe_metric(fact) or f"{fact['reduction']} of {fact['expression']}")
     if kind == "final":
         return Column(provenance["signals"].get(remainder, {}).get("unit"), f"last value of {remainder}")
     if kind == "fault":
@@ -52,3 +56,28 @@ def describe_column(name: str, provenance: Provenance) -> Column:
         return Column("1", f"number of the trial whose {whose} flew with")
     swept = provenance.get("sweep", {}).get(remainder)
     return Column(None, f"drawn or derived: {remainder}" if swept is None else f"swept: {remainder}, {swept}")
+
+
+def describe_metric(fact: Mapping[str, Any]) -> str:
+    """What a metric is, as declared; of an element along a named axis without a description that: up of a velocity."""
+    if fact["description"] or "axis" not in fact:
+        return str(fact["description"])
+    return f"{fact['reduction']} of {fact['expression'].rpartition('[')[0]} {fact['axis']}"
+
+
+def describe_metrics(metrics: Iterable[Metric]) -> Describe:
+    """Return unit and meaning by the name of a column, of these metrics; of other columns nothing."""
+    known = {f"metric.{each.name}": Column(each.unit, each.description) for each in metrics}
+    return lambda name: known.get(name, Column(None, ""))
+
+
+def with_metadata(schema: pyarrow.Schema, describe: Describe) -> pyarrow.Schema:
+    """Return the schema with the metadata of every field: its kind, its meaning, and its unit where it has one."""
+    fields = []
+    for field in schema:
+        unit, meaning = describe(field.name)
+        kind = field.name.partition(".")[0] if "." in field.name else "trial"
+        fields.append(
+            field.with_metadata({"kind": kind, "meaning": meaning} | ({} if unit is None else {"unit": unit}))
+        )
+    return pyarrow.schema(fields)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from .....common.bounds import SHARDS
-from .....common.errors import InputError
+from ....common.bounds import SHARDS
+from ....common.errors import InputError
 
 LEAST, MOST, PARTS = 25, 5000, 40  # trials of a shard, and into how many a campaign is parted between these
 

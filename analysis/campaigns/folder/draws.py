@@ -11,12 +11,12 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
-from .....common.errors import InputError
-from .....common.machine.arrow import numpy_of
-from .....common.regular import check_regular
-from ...draws.table import DrawTable
-from ..manifest import COPY_AGAIN
+from ....common.errors import InputError
+from ....common.machine.arrow import numpy_of
+from ....common.regular import check_regular
+from ..draws.table import DrawTable
 from .files import DRAWS, check_names
+from .manifest import COPY_AGAIN
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,10 @@ from .....common.errors import InputError
 from ....runtime.flight.interruptible import PATIENCE
 from ...trials import TrialTable
 from ..campaign import Campaign
-from ..shards.flights import Parts
+from ..flights import ShardAssembler
 from . import work
 from .sent import make_sent
-from .tasks import Again, Portions, Task, WorkersDiedError
+from .tasks import Portions, RetryQueue, Task, WorkersDiedError
 
 WAITING = 2  # tasks for each thread: one flies, one is there when it is done
 LOOK_UP = 1.0  # s, between looks at which workers are there
@@ -98,9 +98,9 @@ class ShardTasks:
         variants = [variant.name for variant in campaign.plan.campaign.variants()]
         self.under_way: dict[Any, Task] = {}
         self._client = client
-        self._parts = Parts(campaign.numbering, variants)
+        self._parts = ShardAssembler(campaign.numbering, variants)
         self._portions = Portions(campaign.numbering, shards, variants)
-        self._repeated = Again()
+        self._repeated = RetryQueue()
         self._sent = make_sent(campaign)
         self.key = self._sent.key
         self._send()
@@ -138,7 +138,7 @@ class ShardTasks:
         if error.task == self._campaign.key:
             self._send()
         self._repeated.add(task)
-        left = [] if self._portions.trials else self._repeated.hopeless(self.under_way.values())
+        left = [] if self._portions.trials else self._repeated.single_trials_left(self.under_way.values())
         if left:
             raise WorkersDiedError(_what_ends_them(left)) from error
 

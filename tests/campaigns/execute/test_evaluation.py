@@ -1,4 +1,4 @@
-"""What flights come to when a task's are looked at together.
+"""MetricEvaluator: what flights come to when a task's are looked at together.
 
 Truth: every metric of every flight worked out by itself, to the bit; statuses and last rows by hand.
 """
@@ -16,7 +16,7 @@ from perilune.analysis.campaigns.definition.metrics import evaluate_metric
 from perilune.analysis.campaigns.definition.plan import TrialSamples
 from perilune.analysis.campaigns.definition.table import Table
 from perilune.analysis.campaigns.draws.table import DrawTable
-from perilune.analysis.campaigns.execute.evaluation import Judge
+from perilune.analysis.campaigns.execute.evaluation import MetricEvaluator
 from perilune.analysis.runtime.flight.group import FlightGroup
 from perilune.analysis.runtime.flight.results import Flight
 
@@ -83,7 +83,7 @@ def judged(request):
 
 def test_together_or_one_by_one_to_the_bit(judged):
     campaign, names, sampled, bias = judged
-    together, alone = Judge(campaign, names), Judge(campaign, names)
+    together, alone = MetricEvaluator(campaign, names), MetricEvaluator(campaign, names)
     singles = []
     for first, last in itertools.pairwise(SIZES):
         together.add(joined(range(first, last)), range(100 + first, 100 + last), sampled)

@@ -12,13 +12,12 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
-from .....common.atomic import whole_file
-from .....common.bounds import TRIALS
-from .....common.errors import InputError
-from .....common.machine.arrow import numpy_of, table_of, texts_of
-from .....common.regular import check_regular
-from ...definition.plan import BatchPlan, TrialSamples
-from ...trials import TrialTable
+from ....common.atomic import whole_file
+from ....common.errors import InputError
+from ....common.machine.arrow import numpy_of, table_of, texts_of
+from ....common.regular import check_regular
+from ..definition.plan import BatchPlan, TrialSamples
+from ..trials import TrialTable
 
 FOLDER = "trials"
 DRAWS = "draws.parquet"
@@ -32,21 +31,6 @@ def shard_path(folder: Path, shard: int) -> Path:
 def trace_path(folder: Path, variant: str, trial: int) -> Path:
     """Where a trial's trace lies; a variant named by the path of an FMU has that path's slashes replaced."""
     return folder / "traces" / variant.replace("/", "_") / f"{trial:06d}.parquet"
-
-
-def write_shard(folder: Path, batch: str, shard: int, plan: BatchPlan, trials: Mapping[str, TrialTable]) -> None:
-    """Write the traces of a shard, then its table, which is there only when all is.
-
-    ``batch`` is the digest that tells the campaign from others, ``trials`` are those of the shard by variant.
-    """
-    for variant, rows in trials.items():
-        for trial, traces in rows.traces.items():
-            about = {"batch": batch, "variant": variant, "trial": trial}
-            write_parquet(_describe_field(table_of(traces), about), trace_path(folder, variant, trial))
-    numbers = next(iter(trials.values())).trial
-    about = {"batch": batch, "shard": shard, "trials": [int(numbers[0]), int(numbers[-1]) + 1]}
-    table = _describe_field(trial_table(plan, trials), about)
-    write_parquet(table, shard_path(folder, shard), len(numbers))  # each variant a row group
 
 
 def clear(folder: Path) -> None:
@@ -75,15 +59,6 @@ def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
         finally:
             if writer is not None:
                 writer.close()
-
-
-def is_flown(folder: Path, batch: str, shard: int, trials: range) -> bool:
-    """Whether the shard lies in the folder, of this campaign and with these trials."""
-    return describe_columns(shard_path(folder, shard)) == {
-        "batch": batch,
-        "shard": shard,
-        "trials": [trials.start, trials.stop],
-    }
 
 
 def trial_table(plan: BatchPlan, trials: Mapping[str, TrialTable]) -> pyarrow.Table:
@@ -120,7 +95,7 @@ def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> 
         pyarrow.parquet.write_table(table, partial, row_group_size=rows, write_page_checksum=True)
 
 
-def _describe_field(table: pyarrow.Table, about: Mapping[str, object]) -> pyarrow.Table:
+def describe(table: pyarrow.Table, about: Mapping[str, object]) -> pyarrow.Table:
     return table.replace_schema_metadata({"perilune": json.dumps(about)})
 
 
@@ -128,30 +103,21 @@ NEW_FOLDER = "fly the batch again into an empty folder"
 
 
 def describe_columns(path: Path) -> object:
-    """What a file that `write_shard` wrote says of itself; None where it says nothing, or is not there.
+    """What a file of a shard or trace says of itself; None where it says nothing, or is not there.
 
     Raises InputError for one that is damaged.
     """
-    if not os.path.lexists(path):
-        return None
+    return about_of(read_schema(path)) if os.path.lexists(path) else None
+
+
+def read_schema(path: Path) -> pyarrow.Schema:
+    """The columns of a parquet file. Raises InputError."""
     check_regular(path, NEW_FOLDER)
     try:
         with pyarrow.parquet.ParquetFile(path) as file:
-            return about_of(file.schema_arrow)
+            return file.schema_arrow
     except (OSError, ValueError, pyarrow.ArrowException) as error:
         raise unreadable(path, error) from error
-
-
-def list_traces(folder: Path, batch: str, variant: str) -> dict[int, Path]:
-    """The traces of a variant by trial; those of other batches in the folder are left out.
-
-    Raises InputError for one that is damaged.
-    """
-    return {
-        trial: path
-        for trial, path in trace_files(folder, variant).items()
-        if describe_columns(path) == {"batch": batch, "variant": variant, "trial": trial}
-    }
 
 
 def trace_files(folder: Path, variant: str) -> dict[int, Path]:
@@ -194,16 +160,12 @@ FLIGHT = ("trial", "status", "success", "message", "end_time")
 IDENTITY = ("variant", "trial")  # the columns that say which simulation a row is of
 TEXTS = ("variant", "status", "message")
 NUMBERS = ("trial", "success", "end_time")
-NUMBER_PREFIXES = ("draw.", "final.", "metric.")
+NUMBER_PREFIXES = ("draw.", "fault.", "final.", "metric.")
 
 
-def check_rows(table: pyarrow.Table, variant: str, trials: range, names: Collection[str] | None, path: Path) -> None:
-    """Refuse a variant's rows of a shard that are not its trials in order, or columns of other types.
-
-    ``names`` are the columns that were read, None for all. Raises InputError.
-    """
-    check_names(table.column_names, path)
-    for name in (*IDENTITY, *(COLUMNS if names is None else names)):
+def check_columns(table: pyarrow.Table, names: Collection[str], path: Path) -> None:
+    """Refuse a table of trials without some columns by ``names``, or with columns of other types. Raises InputError."""
+    for name in (*IDENTITY, *names):
         if name not in table.column_names:
             raise InputError(path, name, "no such column", NEW_FOLDER)
     for name in table.column_names:
@@ -211,11 +173,6 @@ def check_rows(table: pyarrow.Table, variant: str, trials: range, names: Collect
             check_texts(table, name, path)
         if name in NUMBERS or name.startswith(NUMBER_PREFIXES):
             numbers(table, name, path)
-    if not np.array_equal(numbers(table, "trial", path), np.arange(trials.start, trials.stop)):
-        problem = f"its rows are not trials {trials.start} to {trials.stop - 1} of {variant}, once each"
-        raise InputError(path, "trial", problem, NEW_FOLDER)
-    if set(table["variant"].unique().to_pylist()) != {variant}:
-        raise InputError(path, "variant", f"not the rows of {variant}", NEW_FOLDER)
 
 
 def check_texts(table: pyarrow.Table, name: str, path: Path) -> None:
@@ -228,14 +185,18 @@ def check_texts(table: pyarrow.Table, name: str, path: Path) -> None:
         raise InputError(path, name, "not a column of texts", NEW_FOLDER)
 
 
-def read_table(path: Path, columns: Collection[str] | None = None) -> pyarrow.Table:
-    """A parquet file, or those of its ``columns`` that there are, checksums verified. Raises InputError."""
+def read_table(path: Path, columns: Collection[str] | None = None, group: int | None = None) -> pyarrow.Table:
+    """A parquet file, or those of its ``columns`` that there are, or one of its row groups, checksums verified.
+
+    Raises InputError.
+    """
     check_regular(path, NEW_FOLDER)
     try:
         with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
             names = file.schema_arrow.names
-            table = file.read(names if columns is None else [name for name in names if name in columns])
-    except (OSError, ValueError, pyarrow.ArrowException) as error:
+            some = names if columns is None else [name for name in names if name in columns]
+            table = file.read(some) if group is None else file.read_row_group(group, some)
+    except (OSError, ValueError, IndexError, pyarrow.ArrowException) as error:
         raise unreadable(path, error) from error
     check_names(table.column_names, path)
     return table
@@ -255,18 +216,3 @@ def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
     if column.null_count or not known:
         raise InputError(path, name, "not a column of numbers", NEW_FOLDER)
     return numpy_of(column)
-
-
-def trials_in(path: Path, about: object, batch: str, whose: str) -> range:
-    """The trials of a shard's file, of which ``about`` is what it says of itself.
-
-    Raises InputError for one of another batch than that of the file ``whose``, and for one that has another's name.
-    """
-    if not isinstance(about, dict) or about.get("batch") != batch:
-        raise InputError(path, "", f"of another batch than {whose}", NEW_FOLDER)
-    if about.get("shard") != int(path.stem):
-        raise InputError(path, "", "not the shard that it is named by", NEW_FOLDER)
-    match about.get("trials"):
-        case [int(first), int(stop)] if 0 <= first < stop <= TRIALS.limit:
-            return range(first, stop)
-    raise InputError(path, "trials", "not the span of a shard", NEW_FOLDER)

@@ -1,0 +1,212 @@
+"""A campaign's folder, complete or still being written: which campaign it is, what is there, checked as it is read."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pyarrow
+
+from ....common.bounds import TRIALS
+from ....common.errors import InputError
+from ....common.machine.arrow import table_of
+from ..definition.plan import BatchPlan
+from ..trials import Trace, TrialTable
+from .files import (
+    COLUMNS,
+    FOLDER,
+    IDENTITY,
+    NEW_FOLDER,
+    SUMMARY,
+    about_of,
+    check_columns,
+    describe,
+    describe_columns,
+    numbers,
+    read_schema,
+    read_table,
+    read_trace,
+    shard_path,
+    trace_files,
+    trace_path,
+    trial_table,
+    write_parquet,
+)
+from .manifest import FILE as MANIFEST
+from .provenance import Provenance, batch_digest
+from .summary import SummaryDocument, without_summary
+
+
+class Shard(NamedTuple):
+    """The file of a shard, and the trials of each variant in it."""
+
+    path: Path
+    trials: range
+
+
+@dataclass(frozen=True)
+class CampaignFolder:
+    """A campaign in a folder as it was when it was opened.
+
+    ``provenance`` is what its numbers depend on, ``summary`` is summary.json, None as long as trials are missing.
+    """
+
+    folder: Path
+    provenance: Provenance
+    summary: SummaryDocument | None = None
+
+    @classmethod
+    def complete(cls, folder: Path, summary: SummaryDocument) -> CampaignFolder:
+        """Return the folder of a campaign all of whose trials are there."""
+        return cls(folder, without_summary(summary), summary)
+
+    @property
+    def is_complete(self) -> bool:
+        return self.summary is not None
+
+    @property
+    def variants(self) -> list[str]:
+        return list(self.provenance["fmus"])
+
+    @cached_property
+    def batch(self) -> str:
+        """The digest that tells the campaign's files from those of others."""
+        return batch_digest(self.provenance)
+
+    @cached_property
+    def shards(self) -> tuple[Shard, ...]:
+        """The shards that are there, one or more, in order.
+
+        Raises InputError for one that is damaged or of another campaign, for missing ones of a complete campaign, and
+        where there is none.
+        """
+        shards = tuple(self._all_shards() if self.is_complete else map(self._find, self._paths))
+        if not shards:
+            raise InputError(self.folder, FOLDER, "no shard is flown yet", "open it again when one is")
+        return shards
+
+    @property
+    def flown(self) -> int:
+        """How many trials of each variant are there."""
+        return sum(len(shard.trials) for shard in self.shards) if self._paths else 0
+
+    @cached_property
+    def _paths(self) -> list[Path]:
+        """The files of shards, of whichever campaign."""
+        return sorted(path for path in (self.folder / FOLDER).glob("*.parquet") if path.stem.isdecimal())
+
+    def _all_shards(self) -> Iterator[Shard]:
+        """Find all shards, which together have every trial once; others may be left of a longer campaign."""
+        end = 0
+        for number in itertools.count():
+            if end == self.provenance["trials"]:
+                break
+            path = shard_path(self.folder, number)
+            if not os.path.lexists(path):
+                raise InputError(path, "", f"not found: trials from {end} on are missing", NEW_FOLDER)
+            shard = self._find(path)
+            if shard.trials.start != end:
+                raise InputError(path, "", f"begins with trial {shard.trials.start}, not {end}", NEW_FOLDER)
+            yield shard
+            end = shard.trials.stop
+
+    def _find(self, path: Path) -> Shard:
+        return Shard(path, self._trials_in(path, describe_columns(path), SUMMARY if self.is_complete else MANIFEST))
+
+    def _trials_in(self, path: Path, about: object, whose: str) -> range:
+        """Return the trials of a shard's file, which says ``about`` itself what `_about` gives.
+
+        Raises InputError for one of another batch than that of the file ``whose``, and for one that has another's name.
+        """
+        if not isinstance(about, dict) or about.get("batch") != self.batch:
+            raise InputError(path, "", f"of another batch than {whose}", NEW_FOLDER)
+        if about.get("shard") != int(path.stem):
+            raise InputError(path, "", "not the shard that it is named by", NEW_FOLDER)
+        match about.get("trials"):
+            case [int(first), int(stop)] if 0 <= first < stop <= TRIALS.limit:
+                return range(first, stop)
+        raise InputError(path, "trials", "not the span of a shard", NEW_FOLDER)
+
+    def _about(self, number: int, trials: range) -> dict[str, object]:
+        return {"batch": self.batch, "shard": number, "trials": [trials.start, trials.stop]}
+
+    def _about_trace(self, variant: str, trial: int) -> dict[str, object]:
+        return {"batch": self.batch, "variant": variant, "trial": trial}
+
+    def has(self, number: int, trials: range) -> bool:
+        """True if a shard is there, of this campaign and with these trials. Raises InputError for a damaged one."""
+        return describe_columns(shard_path(self.folder, number)) == self._about(number, trials)
+
+    def write(self, number: int, plan: BatchPlan, trials: Mapping[str, TrialTable]) -> None:
+        """Write the traces of a shard, then its table, which is there only when all is; ``trials`` are by variant."""
+        for variant, rows in trials.items():
+            for trial, trace in rows.traces.items():
+                table = describe(table_of(trace), self._about_trace(variant, trial))
+                write_parquet(table, trace_path(self.folder, variant, trial))
+        flown = next(iter(trials.values())).trial
+        about = self._about(number, range(int(flown[0]), int(flown[-1]) + 1))
+        table = describe(trial_table(plan, trials), about)
+        write_parquet(table, shard_path(self.folder, number), len(flown))  # each variant a row group
+
+    def read(self, shard: Shard, names: Collection[str] | None = None, variant: str | None = None) -> pyarrow.Table:
+        """Read columns of a shard, or all, and those that identify its rows, of all variants in order or of one.
+
+        Raises InputError for damage, for a column that is missing or of another type, and unless the rows are the
+        trials of the shard in order.
+        """
+        path, size = shard.path, len(shard.trials)
+        group = None if variant is None else self.variants.index(variant)
+        table = read_table(path, names if names is None else {*names, *IDENTITY}, group)
+        if self._trials_in(path, about_of(table.schema), "the campaign that was opened") != shard.trials:
+            raise InputError(path, "trials", "changed since the campaign was opened", "run the command again")
+        whole = (*COLUMNS, *(f"metric.{name}" for name in self.provenance["metrics"]))
+        check_columns(table, whole if names is None else names, path)
+        variants = self.variants if variant is None else [variant]
+        if table.num_rows != size * len(variants) and variant is None:
+            problem = f"{table.num_rows} rows, not {size} of each of {len(variants)} variants"
+            raise InputError(path, "", problem, NEW_FOLDER)
+        for number, name in enumerate(variants):
+            _check_rows(table.slice(number * size, size), name, shard.trials, path)
+        return table
+
+    def schema(self, shard: Shard) -> pyarrow.Schema:
+        """Read which columns a shard has. Raises InputError where it lacks a variant or a metric."""
+        schema = read_schema(shard.path)
+        for name in ("variant", *(f"metric.{name}" for name in self.provenance["metrics"])):
+            if name not in schema.names:
+                raise InputError(shard.path, name, "no such column", NEW_FOLDER)
+        return schema
+
+    def traces(self, variant: str) -> dict[int, Path]:
+        """Find the traces of a variant by trial; those of other campaigns are left out.
+
+        Raises InputError for one that is damaged.
+        """
+        return {
+            trial: path
+            for trial, path in trace_files(self.folder, variant).items()
+            if describe_columns(path) == self._about_trace(variant, trial)
+        }
+
+    def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> Trace | None:
+        """Read what a trial has recorded of these signals, or of all, and ``time`` (s); None without a trace of it.
+
+        Raises InputError for one that is damaged.
+        """
+        path = trace_path(self.folder, variant, trial)
+        return read_trace(path, names) if describe_columns(path) == self._about_trace(variant, trial) else None
+
+
+def _check_rows(table: pyarrow.Table, variant: str, trials: range, path: Path) -> None:
+    """Refuse rows that are not the trials of a variant in order. Raises InputError."""
+    if not np.array_equal(numbers(table, "trial", path), np.arange(trials.start, trials.stop)):
+        problem = f"its rows are not trials {trials.start} to {trials.stop - 1} of {variant}, once each"
+        raise InputError(path, "trial", problem, NEW_FOLDER)
+    if set(table["variant"].unique().to_pylist()) != {variant}:
+        raise InputError(path, "variant", f"not the rows of {variant}", NEW_FOLDER)

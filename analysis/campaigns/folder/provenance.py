@@ -1,0 +1,99 @@
+"""Metadata of a stored campaign, in summary.json: all that its numbers depend on, and units and types of columns."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from typing import NotRequired, TypedDict
+
+
+class SignalMetadata(TypedDict, total=False):
+    """Unit, None where none is declared, FMI type of a signal, and the axis of an element along one with a name."""
+
+    unit: str | None
+    type: str
+    axis: str
+
+
+class MetricMetadata(TypedDict):
+    """A metric as its campaign declares it, whether it is true or false, the axis of an element that it is."""
+
+    axis: NotRequired[str]
+    condition: NotRequired[str]
+    delay: NotRequired[float]
+    expression: str
+    reduction: str
+    unit: str
+    description: str
+    truth: bool
+
+
+class RecordMetadata(TypedDict):
+    """What trials store over time."""
+
+    every: int | None
+    signals: list[str]
+    trials: int | None
+    traces: str
+
+
+class CampaignMetadata(TypedDict, total=False):
+    """Properties of a batch that its numbers do not show.
+
+    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of given draws and a ``draw_scheme`` that is no table (each where
+    there is any), ``success`` (expression), ``signals`` that are recorded, ``targets`` (parameters target_position and
+    target_velocity by variant).
+    """
+
+    group: str
+    faults: list[str]
+    sweep: dict[str, str]
+    draws_sha256: str
+    draw_scheme: str
+    description: str
+    success: str
+    metrics: dict[str, MetricMetadata]
+    record: RecordMetadata
+    signals: dict[str, SignalMetadata]
+    targets: dict[str, dict[str, float]]
+
+
+class Provenance(CampaignMetadata, total=False):
+    """Return what a batch's numbers depend on, apart from the trials themselves.
+
+    ``batch`` tells it from others; folders of earlier versions have a key of their ``manifest`` instead.
+    """
+
+    system: str
+    system_sha256: str
+    campaign: str
+    campaign_sha256: str
+    parameter_sets: list[str]
+    set: Mapping[str, object]
+    variant: str | None
+    start_time: float
+    steps: int
+    trials: int
+    seed: int
+    step: float
+    algorithm: str
+    feedthrough: list[str]
+    no_feedthrough: list[str]
+    assumptions: list[str]
+    input: object
+    timeout: float
+    fmus: dict[str, dict[str, str]]
+    perilune: str
+    batch: str
+    manifest: str
+
+
+def batch_digest(provenance: Mapping[str, object]) -> str:
+    """Return the SHA-256 that identifies a batch, for any number of trials, since a batch can be resumed with more.
+
+    In folders of earlier versions it is that of the provenance as JSON with sorted keys.
+    """
+    if "batch" in provenance:
+        return str(provenance["batch"])
+    return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()

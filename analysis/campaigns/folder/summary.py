@@ -1,0 +1,73 @@
+"""summary.json, which completes a campaign's folder: what the numbers depend on, and the summary by variant."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from ....common.bounds import INPUT_BYTES
+from ....common.errors import InputError
+from ....common.regular import read_regular
+from ..columns import describe_metric
+from ..definition.campaign import Metric
+from ..definition.expressions import Expression
+from .files import NEW_FOLDER
+from .manifest import WRITE
+from .provenance import Provenance
+
+
+class SummaryDocument(Provenance, total=False):
+    """summary.json: the provenance, and the summary by variant."""
+
+    variants: Mapping[str, object]
+
+
+FACTS = (
+    "system", "system_sha256", "campaign", "campaign_sha256", "parameter_sets", "set", "variant", "trials", "seed",
+    "step", "algorithm", "fmus", "perilune", "description", "success", "metrics", "record", "signals", "targets",
+)  # fmt: skip
+
+
+def without_summary(document: SummaryDocument) -> Provenance:
+    """summary.json without the summary: what the batch's numbers depend on."""
+    entries = document.copy()
+    del entries["variants"]
+    return entries
+
+
+def read_summary(path: Path) -> SummaryDocument:
+    """The content of summary.json. Raises InputError for what is none, or of an older version."""
+    content = read_regular(path, NEW_FOLDER, INPUT_BYTES.limit)
+    try:
+        document = json.loads(content)
+    except (ValueError, RecursionError) as error:
+        raise InputError(path, "", f"not JSON: {error}", NEW_FOLDER) from error
+    variants = document.get("variants") if isinstance(document, dict) else None
+    if not isinstance(variants, dict) or not variants:
+        raise InputError(path, "variants", "missing", WRITE)
+    for key in FACTS:
+        if key not in document:
+            raise InputError(path, key, "missing, as in results of an older version", "fly the batch again")
+    return document
+
+
+def read_metrics(document: SummaryDocument, path: Path) -> tuple[Metric, ...]:
+    """The metrics of a campaign as summary.json declares them. Raises InputError."""
+    try:
+        return tuple(
+            Metric(
+                name=name,
+                expression=Expression(fact["expression"], (str(path), f"metrics.{name}.expression")),
+                reduction=fact["reduction"],
+                unit=fact["unit"],
+                description=describe_metric(fact),
+                condition=Expression(fact["condition"], (str(path), f"metrics.{name}.condition"))
+                if "condition" in fact
+                else None,
+                delay=fact.get("delay", 0.0),
+            )
+            for name, fact in document["metrics"].items()
+        )
+    except (AttributeError, KeyError, TypeError) as error:
+        raise InputError(path, "metrics", "not as perilune batch writes them", NEW_FOLDER) from error

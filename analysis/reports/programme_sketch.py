@@ -1,0 +1,81 @@
+"""The sketch of a hover transfer's programme: what its times and its threshold are, at their values."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ..design.transfers.programme import Programme
+from .chart.axes import linear_axis
+from .chart.lines import line
+from .chart.marks import during, instant, level
+from .chart.symbols import mark, marker
+from .chart.ticks import axis_ends
+from .common.colours import BLUE, FAINT, INK, SKY, VERMILION
+from .common.quantities import number
+from .interactive.charts import NO_BOX, Backing, Chart, Curve, Note
+from .interactive.measures import TICK_SIZE
+
+HEAD = 5.0  # pt, of an arrow
+SAMPLES = 400  # of the tilt
+LANE = 0.16  # of the range of the tilt, from a dimension to the next one above it
+DOTS, DASHES = (1.0, 2.0), (5.0, 3.0)
+
+
+def sketch_chart(programme: Programme) -> Chart:
+    """Return the tilt of thrust from the vertical over time, deg, with t2, t5, w, tp and t7 as dimensions.
+
+    Full thrust is shaded; a dashed level is k of the largest tilt towards the target, which the initial burn begins and
+    ends at where w is below t1 and d (`docs/systems/hover_transfer.md`).
+    """
+    t2, t5, w, tp, t7 = programme.times
+    switches = [time for burn in programme.burns for time in burn]
+    time = np.unique([*np.linspace(0.0, t7, SAMPLES), *switches])
+    tilt = np.degrees(programme.states(time)[1][:, 0] - 0.5 * math.pi)
+    low, high = axis_ends(tilt)
+    lane = LANE * (high - low)
+    dimensions = [(0, f"tp = {number(tp, 4)} s", t7 - tp, t7), (3, f"t7 = {number(t7, 4)} s", 0.0, t7)]
+    rules, levels = [level(0.0, FAINT, 0.8)], []
+    if t2 > 0.0:
+        dimensions += [(1, f"t2 = {number(t2, 4)} s", 0.0, t2), (2, f"t5 = {number(t5, 4)} s", 0.0, t5)]
+        rules += [instant(at, FAINT, 0.8, DOTS) for at in (t2, t5)]
+    if programme.threshold is not None and w > 0.0:
+        dimensions.append((0, f"w = {number(w, 4)} s", t2, t2 + w))
+        threshold = programme.threshold * float(tilt.min())
+        rules.append(level(threshold, VERMILION, 1.1, DASHES))
+        words = f"k = {number(programme.threshold, 3)} of the largest tilt"
+        levels.append(_text(words, (t7, threshold), VERMILION, "right"))
+    arrows, notes = [], []
+    for row, text, begin, end in dimensions:
+        up = high + (row + 0.5) * lane
+        arrows += _dimension(begin, end, up)
+        side = "right" if end == t7 and begin else "center" if begin or end > 0.5 * t7 else "left"
+        at = {"left": begin, "center": 0.5 * (begin + end), "right": end}[side]
+        notes.append(_text(text, (at, up), INK, side))
+    y = replace(linear_axis((low, high), 5), ends=(low, high + 4.5 * lane))
+    return Chart(
+        NO_BOX,
+        linear_axis((0.0, 1.01 * t7), 8, label="time, s"),
+        y,
+        title="tilt of thrust from the vertical, deg",
+        curves=[line(time, tilt, BLUE, width=1.8, name="tilt", unit="deg"), *arrows],
+        areas=[during(begin, end, SKY, 0.3) for begin, end in programme.burns],
+        rules=rules,
+        notes=[*notes, *levels],
+    )
+
+
+def _dimension(begin: float, end: float, at: float) -> list[Curve]:
+    """A line between two abscissas with an arrow's head at either end."""
+    heads = [mark(x, at, marker(kind, HEAD, INK, width=0.0), beyond=True) for kind, x in (("<", begin), (">", end))]
+    return [line(np.array([begin, end]), np.full(2, at), INK, width=0.8), *heads]
+
+
+def _text(text: str, at: tuple[float, float], colour: str, side: str) -> Note:
+    """A text above a point, over a pale background."""
+    return Note(
+        text, at, (False, False), (0.0, 3.0), (side, "baseline"), colour.lower(), TICK_SIZE,
+        backing=Backing("#ffffff", 0.7, 0.5),
+    )  # fmt: skip

@@ -1,0 +1,98 @@
+"""The names of axes on a page of a run: in legends, titles and tables, with scripts and without.
+
+Truth: the names as declared, and which of its signals has which.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from selenium.webdriver.common.by import By
+
+from perilune.analysis.reports.run_report import key_values, signal_table, write_run_report
+from perilune.analysis.reports.time_histories import signal_plot, time_histories
+from perilune.analysis.reports.trajectory import trajectory_panels, trajectory_reading
+from tests.support.pages.checks import parse
+from tests.support.pages.driven import driven, scroll_to_plot
+from tests.support.pages.samples import run_result
+
+AXES = ("north", "west", "up")
+SHIP = "(//h3[.='ship'])[1]"
+POSITIONS = ("ship.position", "crew.cook.position")
+
+
+def named_run():
+    """The run of the samples, its positions along named axes, and a quaternion without."""
+    run = run_result()
+    run.provenance["axes"] = {f"{vector}[{k}]": axis for vector in POSITIONS for k, axis in enumerate(AXES, 1)}
+    for k in range(1, 5):
+        name = f"ship.quaternion[{k}]"
+        run.signals[name], run.units[name], run.types[name] = np.cos(k * run.time), None, "Real"
+    return run
+
+
+@pytest.fixture
+def page(tmp_path):
+    write_run_report(named_run(), tmp_path / "page.html", "Named")
+    return tmp_path / "page.html"
+
+
+def test_a_legend_has_axes_and_the_indices_of_what_has_none():
+    histories = time_histories(named_run()).first
+    assert [label for _, label in histories[0].legend] == [*AXES, "[1]", "[2]", "[3]", "[4]"]
+    (panel,) = (each for each in histories[0].panels if each.label.startswith("position"))
+    assert [curve.name for curve in panel.figure.charts[0].curves] == list(AXES)
+    assert [label for _, label in time_histories(run_result()).first[0].legend] == ["[1]", "[2]", "[3]"]
+
+
+def test_tables_have_the_axis_next_to_the_name():
+    run = named_run()
+    (row,) = (row for row in key_values(run) if row.label == "ship.position" and len(row.values) == 3)
+    assert row.note == "north, west, up"
+    axes = {row.name: row.axis for row in signal_table(run)}
+    assert axes == {name: run.provenance["axes"].get(name, "") for name in run.signals}
+
+
+def test_views_of_a_trajectory_are_called_by_axes_that_all_paths_have():
+    run = named_run()
+    run.signals["crew.cook.position[1]"] = run["crew.cook.position[1]"] + 1.0  # else it repeats the ship's
+    plan, side = trajectory_panels(run)
+    assert [panel.figure.charts[0].x.label for panel in (plan, side)] == ["west, m", "west, m"]
+    assert [f">{words}<" in str(panel.figure.svg) for panel, words in ((plan, "north, m"), (side, "up, m"))] == [
+        True,
+        True,
+    ]
+    for k in (1, 2, 3):
+        run.provenance["axes"][f"crew.cook.position[{k}]"] = "xyz"[k - 1]
+    plan, _ = trajectory_panels(run)
+    assert plan.figure.charts[0].x.label == "position[2], m"
+    assert "Elements of the position" in trajectory_reading(run)
+
+
+def test_a_figure_for_a_notebook_has_them():
+    figure = signal_plot(named_run(), ["ship.position", "ship.position[3]", "ship.quaternion"])
+    texts = [[text.get_text() for text in axes.get_legend().get_texts()] for axes in figure.axes if axes.get_legend()]
+    assert texts == [list(AXES), ["[1]", "[2]", "[3]", "[4]"]]
+    assert "ship.position up, m" in {axes.get_title(loc="left") for axes in figure.axes}
+
+
+def test_scripts_have_the_same_names_and_an_entry_hides_its_axis_alone(browser, page):
+    entries = parse(page.read_text(encoding="utf-8")).xpath(f"{SHIP}/following-sibling::p[1]/span")
+    static = [entry.text_content().strip() for entry in entries]
+    with driven(browser, page) as driver:
+        entries = driver.find_elements(By.XPATH, f"{SHIP}/following-sibling::p[1]/span")
+        assert [entry.text for entry in entries] == static
+        frames = driver.find_elements(By.XPATH, f"{SHIP}/following-sibling::div[1]//div[contains(@class, 'live')]")
+        for frame in frames:
+            scroll_to_plot(driver, frame)
+        at = "document.dispatchEvent(new CustomEvent('perilune-time', {detail: {time: 5.0, from: 'test'}}))"
+        driver.execute_script(at)
+
+        def named():
+            outputs = [frame.find_element(By.XPATH, "following-sibling::output") for frame in frames]
+            texts = [[span.text for span in output.find_elements(By.TAG_NAME, "span")] for output in outputs]
+            return [text.split()[0] for several in texts if len(several) > 1 for text in several]
+
+        assert sorted(named()) == sorted(static)
+        driver.execute_script("arguments[0].click()", entries[static.index("west")])
+        assert sorted(named()) == sorted(set(static) - {"west"})
