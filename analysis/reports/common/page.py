@@ -26,10 +26,10 @@ def exact(value: Any, unit: str | None = None, digits: int = 4) -> Markup:
     displayed = number(in_display_unit(value, unit), digits)
     if value is None or isinstance(value, str):
         return Markup("<span>{}</span>").format(displayed)
-    return data(str(value).lower() if isinstance(value, bool) else repr(value), displayed)
+    return with_exact(str(value).lower() if isinstance(value, bool) else repr(value), displayed)
 
 
-def data(exact_value: str, displayed: str) -> Markup:
+def with_exact(exact_value: str, displayed: str) -> Markup:
     """A text with the exact SI value in the markup for programs."""
     return Markup('<data value="{}">{}</data>').format(exact_value, displayed)
 
@@ -98,7 +98,7 @@ def fraction(value: float | None) -> Markup:
     if value is None or not math.isfinite(value):
         return exact(value)
     displayed = f"{round(value, PLACES) + 0.0:.{PLACES}f}".replace("-", MINUS)
-    return data(repr(value), displayed)
+    return with_exact(repr(value), displayed)
 
 
 def fractions(low: float | None, high: float | None) -> Markup:

@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from ...campaigns.compare.comparison import SUCCESS, Comparison
 from ...campaigns.compare.paired import PairedRates, PairedValues, holm_adjusted
-from ..common.page import data, exact
+from ..common.page import exact, with_exact
 from ..common.quantities import MINUS, display_unit
 from .tables import PairGroup, PairRow
 
@@ -74,7 +74,7 @@ def _rate_words(name: str, row: PairRow[PairedRates]) -> Difference:
 
 
 def _points(rate: float) -> Markup:
-    return data(repr(rate), f"{100 * rate:+.2f}".replace("-", MINUS))
+    return with_exact(repr(rate), f"{100 * rate:+.2f}".replace("-", MINUS))
 
 
 def _metric_words(name: str, unit: str, row: PairRow[PairedValues]) -> Difference | None:

@@ -14,7 +14,7 @@ from ..chart.marks import band_areas, level
 from ..chart.quantity import quantity_curve
 from ..chart.ticks import axis_ends
 from ..common.colours import FAINT, ORANGE
-from ..common.page import data, exact
+from ..common.page import exact, with_exact
 from ..common.panels import Panel
 from ..common.quantities import display_factor, display_unit
 from ..interactive.charts import Chart
@@ -119,7 +119,7 @@ def _normal(times: float) -> float:
 
 
 def _percent(fraction: float) -> Markup:
-    return Markup("{} %").format(data(repr(fraction), short_percent(fraction, 1)))
+    return Markup("{} %").format(with_exact(repr(fraction), short_percent(fraction, 1)))
 
 
 def _caption(error: Error, sigma: np.ndarray) -> Markup:

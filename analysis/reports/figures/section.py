@@ -13,7 +13,7 @@ from ...runtime.flight.results import Result
 from ..chart.axes import linear_axis
 from ..chart.panel import chart_panel, wide_figure
 from ..common.colours import look
-from ..common.page import Table, data, exact
+from ..common.page import Table, exact, with_exact
 from ..common.panels import HALF_WIDTH, Panel, swatch
 from ..common.quantities import MINUS, in_display_unit
 from ..interactive.charts import NO_BOX, Area, Chart, Curve, Drawing, Rule
@@ -92,6 +92,6 @@ def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> 
     return [
         exact(value, unit)
         if value is None or not math.isfinite(value)
-        else data(repr(value), f"{in_display_unit(value, unit) + 0.0:.{places}f}".replace("-", MINUS))
+        else with_exact(repr(value), f"{in_display_unit(value, unit) + 0.0:.{places}f}".replace("-", MINUS))
         for value in values
     ]

@@ -17,7 +17,7 @@ from ...stability.loops.margin_values import UNSTABLE, Margins
 from ...stability.loops.readings import decibel_size, decibels, degree_size
 from ...stability.results.report import LoopReport
 from ...stability.results.requirement import Requirement, Verdict
-from ..common.page import data, exact
+from ..common.page import exact, with_exact
 from ..common.quantities import MINUS, NONE, display_unit, number
 
 NO_CROSSING = "none (no crossing)"
@@ -30,7 +30,7 @@ def _data(value: float, shown: float, digits: int, infinite: str) -> Markup:
         return Markup("<span>{}</span>").format(infinite)
     if math.isnan(shown):
         return Markup("<span>{}</span>").format(NONE)
-    return data(repr(value), number(shown, digits))
+    return with_exact(repr(value), number(shown, digits))
 
 
 def numeral(value: Any, unit: str | None = None, digits: int = 4, infinite: str = NONE) -> Markup:
@@ -68,7 +68,7 @@ def complex_number(value: complex, digits: int = 4) -> Markup:
     displayed = number(value.real, digits)
     if value.imag:
         displayed += f" {'±' if value.imag > 0.0 else MINUS} {number(abs(value.imag), digits)} j"
-    return data(repr(value).strip("()"), displayed)
+    return with_exact(repr(value).strip("()"), displayed)
 
 
 def left_out(part: str, reason: str, loop: LoopReport) -> Markup:
