@@ -8,6 +8,7 @@ A renderer decides how a node is shown; which nodes a medium has follows from th
 | `Table` | its first rows | its first rows | yes |
 | `Commands` | yes | no | yes |
 | `Figures` | no | the first ones | yes |
+| `Diagram` | no | where there are no figures | yes |
 | `Fold` | its summary | no | closed, opens |
 | `Note` | no | no | yes |
 | heading of a `Section` | where it has lines | no | yes |
@@ -41,8 +42,24 @@ class Code(NamedTuple):
     text: str
 
 
-Cell = str | float | bool | Quantity | Code | None
-Rich = str | Sequence[str | Quantity | Code]  # a sentence; its numbers keep their exact values in a page
+Inline = str | Quantity | Code
+Rich = str | Sequence[Inline]  # a sentence; its numbers keep their exact values in a page
+
+
+class Phrase(NamedTuple):
+    """A cell of several numbers and words."""
+
+    content: Sequence[Inline]
+
+
+class LegendEntry(NamedTuple):
+    """A look of lines, and what has it: the names of ``lines``, or words in them."""
+
+    look: Look
+    lines: Sequence[str]
+
+
+Cell = Inline | float | bool | Phrase | LegendEntry | None
 
 
 @dataclass(frozen=True)
@@ -113,13 +130,6 @@ class Figure:
     is_wide: bool = False
 
 
-class LegendEntry(NamedTuple):
-    """A look of lines, and what has it: the names of ``lines``, or words in them."""
-
-    look: Look
-    lines: Sequence[str]
-
-
 @dataclass(frozen=True)
 class Figures:
     """Figures next to each other, two in a row of a wide page, with one legend; ``draw`` them only where they show."""
@@ -127,6 +137,19 @@ class Figures:
     kind: ClassVar[str] = "figures"
     draw: Callable[[], Sequence[Figure]]
     legend: Sequence[LegendEntry] = ()
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """A drawing without axes; ``draw`` returns it with its width and height (pt), which it has at any width of a page.
+
+    ``name`` is unique in its document, ``words`` describe it to those who do not see.
+    """
+
+    kind: ClassVar[str] = "diagram"
+    name: str
+    words: str
+    draw: Callable[[], tuple[Chart, float, float]]
 
 
 @dataclass(frozen=True)
@@ -138,7 +161,7 @@ class Fold:
     nodes: Sequence[Node]
 
 
-Node = Text | Note | Verdict | KeyNumbers | Commands | Table | Figures | Fold
+Node = Text | Note | Verdict | KeyNumbers | Commands | Table | Figures | Diagram | Fold
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,8 @@ from ...reports.chart.panel import chart_panel, wide_figure
 from ...reports.common.page import exact, write_page
 from ...reports.common.panels import HALF_WIDTH, Panel, swatch
 from ...reports.common.quantities import display_unit
-from ..model import Cell, Code, Document, Figure, LegendEntry, Quantity, Rich, Table
+from ..model import Cell, Code, Document, Figure, LegendEntry, Phrase, Quantity, Rich, Table
+from .diagram import diagram_svg
 
 TEMPLATE = Path(__file__).with_name("document.html")
 
@@ -26,8 +27,10 @@ def write_document(document: Document, path: Path) -> None:
         cell=cell_markup,
         rich=rich_markup,
         is_number=_is_number,
+        is_unbroken=_is_unbroken,
         panels=_panels,
         legend=_legend,
+        diagram=diagram_svg,
     )
 
 
@@ -38,6 +41,10 @@ def cell_markup(cell: Cell) -> Markup:
             return Markup("__<wbr>").join(cell.split("__"))
         case Code(text):
             return Markup("<code>{}</code>").format(text)
+        case Phrase(content):
+            return rich_markup(content)
+        case LegendEntry(look, lines):
+            return swatch(look) + ", ".join(lines)
         case Quantity(value, unit, digits, is_bare):
             number = exact(value, unit, digits)
             return number if is_bare or not display_unit(unit) else Markup("{} {}").format(number, display_unit(unit))
@@ -54,7 +61,12 @@ def rich_markup(content: Rich, *, is_sentence: bool = False) -> Markup:
 
 def _is_number(table: Table, column: int) -> bool:
     """True if a column has numbers, which are aligned to the right."""
-    return not all(isinstance(row[column], str | Code) for row in table.rows)
+    return not all(isinstance(row[column], str | Code | Phrase | LegendEntry) for row in table.rows)
+
+
+def _is_unbroken(cell: Cell) -> bool:
+    """True for a cell that stays in one line."""
+    return isinstance(cell, Phrase | LegendEntry)
 
 
 def _panels(figures: Sequence[Figure]) -> list[Panel]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...reports.common.quantities import display_unit, in_display_unit, number
-from ..model import Cell, Code, Quantity, Rich
+from ..model import Cell, Code, KeyNumbers, LegendEntry, Phrase, Quantity, Rich
 
 
 def cell_text(cell: Cell) -> str:
@@ -11,10 +11,19 @@ def cell_text(cell: Cell) -> str:
     match cell:
         case Code(text):
             return text
+        case Phrase(content):
+            return rich_text(content)
+        case LegendEntry(_, lines):
+            return ", ".join(lines)
         case Quantity(value, unit, digits, is_bare):
             text = number(in_display_unit(value, unit), digits)
             return text if is_bare or not display_unit(unit) else f"{text} {display_unit(unit)}"
     return number(cell)
+
+
+def key_numbers_text(numbers: KeyNumbers) -> str:
+    """Return short numbers with their names in one line."""
+    return "; ".join(f"{name} {cell_text(cell)}" for name, cell in numbers.entries)
 
 
 def rich_text(content: Rich) -> str:
