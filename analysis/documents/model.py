@@ -47,7 +47,7 @@ Rich = str | Sequence[Inline]  # a sentence; its numbers keep their exact values
 
 
 class Phrase(NamedTuple):
-    """A cell of several numbers and words."""
+    """Several numbers and words in a cell."""
 
     content: Sequence[Inline]
 

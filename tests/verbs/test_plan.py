@@ -32,11 +32,11 @@ def test_the_programme_alone(capsys):
         "propellant 29.709 kg; propellant fraction 0.049514; duration 77.157 s; relative to vertical descent 1.3072; "
         "programme with first burn"
     )
-    cells = [" ".join(line.split()) for line in lines]
-    assert "simplified programme 0.049514 29.709 77.16 13.6 to 17, 66.2 to 77.2" in cells
-    assert "vertical descent 0.037878 22.727 70.04 59.8 to 70" in cells
-    assert "plan t2, s t5, s w, s k tp, s t7, s" in cells
-    assert "simplified programme 15.27 63.642 1.697 0.9753 10.989 77.157" in cells
+    texts = [" ".join(line.split()) for line in lines]
+    assert "simplified programme 0.049514 29.709 77.16 13.6 to 17, 66.2 to 77.2" in texts
+    assert "vertical descent 0.037878 22.727 70.04 59.8 to 70" in texts
+    assert "plan t2, s t5, s w, s k tp, s t7, s" in texts
+    assert "simplified programme 15.27 63.642 1.697 0.9753 10.989 77.157" in texts
     assert lines[-1] == "pitch of the programme 31.7 to 135.7 deg, largest rate 2.254 deg/s"
 
 

@@ -61,10 +61,10 @@ def transfer_document(study: HoverStudy) -> Document:
 
 def burns_phrase(burns: Iterable[tuple[float, float]]) -> list[Inline]:
     """Return begin and end (s) of each burn to a tenth, without the unit."""
-    pieces: list[Inline] = []
+    content: list[Inline] = []
     for begin, end in burns:
-        pieces += [*([", "] if pieces else []), _tenths(begin), " to ", _tenths(end)]
-    return pieces
+        content += [*([", "] if content else []), _tenths(begin), " to ", _tenths(end)]
+    return content
 
 
 def _tenths(time: float) -> Quantity:
@@ -116,7 +116,7 @@ def _plans(study: HoverStudy, series: Sequence[Series]) -> Table:
     vertical = study.vertical
     rows.append(("vertical descent", vertical.propellant_fraction, vertical.duration, None, vertical.burns))
     has_grid = any(each is not None for each in gridded)
-    cells: list[list[Cell]] = [
+    lines: list[list[Cell]] = [
         [
             name,
             Quantity(fraction, digits=5),
@@ -128,7 +128,7 @@ def _plans(study: HoverStudy, series: Sequence[Series]) -> Table:
         for name, fraction, duration, intervals, burns in rows
     ]
     grid = ["intervals"] if has_grid else []
-    return Table(["plan", "propellant fraction", "kg", "duration, s", *grid, "full thrust, s"], cells)
+    return Table(["plan", "propellant fraction", "kg", "duration, s", *grid, "full thrust, s"], lines)
 
 
 def _limits(study: HoverStudy) -> Note:
@@ -155,11 +155,11 @@ def _times(study: HoverStudy) -> Table:
         rows["turn in free fall"] = dict(zip(("t2", "t5", "w", "tp", "t7"), elements, strict=True))
     names = [name for name in TIMES if any(times.get(name) is not None for times in rows.values())]
     heads = [name if name == "k" else f"{name}, s" for name in names]
-    cells: list[list[Cell]] = [
+    lines: list[list[Cell]] = [
         [plan, *(Quantity(times.get(name), digits=5 if plan == NAMES[0] and name[0] == "t" else 4) for name in names)]
         for plan, times in rows.items()
     ]
-    return Table(["plan", *heads], cells)
+    return Table(["plan", *heads], lines)
 
 
 def _remarks(study: HoverStudy) -> list[Text]:
@@ -211,9 +211,9 @@ def _conditions(adjoint: AdjointSolution) -> list[Text]:
     rms, largest = adjoint.tangent_residual
     first, last = adjoint.reversals
     psi = adjoint.costates[0, 0].tolist()
-    zeros = [piece for time in adjoint.switching_times for piece in (", ", _tenths(time))][1:]
+    zeros = [each for time in adjoint.switching_times for each in (", ", _tenths(time))][1:]
     names = zip(("psi1 ", ", psi2 ", ", psi3 ", ", psi4 "), psi, ("/m", " s/m", "/m", " s/m"), strict=False)
-    costates = [piece for name, costate, unit in names for piece in (name, Quantity(costate), unit)]
+    costates = [each for name, costate, unit in names for each in (name, Quantity(costate), unit)]
     arc: list[Inline] = [
         _tenths(begin), " to ", _tenths(end), " s: pitch within ", Quantity(largest, "rad", 2), ", ",
         Quantity(rms, "rad", 1), " rms",
