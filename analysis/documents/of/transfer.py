@@ -200,8 +200,8 @@ def _sketched(study: HoverStudy) -> Note:
     )
     return Note(
         "Shaded: full thrust. Tilt is negative towards the target, largest at t2; the initial burn is centred there, "
-        "its half width is w. At t5 the tilt is largest the other way, at t7 thrust is upright; the last burn begins tp "
-        "before." + (level if programme.threshold is not None and programme.programme.width else "")
+        "its half width is w. At t5 the tilt is largest the other way, at t7 thrust is upright; the last burn begins "
+        "tp before." + (level if programme.threshold is not None and programme.programme.width else "")
     )
 
 

@@ -113,7 +113,7 @@ def test_straight_down(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["hover", "landing"])
-@pytest.mark.parametrize(("width", "height"), either([(1200, 3200), (400, 4200)], [(400, 4200)]))
+@pytest.mark.parametrize(("width", "height"), either([(1200, 3200), (400, 4800)], [(400, 4800)]))
 def test_page_renders(browser, pages, tmp_path, name, width, height):
     start(browser, pages[name], tmp_path, f"--window-size={width},{height}", f"--screenshot={tmp_path / 'page.png'}")
     pixels = image.imread(tmp_path / "page.png")[..., :3] * 255.0
