@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import islice
+from typing import TYPE_CHECKING
+
 from ...reports.common.notebook import Grid, notebook_view
 from ...reports.common.panels import HALF_WIDTH
-from ..model import Document, Figures, Node, Table, Text, Verdict, nodes_of
+from ..model import Document, Figure, Figures, KeyNumbers, Node, Table, Text, Verdict, nodes_of
 from .html import cell_markup
-from .words import rich_text
+from .words import number_line, rich_text
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Plot
 
 PLOTTED = 4  # figures
 
@@ -19,20 +26,37 @@ def document_view(document: Document) -> str:
         for node in nodes
         if isinstance(node, Table)
     ]
-    figures = [figure for node in nodes if isinstance(node, Figures) for figure in node.draw()][:PLOTTED]
-    plot = None
-    if figures:
-        from ...reports.chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
+    figures = figures_of(document)
+    words = [text for node in nodes for text in _words(node)]
+    return notebook_view(document.title, words, grids, plot_figures(figures) if figures else None)
 
-        charts, titles = [each.chart for each in figures], [each.label for each in figures]
-        plot = plot_charts(charts, figures[0].height, HALF_WIDTH, columns=2, titles=titles)
-    return notebook_view(document.title, [text for node in nodes for text in _words(node)], grids, plot)
+
+def figures_of(document: Document) -> list[Figure]:
+    """Return the first figures of a document."""
+    groups = (node for node in nodes_of(document) if isinstance(node, Figures))
+    return list(islice((figure for group in groups for figure in group.draw()), PLOTTED))
+
+
+def plot_figures(figures: Sequence[Figure]) -> Plot:
+    """Return figures next to each other as one of matplotlib's, with their legends."""
+    from ...reports.chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
+
+    return plot_charts(
+        [each.chart for each in figures],
+        max(each.height for each in figures),
+        HALF_WIDTH,
+        columns=min(2, len(figures)),
+        titles=[": ".join(filter(None, (each.label, each.chart.title))) for each in figures],
+        legends=[[curve.name for curve in each.chart.curves] if each.legend else [] for each in figures],
+    )
 
 
 def _words(node: Node) -> list[str]:
     match node:
         case Text(content):
             return [rich_text(content)]
+        case KeyNumbers():
+            return [number_line(node)]
         case Verdict(lead, inner):
             return [rich_text(lead), *(text for each in inner for text in _words(each))]
     return []

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...reports.common.quantities import display_unit, in_display_unit, number
-from ..model import Cell, Code, Quantity, Rich
+from ...reports.common.quantities import decimal_number, display_unit, in_display_unit, number
+from ..model import Cell, Code, Document, Interval, KeyNumbers, Quantity, Rich, Verdict
 
 
 def cell_text(cell: Cell) -> str:
@@ -11,12 +11,34 @@ def cell_text(cell: Cell) -> str:
     match cell:
         case Code(text):
             return text
-        case Quantity(value, unit, digits, is_bare):
-            text = number(in_display_unit(value, unit), digits)
-            return text if is_bare or not display_unit(unit) else f"{text} {display_unit(unit)}"
+        case Interval(low, high):
+            return f"{cell_text(low)} to {cell_text(high)}"
+        case Quantity():
+            text = quantity_text(cell)
+            return text if cell.is_bare or not display_unit(cell.unit) else f"{text} {display_unit(cell.unit)}"
     return number(cell)
+
+
+def quantity_text(quantity: Quantity) -> str:
+    """Return the number of a quantity in its displayed unit, without that."""
+    displayed = in_display_unit(quantity.value, quantity.unit)
+    return (
+        number(displayed, quantity.digits)
+        if quantity.decimals is None
+        else decimal_number(displayed, quantity.decimals)
+    )
 
 
 def rich_text(content: Rich) -> str:
     """Return a sentence as text."""
     return content if isinstance(content, str) else "".join(map(cell_text, content))
+
+
+def number_line(numbers: KeyNumbers) -> str:
+    """Return key numbers as one line."""
+    return "; ".join(f"{name} {cell_text(cell)}" for name, cell in numbers.entries)
+
+
+def lead_text(document: Document) -> str:
+    """Return the answer of a document, that of its verdict."""
+    return next(rich_text(node.lead) for node in document.summary if isinstance(node, Verdict))

@@ -58,6 +58,13 @@ def number(value: Any, digits: int = 4) -> str:
     return text.replace("-", MINUS)
 
 
+def decimal_number(value: float | None, decimals: int) -> str:
+    """Return a number of the order of 1 with so many decimals; one that is none, or not finite, as `number`."""
+    if value is None or not math.isfinite(value):
+        return number(value)
+    return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)
+
+
 def in_display_unit(value: Any, unit: str | None) -> Any:
     """A value in ``unit`` in the unit that is shown; Integers, Booleans and None stay as they are."""
     factor = display_factor(unit)
