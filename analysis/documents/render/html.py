@@ -11,12 +11,11 @@ from markupsafe import Markup, escape
 from ...reports.chart.legend import swatch_of
 from ...reports.chart.panel import chart_panel, wide_figure
 from ...reports.common.colours import Look
-from ...reports.common.page import data, exact, write_page
+from ...reports.common.page import exact, write_page
 from ...reports.common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, mark_swatch, swatch
 from ...reports.common.quantities import display_unit
 from ...reports.interactive.charts import Curve, Marker
 from ..model import Cell, Code, Document, Figure, Interval, LegendEntry, Quantity, Rich, Table
-from .words import quantity_text
 
 TEMPLATE = Path(__file__).with_name("document.html")
 
@@ -46,16 +45,10 @@ def cell_markup(cell: Cell) -> Markup:
             return Markup("<code>{}</code>").format(text)
         case Interval(low, high):
             return Markup("{} to {}").format(cell_markup(low), cell_markup(high))
-        case Quantity():
-            number, unit = _number_markup(cell), display_unit(cell.unit)
-            return number if cell.is_bare or not unit else Markup("{} {}").format(number, unit)
+        case Quantity(value, unit, digits, is_bare, decimals):
+            number = exact(value, unit, digits, decimals)
+            return number if is_bare or not display_unit(unit) else Markup("{} {}").format(number, display_unit(unit))
     return exact(cell)
-
-
-def _number_markup(quantity: Quantity) -> Markup:
-    if quantity.value is None or quantity.decimals is None:
-        return exact(quantity.value, quantity.unit, quantity.digits)
-    return data(repr(quantity.value), quantity_text(quantity))
 
 
 def rich_markup(content: Rich, *, is_sentence: bool = False) -> Markup:

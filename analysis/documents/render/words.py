@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...reports.common.quantities import decimal_number, display_unit, in_display_unit, number
+from ...reports.common.quantities import display_unit, in_display_unit, number
 from ..model import Cell, Code, Document, Interval, KeyNumbers, Quantity, Rich, Verdict
 
 
@@ -13,20 +13,10 @@ def cell_text(cell: Cell) -> str:
             return text
         case Interval(low, high):
             return f"{cell_text(low)} to {cell_text(high)}"
-        case Quantity():
-            text = quantity_text(cell)
-            return text if cell.is_bare or not display_unit(cell.unit) else f"{text} {display_unit(cell.unit)}"
+        case Quantity(value, unit, digits, is_bare, decimals):
+            text = number(in_display_unit(value, unit), digits, decimals)
+            return text if is_bare or not display_unit(unit) else f"{text} {display_unit(unit)}"
     return number(cell)
-
-
-def quantity_text(quantity: Quantity) -> str:
-    """Return the number of a quantity in its displayed unit, without that."""
-    displayed = in_display_unit(quantity.value, quantity.unit)
-    return (
-        number(displayed, quantity.digits)
-        if quantity.decimals is None
-        else decimal_number(displayed, quantity.decimals)
-    )
 
 
 def rich_text(content: Rich) -> str:

@@ -19,9 +19,12 @@ from .quantities import display_unit, in_display_unit, number
 FOLDER = Path(__file__).parent
 
 
-def exact(value: Any, unit: str | None = None, digits: int = 4) -> Markup:
-    """A number for reading in its shown unit, with the exact SI value in the markup for programs."""
-    displayed = number(in_display_unit(value, unit), digits)
+def exact(value: Any, unit: str | None = None, digits: int = 4, decimals: int | None = None) -> Markup:
+    """A number for reading in its shown unit, with the exact SI value in the markup for programs.
+
+    It has ``digits`` significant digits, or ``decimals``.
+    """
+    displayed = number(in_display_unit(value, unit), digits, decimals)
     if value is None or isinstance(value, str):
         return Markup("<span>{}</span>").format(displayed)
     return data(str(value).lower() if isinstance(value, bool) else repr(value), displayed)
