@@ -2,15 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import islice
+from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
 from ...reports.common.notebook import Grid, notebook_view
 from ...reports.common.panels import HALF_WIDTH
-from ..model import Cell, Diagram, Document, Figures, KeyNumbers, LegendEntry, Node, Table, Text, Verdict, nodes_of
+from ..model import (
+    Cell,
+    Diagram,
+    Document,
+    Figure,
+    Figures,
+    KeyNumbers,
+    LegendEntry,
+    Node,
+    Table,
+    Text,
+    Verdict,
+    nodes_of,
+)
 from .html import cell_markup
-from .words import cell_text, key_numbers_text, rich_text
+from .words import cell_text, number_line, rich_text
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Plot
 
 PLOTTED = 4  # figures
 
@@ -23,19 +41,39 @@ def document_view(document: Document) -> str:
         for node in nodes
         if isinstance(node, Table)
     ]
-    figures = list(islice((figure for node in nodes if isinstance(node, Figures) for figure in node.draw()), PLOTTED))
-    diagrams = [node for node in nodes if isinstance(node, Diagram)]
-    plot = None
-    if figures or diagrams:
-        from ...reports.chart.plot import POINTS, plot_charts  # matplotlib takes as long to import as all the rest
+    figures = figures_of(document)
+    words = [text for node in nodes for text in _words(node)]
+    return notebook_view(document.title, words, grids, plot_figures(figures) if figures else _plot_diagram(nodes))
 
-    if figures:
-        charts, titles = [each.chart for each in figures], [each.label for each in figures]
-        plot = plot_charts(charts, figures[0].height, HALF_WIDTH, columns=2, titles=titles)
-    elif diagrams:
-        chart, width, height = diagrams[0].draw()
-        plot = plot_charts([chart], height / POINTS, width / POINTS)
-    return notebook_view(document.title, [text for node in nodes for text in _words(node)], grids, plot)
+
+def figures_of(document: Document) -> list[Figure]:
+    """Return the first figures of a document."""
+    groups = (node for node in nodes_of(document) if isinstance(node, Figures))
+    return list(islice((figure for group in groups for figure in group.draw()), PLOTTED))
+
+
+def plot_figures(figures: Sequence[Figure]) -> Plot:
+    """Return figures next to each other as one of matplotlib's, with their legends."""
+    from ...reports.chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
+
+    return plot_charts(
+        [each.chart for each in figures],
+        max(each.height for each in figures),
+        HALF_WIDTH,
+        columns=min(2, len(figures)),
+        titles=[": ".join(filter(None, (each.label, each.chart.title))) for each in figures],
+        legends=[[curve.name for curve in each.chart.curves] if each.legend else [] for each in figures],
+    )
+
+
+def _plot_diagram(nodes: Sequence[Node]) -> Plot | None:
+    diagram = next((node for node in nodes if isinstance(node, Diagram)), None)
+    if diagram is None:
+        return None
+    from ...reports.chart.plot import POINTS, plot_charts
+
+    chart, width, height = diagram.draw()
+    return plot_charts([chart], height / POINTS, width / POINTS)
 
 
 def _cell(cell: Cell) -> Markup | str:
@@ -48,7 +86,7 @@ def _words(node: Node) -> list[str]:
         case Text(content):
             return [rich_text(content)]
         case KeyNumbers():
-            return [key_numbers_text(node)]
+            return [number_line(node)]
         case Verdict(lead, inner):
             return [rich_text(lead), *(text for each in inner for text in _words(each))]
     return []

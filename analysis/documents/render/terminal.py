@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from ...campaigns.plain_text import align_columns
 from ..model import Commands, Document, Fold, KeyNumbers, Node, Section, Table, Text, Verdict
-from .words import cell_text, key_numbers_text, rich_text
+from .words import cell_text, number_line, rich_text
 
 
 def document_lines(document: Document) -> list[str]:
@@ -33,9 +33,11 @@ def _node_lines(node: Node) -> list[str]:
         case Verdict(lead, nodes):
             return [rich_text(lead), *_lines(nodes)]
         case KeyNumbers():
-            return [key_numbers_text(node)]
+            return [number_line(node)]
         case Commands(entries, missing):
-            return [f"{purpose}: {command}" for purpose, command in entries] or [missing]
+            return [f"{purpose}: {command}" for purpose, command in entries] or [rich_text(missing)]
+        case Fold(summary, nodes, is_listed=True):
+            return ["", summary, *_lines(nodes)]
         case Fold(summary):
             return [summary]
         case Table() if node.rows:

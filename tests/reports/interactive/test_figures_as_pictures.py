@@ -135,10 +135,7 @@ TEMPLATES = {
     "batch_report.html": [write_batch, write_many_trials, write_recorded],
     "comparison.html": [write_comparison],
     "stability.html": [write_stability],
-    "rare.html": [write_rare],
-    "worst.html": [write_worst],
-    "sensitivity.html": [write_sensitivity],
-    "document.html": [write_differences, write_transfer, write_bound],
+    "document.html": [write_differences, write_rare, write_worst, write_sensitivity, write_transfer, write_bound],
     "demo.html": [write_demo],
     "system.html": [],  # a block diagram, the same with scripts: tests/reports/diagram
     "show.html": [],  # without scripts it has no figure: tests/show

@@ -66,7 +66,7 @@ def test_failures_fly_again_to_the_last_bit(actual, linear):
 def test_workers_do_not_matter(actual, linear):
     _, result = actual
     other = perilune.rare(*linear, failure=f"total > {LIMIT}", samples=SAMPLES, workers=2)
-    assert other.document() == result.document()
+    assert other.json_document() == result.json_document()
     assert other.flown.points.tobytes() == result.flown.points.tobytes()
     assert other.flown.values.tobytes() == result.flown.values.tobytes()
 
@@ -155,5 +155,7 @@ def test_variants_are_to_be_chosen_and_noise_can_be_held():
     )  # fmt: skip
     assert result.probability == 1.0
     assert result.noise.components == ("navigation", "allocation")
-    assert "probability 1, 95 % interval 0.964 to 1, conditional on the noise realisation of trial 3" in result.text()
-    assert result.document()["noise_trial"] == 3
+    assert (
+        "probability 1, 95 % interval 0.964 to 1, conditional on the noise realisation of trial 3" in result.lines()[0]
+    )
+    assert result.json_document()["noise_trial"] == 3

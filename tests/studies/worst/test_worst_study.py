@@ -51,13 +51,13 @@ def test_it_flies_again_to_the_last_bit(actual, linear):
     assert repeated.tolist() == [result.worst["value"], result.worst_random["value"]]
     document = json.loads((folder / "worst.json").read_text())
     assert document["worst"]["metrics"]["total"] == result.value
-    assert document == result.document(folder)
+    assert document == result.json_document(folder)
 
 
 def test_workers_do_not_matter(actual, linear):
     _, result = actual
     other = perilune.worst(*linear, metric="total", flights=400, workers=2)
-    assert other.document() == result.document()
+    assert other.json_document() == result.json_document()
     assert other.flown.points.tobytes() == result.flown.points.tobytes()
 
 
