@@ -87,7 +87,7 @@ def test_the_command(linear, tmp_path, capsys):
     line = ["worst", linear[0], "--campaign", linear[1], "--metric", "total", "--flights", "150", "--workers", "1"]
     assert main([*line, "--output", str(tmp_path / "out"), "--require", "worst < 5"]) == 0
     text = capsys.readouterr().out
-    assert text.startswith("total: worst 4.2 in 150 flights")
+    assert text.startswith("total: worst 4.2, of 150 points in 150 simulations")
     assert "worst of 30 random trials" in text
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         "flights.parquet", "worst.json", "worst.parquet",
