@@ -5,7 +5,6 @@ editors and `perilune/__init__.py`.
 from . import modal as modal
 from .analysis.design.orbits.starts import epoch as epoch
 from .analysis.design.orbits.starts import orbit as orbit
-from .analysis.design.synthesis.outcome import SynthesisResult as SynthesisResult
 from .analysis.design.trajectories.path import PlanError as PlanError
 from .analysis.design.trajectories.vehicle import Landing as Landing
 from .analysis.design.trajectories.vehicle import Margins as Margins
@@ -28,6 +27,7 @@ from .analysis.verbs.export import Exported as Exported
 from .analysis.verbs.export import export as export
 from .analysis.verbs.inventory import inventory as inventory
 from .analysis.verbs.laws import Law as Law
+from .analysis.verbs.laws import SynthesisResult as SynthesisResult
 from .analysis.verbs.laws import law as law
 from .analysis.verbs.laws import synthesize as synthesize
 from .analysis.verbs.new import new_block as new_block

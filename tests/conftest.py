@@ -167,6 +167,30 @@ def stability_page(studies: Any, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 
 @pytest.fixture(scope="session")
+def rare_result(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """A rare failure of the linear system, studied once per test run."""
+    from tests.support.pages.studies import rare_study
+
+    return rare_study(tmp_path_factory.mktemp("rare"))
+
+
+@pytest.fixture(scope="session")
+def worst_result(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """The worst case of the linear system, studied once per test run."""
+    from tests.support.pages.studies import worst_study
+
+    return worst_study(tmp_path_factory.mktemp("worst"))
+
+
+@pytest.fixture(scope="session")
+def sensitivity_result(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """Indices of a sum of independent draws, studied once per test run."""
+    from tests.support.pages.studies import sensitivity_study
+
+    return sensitivity_study(tmp_path_factory.mktemp("sensitivity"))
+
+
+@pytest.fixture(scope="session")
 def comparison(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a batch made by hand, `quiet`, and the page that compares its variants, written once per run."""
     from tests.support.pages.written import write_comparison

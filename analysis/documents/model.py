@@ -8,8 +8,9 @@ A renderer decides how a node is shown; which nodes a medium has follows from th
 | `Table` | its first rows | its first rows | yes |
 | `Commands` | yes | no | yes |
 | `Figures` | no | the first ones | yes |
-| `Fold` | its summary | no | closed, opens |
-| `Note` | no | no | yes |
+| `Diagram` | no | where there are no figures | yes |
+| `Fold` | its summary; its nodes if ``is_listed`` | no | opens |
+| `Note`, `OnPage`, `SystemFigures`, `History` | no | no | yes |
 | heading of a `Section` | where it has lines | no | yes |
 """
 
@@ -19,30 +20,60 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
+from markupsafe import Markup
+
 from ..reports.common.colours import Look
-from ..reports.interactive.charts import Chart
+from ..reports.figures.section import Section as SystemFigure
+from ..reports.interactive.charts import Chart, Curve, Marker
+from ..reports.time_histories import ComponentHistory
 
 
 class Quantity(NamedTuple):
     """A number in SI, displayed with ``digits`` significant digits in the unit that people read.
 
-    ``is_bare``: without the unit, which its row or column states.
+    ``is_bare``: without the unit, which its row or column states. ``decimals``: with this many instead of ``digits``,
+    for fractions, of which a column has the same decimals.
     """
 
     value: float | None
     unit: str | None = None
     digits: int = 4
     is_bare: bool = False
+    decimals: int | None = None
+
+
+class Interval(NamedTuple):
+    """The two ends of an interval in one cell."""
+
+    low: Quantity
+    high: Quantity
 
 
 class Code(NamedTuple):
-    """Text of a program: an expression, a file, a digest."""
+    """Text of a program: an expression, a file, a digest; a column of ``is_long`` ones is not narrowed."""
 
     text: str
+    is_long: bool = False
 
 
-Cell = str | float | bool | Quantity | Code | None
-Rich = str | Sequence[str | Quantity | Code]  # a sentence; its numbers keep their exact values in a page
+Inline = str | Quantity | Code
+Rich = str | Sequence[Inline]  # a sentence; its numbers keep their exact values in a page
+
+
+class Phrase(NamedTuple):
+    """Several numbers and words in a cell."""
+
+    content: Sequence[Inline]
+
+
+class LegendEntry(NamedTuple):
+    """A look of lines or of marks, and what has it: the names of ``lines``, or words in them."""
+
+    look: Look | Marker | Curve
+    lines: Sequence[str]
+
+
+Cell = Inline | Interval | float | bool | Phrase | LegendEntry | None
 
 
 @dataclass(frozen=True)
@@ -85,7 +116,7 @@ class Commands:
 
     kind: ClassVar[str] = "commands"
     entries: Sequence[tuple[str, str]]
-    missing: str = ""
+    missing: Rich = ""
 
 
 @dataclass(frozen=True)
@@ -102,7 +133,8 @@ class Table:
 class Figure:
     """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` describe it to those who do not see.
 
-    ``is_wide``: as wide as the page.
+    ``is_wide``: as wide as the page; ``is_narrow``: three in a row of a wide page, not two.
+    ``legend`` is that of this figure alone.
     """
 
     label: str
@@ -111,18 +143,13 @@ class Figure:
     chart: Chart
     height: float
     is_wide: bool = False
-
-
-class LegendEntry(NamedTuple):
-    """A look of lines, and what has it: the names of ``lines``, or words in them."""
-
-    look: Look
-    lines: Sequence[str]
+    is_narrow: bool = False
+    legend: Sequence[LegendEntry] = ()
 
 
 @dataclass(frozen=True)
 class Figures:
-    """Figures next to each other, two in a row of a wide page, with one legend; ``draw`` them only where they show."""
+    """Figures next to each other with one legend; ``draw`` them only where they show."""
 
     kind: ClassVar[str] = "figures"
     draw: Callable[[], Sequence[Figure]]
@@ -130,15 +157,60 @@ class Figures:
 
 
 @dataclass(frozen=True)
+class Diagram:
+    """A drawing without axes; ``draw`` returns it with its width and height (pt), which it has at any width of a page.
+
+    ``name`` is unique in its document, ``words`` describe it to those who do not see.
+    """
+
+    kind: ClassVar[str] = "diagram"
+    name: str
+    words: str
+    draw: Callable[[], tuple[Chart, float, float]]
+
+
+@dataclass(frozen=True)
 class Fold:
-    """Nodes that few readers need, behind their ``summary``."""
+    """Nodes that few readers need, behind their ``summary``.
+
+    ``is_open``: a page has it open at first. ``is_listed``: a terminal lists the nodes, too.
+    """
 
     kind: ClassVar[str] = "fold"
     summary: str
     nodes: Sequence[Node]
+    is_open: bool = False
+    is_listed: bool = False
 
 
-Node = Text | Note | Verdict | KeyNumbers | Commands | Table | Figures | Fold
+@dataclass(frozen=True)
+class OnPage:
+    """Nodes that only a page has; ``compose`` them while it is written, since they may take a simulation."""
+
+    kind: ClassVar[str] = "on_page"
+    compose: Callable[[], Sequence[Node]]
+
+
+@dataclass(frozen=True)
+class SystemFigures:
+    """Figures of a simulation, each with its heading, and ``findings`` on several of them."""
+
+    kind: ClassVar[str] = "system_figures"
+    figures: Sequence[SystemFigure]
+    findings: Sequence[Markup] = ()
+
+
+@dataclass(frozen=True)
+class History:
+    """Signals of one component of a simulation over time."""
+
+    kind: ClassVar[str] = "history"
+    history: ComponentHistory
+
+
+Node = (
+    Text | Note | Verdict | KeyNumbers | Commands | Table | Figures | Diagram | Fold | OnPage | SystemFigures | History
+)
 
 
 @dataclass(frozen=True)

@@ -130,7 +130,7 @@ class StudyResult:
         """The command that flies a row of the file of draws again; empty where it is not written to a folder."""
         return "" if folder is None or self.commands is None else self.commands.replay(folder / self.DRAWS, trial)
 
-    def document(self, folder: Path | None = None) -> dict[str, object]:
+    def json_document(self, folder: Path | None = None) -> dict[str, object]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
         raise NotImplementedError
 
@@ -143,13 +143,10 @@ class StudyResult:
             "conditions": self.conditions.removeprefix(", "),
         }
 
-    def _replay_lines(self, folder: Path | None) -> list[str]:
-        return ["", f"replay: {self.replay(folder, 0) or 'needs the folder of `output`'}"]
-
     def _write(self, folder: Path, name: str, value_name: str, rows: np.ndarray) -> None:
         """Write the draws of some flights for `--draws`, all flights, and the document."""
         if rows.size:
             write_parquet(self.flown.draw_table(input_names(self.space.campaign), rows), folder / self.DRAWS)
         write_parquet(self.flown.table(value_name), folder / "flights.parquet")
-        text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
+        text = f"{json.dumps(self.json_document(folder), indent=1, allow_nan=False)}\n"
         write_atomically(folder / f"{name}.json", text.encode())

@@ -67,13 +67,3 @@ def conditions(noise: Noise, held: Mapping[str, float]) -> str:
     given = [f"{name} = {value:g}" for name, value in held.items()]
     given += [f"the noise realisation of trial {noise.trial}"] if noise.is_held else []
     return f", conditional on {' and '.join(given)}" if given else ""
-
-
-def noise_line(noise: Noise) -> str:
-    """What results say of the noise on a line of its own; empty where no component has any."""
-    if not noise.components:
-        return ""
-    names = ", ".join(noise.components)
-    if noise.is_held:
-        return f"noise of {names}: that of trial {noise.trial} in all flights, seed {noise.seed}"
-    return f"noise of {names}: random"

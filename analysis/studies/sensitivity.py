@@ -11,14 +11,12 @@ import numpy as np
 
 from ...common.errors import InputError
 from ..campaigns.definition.plan import BatchPlan
-from ..campaigns.plain_text import align_columns, assumption_lines
 from ..runtime.loop.elementary import elementary
 from .draw_space import DrawSpace
 from .flights import SampleFlights
 from .flown import Flown, StudyResult, strict
-from .noise import noise_line
 from .sobol import CONFIDENCE, Indices, indices, rank_correlations, saltelli_points, with_noise
-from .units import units_of, with_unit
+from .units import units_of
 
 SUCCESS = "success"
 NOISE = "noise realisation"  # the input that all random noise is
@@ -140,7 +138,7 @@ class SensitivityResult(StudyResult):
                 }
         return rows
 
-    def document(self, folder: Path | None = None) -> dict[str, object]:
+    def json_document(self, folder: Path | None = None) -> dict[str, object]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
         replay = self.replay(folder, 0)
         return {
@@ -156,30 +154,6 @@ class SensitivityResult(StudyResult):
             **({"replay": replay} if replay else {}),
         }
 
-    def text(self, folder: Path | None = None) -> str:
-        """The result for a terminal: a table for each number, its inputs in order of their total index."""
-        percent, under = f"{100 * CONFIDENCE:g} %", self.conditions
-        lines = [f"{self.flights} flights: Sobol' indices and their {percent} intervals, rank correlations{under}"]
-        lines += [line for line in (noise_line(self.noise),) if line]
-        if self.noise.sources:
-            lines.append(f"{NOISE}: all of these components as one input; rank correlations leave it out")
-        lines += assumption_lines(self.facts.get("assumptions", ()))
-        for number in self.told:
-            indices = self.of(number)
-            rows = [[with_unit(number, self.units), "total", percent, "first", percent, "rank"]]
-            for name in sorted(indices, key=lambda name: -indices[name]["total"]):
-                entry = indices[name]
-                total = [_text(entry["total"]), " to ".join(map(_text, entry["total_interval"]))]
-                first = [_text(entry["first"]), " to ".join(map(_text, entry["first_interval"]))]
-                rows.append([f"  {with_unit(name, self.units)}", *total, *first, _text(entry["rank"])])
-            lines += ["", *([f"{number}{under}"] if under else []), *align_columns(rows)]
-        lines += ["", *(f"{name}: no indices, {why}" for name, why in self.untold.items())] if self.untold else []
-        return "\n".join(line.rstrip() for line in [*lines, *self._replay_lines(folder)])
-
     def write(self, folder: Path) -> None:
         """Write sensitivity.json, flights.parquet, and draws.parquet of all flights for `--draws`."""
         self._write(folder, "sensitivity", "success", np.arange(self.flights))
-
-
-def _text(value: float | None) -> str:
-    return "-" if value is None else f"{round(value, 2) + 0.0:.2f}"

@@ -46,8 +46,3 @@ def _is_linear(node: ast.expr) -> bool:
         case ast.BoolOp(values=values):
             return all(map(_is_linear, values))
     return False
-
-
-def with_unit(name: str, units: Mapping[str, str]) -> str:
-    """A name as tables show it, its unit behind it."""
-    return f"{name}, {units[name]}" if name in units else name

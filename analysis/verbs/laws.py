@@ -11,15 +11,17 @@ from ...common.atomic import write_atomically
 from ...common.errors import InputError
 from ...common.targets import check_folder
 from ..design.laws import law as laws
-from ..design.laws.formula import formula, formula_text
-from ..design.laws.graph import INCH, law_chart, law_svg
 from ..design.laws.law import find_law, parameter_set
-from ..design.synthesis.outcome import SynthesisResult
+from ..design.synthesis import outcome
 from ..design.synthesis.synthesis import run_synthesis
 from ..design.synthesis.synthesis_file import find_search, read_synthesis
+from ..documents.model import Document
+from ..documents.of.law import law_document
+from ..documents.of.law_figures import INCH, law_chart, law_diagram
+from ..documents.of.synthesis import synthesis_document
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..reports.common.notebook import Grid, notebook_view
+from .common.documented import Documented
 from .options.design import LAW, SEARCH, LawOptions, SearchOptions
 from .result import NoProblems
 
@@ -28,7 +30,7 @@ if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as
 
 
 @dataclass(frozen=True)
-class Law(NoProblems, laws.Law):
+class Law(Documented, NoProblems, laws.Law):
     """A network operator's law: its matrix and parameters, as formula, drawing and parameter set.
 
     ``component`` is what the parameter set is for.
@@ -36,13 +38,9 @@ class Law(NoProblems, laws.Law):
 
     component: str = "guidance"
 
-    def lines(self) -> list[str]:
-        """The law as a formula, for a terminal."""
-        return formula_text(self).splitlines()
-
-    def to_json(self) -> dict[str, object]:
-        """The content of the law's file, and the formula."""
-        return self.document() | {"formula": formula(self)}
+    def document(self) -> Document:
+        """Return formula, parameters and graph."""
+        return law_document(self)
 
     def write(self, path: FilePath) -> None:
         """Write the law's file (.json)."""
@@ -54,7 +52,7 @@ class Law(NoProblems, laws.Law):
 
     def write_graph(self, path: FilePath) -> None:
         """Draw the law's graph (.svg)."""
-        write_atomically(Path(path), law_svg(self))
+        _write_graph(self, Path(path))
 
     def plot(self) -> Plot:
         """The law's graph."""
@@ -63,9 +61,35 @@ class Law(NoProblems, laws.Law):
         chart, width, height = law_chart(self)
         return plot_charts([chart], height / INCH, width / INCH)
 
-    def _repr_html_(self) -> str:
-        lines = [(line,) for line in self.lines() if line.strip()]
-        return notebook_view(self.name, [self.description], [Grid(("formula",), lines)], self.plot())
+
+@dataclass
+class SynthesisResult(Documented, outcome.SynthesisResult):
+    """A search as far as it came; ``ended`` says why: success, generations or evaluations."""
+
+    def document(self) -> Document:
+        """Return how the search ended, the chosen law and the Pareto set."""
+        return synthesis_document(self)
+
+    def problems(self) -> list[str]:
+        """A line for a search that found no law, with what to do."""
+        if self.succeeded:
+            return []
+        evaluation = self.search.choose().evaluation
+        return [
+            f"{self.synthesis.campaign.file}: no law found: the chosen one succeeds in {evaluation.successes} of "
+            f"{self.search.evaluator.trials} trials; give more generations, another `seed` or another basic solution"
+        ]
+
+    def write(self, folder: FilePath) -> None:
+        """Write pareto.json, law.json, law.ssv, log.csv and law.svg."""
+        super().write(folder)
+        _write_graph(self.law, Path(folder) / "law.svg")
+
+
+def _write_graph(law: laws.Law, path: Path) -> None:
+    from ..documents.render.diagram import diagram_svg
+
+    write_atomically(path, f"{diagram_svg(law_diagram(law))}\n".encode())
 
 
 @verb(LAW)
@@ -99,5 +123,6 @@ def synthesize(search: FilePath, **options: Unpack[SearchOptions]) -> SynthesisR
         resume=options["resume"],
         evaluations=options["evaluations"],
     )
-    result.folder = folder
-    return result
+    if folder is not None:
+        _write_graph(result.law, folder / "law.svg")
+    return SynthesisResult(**vars(result) | {"folder": folder})

@@ -27,13 +27,15 @@ from ..design.trajectories.vehicle import (
     check_vehicle,
 )
 from ..design.transfers.hover_study import HoverStudy, hover_study
+from ..documents.model import Document
+from ..documents.of.landing_bound import landing_bound_document
+from ..documents.of.transfer import transfer_document
 from ..options.option import FilePath, options_of
 from ..options.verb import verb
-from ..reports.plan_pages import write_hover_page, write_landing_page
 from ..runtime.system.options import SystemOptions, system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
+from .common.documented import Documented
 from .common.stores import check_stored_system
-from .common.transfer_text import adjoint_lines, burns_text, finite_lines, free_fall_lines
 from .options.design import BOUND, TRANSFER, BoundOptions, TransferOptions, VehicleOptions
 
 OF_VEHICLE = frozenset(options_of(VehicleOptions))
@@ -58,41 +60,12 @@ def propellant_problems(vehicle: Vehicle, propellant: float, what: str) -> list[
 
 
 @dataclass(frozen=True)
-class HoverPlan(HoverStudy):
+class HoverPlan(Documented, HoverStudy):
     """A transfer planned: its ``programme``, compared with optimum and bound as far as they were requested."""
 
-    def report(self, path: FilePath) -> None:
-        """Write the page of `perilune design transfer --report`, curves included."""
-        write_hover_page(self.with_curves(), Path(path))
-
-    def lines(self) -> list[str]:
-        """What `perilune design transfer` prints."""
-        programme, mass = self.programme, self.vehicle.mass
-        fraction, vertical = programme.propellant_fraction, self.vertical.propellant_fraction
-        t2, t5, w, tp, t7 = programme.times
-        threshold = "" if programme.threshold is None else f" (k {programme.threshold:.4f})"
-        low, high = (math.degrees(angle) for angle in programme.extremes)
-        lines = [
-            f"programme {programme.kind}: t2 {t2:.3f}, t5 {t5:.3f}, w {w:.3f}{threshold}, tp {tp:.3f}, t7 {t7:.3f} s",
-            f"  propellant fraction {fraction:.6f}, {fraction * mass:.3f} kg; {burns_text(programme.burns)}",
-            f"  pitch {low:.1f} to {high:.1f} deg, {math.degrees(programme.turn_rate):.3f} deg/s",
-            f"  {fraction / vertical:.4f} x vertical descent, {vertical:.6f} in {self.vertical.duration:.2f} s",
-        ]
-        named = (("true optimum", self.optimum), ("point-mass bound", self.bound))
-        for name, path in named:
-            if path is not None:
-                fraction, duration = path.propellant_fraction, f"{path.duration:.2f} s ({path.throttle.size} intervals)"
-                lines += [
-                    f"{name}: propellant fraction {fraction:.6f}, {fraction * mass:.3f} kg in {duration}",
-                    f"  {burns_text(path.burns())}",
-                ]
-                if name == "true optimum":
-                    lines += adjoint_lines(self)
-        return lines + finite_lines(self) + free_fall_lines(self)
-
-    def to_json(self) -> dict[str, object]:
-        """All of it for other programs; times in s, angles in deg."""
-        return self.document()
+    def document(self) -> Document:
+        """Return plans, their times, the conditions of the optimum, figures."""
+        return transfer_document(self)
 
     def problems(self) -> list[str]:
         """Whether the programme takes more propellant than is on board."""
@@ -163,7 +136,7 @@ OF_LANDING = tuple(Landing.__dataclass_fields__)
 
 
 @dataclass(frozen=True)
-class LandingBound(LandingStudy):
+class LandingBound(Documented, LandingStudy):
     """The bound of a landing: ``propellant`` (kg) and the ``bound`` path that takes it.
 
     ``file`` is where the bound is stored, in the system's folder, if it was requested.
@@ -171,29 +144,13 @@ class LandingBound(LandingStudy):
 
     file: Path | None = None
 
-    def report(self, path: FilePath) -> None:
-        """Write the page of `perilune design bound --report`."""
-        write_landing_page(self, Path(path))
+    def document(self) -> Document:
+        """Return the bound, its checks and its path."""
+        return landing_bound_document(self)
 
     def lines(self) -> list[str]:
-        """What `perilune design bound` prints."""
-        bound = self.bound
-        lines = [
-            f"bound {self.propellant:.3f} kg of {self.vehicle.mass:g} kg in {bound.duration:.2f} s "
-            f"({bound.throttle.size} intervals)",
-            f"  {burns_text(bound.burns())}",
-            f"  largest thrust residual of the convex form: {self.looseness:.1g} m/s2",
-        ]
-        lines += [f"  {name} alone: {propellant:.3f} kg" for name, propellant in self.pieces.items()]
-        if self.direct is not None:
-            propellant = self.direct.propellant_fraction * self.vehicle.mass
-            difference = f"{propellant - self.propellant:+.1e} kg compared with the bound"
-            lines.append(f"direct method {propellant:.3f} kg in {self.direct.duration:.2f} s, {difference}")
-        return lines + ([] if self.file is None else [f"stored: {self.file}"])
-
-    def to_json(self) -> dict[str, object]:
-        """All of it for other programs; SI, but angular acceleration."""
-        return self.document()
+        """Return the lines that the verb prints."""
+        return super().lines() + ([] if self.file is None else [f"stored: {self.file}"])
 
     def problems(self) -> list[str]:
         """Whether the bound is more propellant than is on board."""

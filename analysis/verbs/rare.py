@@ -5,23 +5,18 @@ from __future__ import annotations
 from contextlib import chdir
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import Unpack
 
+from ..documents.model import Document
+from ..documents.of.studies.rare import rare_document
 from ..options.declared.studies import RARE, RareOptions
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..reports.common.notebook import Grid, notebook_view
-from ..reports.common.panels import HALF_WIDTH
-from ..reports.studies.rare_figures import HEIGHT, rare_charts
-from ..reports.studies.rare_page import design_table, level_table, write_rare_page
 from ..studies.rare import outcome
 from ..studies.rare.study import rare_failure
 from .common.arguments import read_requirements
 from .common.campaigns import commands_of, read_campaign
-from .common.studies import Required, condition_lines, conditions, results_folder, store_result
-
-if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
-    from matplotlib.figure import Figure as Plot
+from .common.studies import Required, conditions, results_folder, store_result
 
 NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # on which requirements are
 
@@ -33,28 +28,13 @@ class RareResult(Required, outcome.RareResult):
     ``simulation`` has the levels, ``flown`` every simulation; ``folder`` is where it is stored, if it is.
     """
 
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.facts['system']}, {self.headline()})"
+    def document(self) -> Document:
+        """Return probability, interval, levels and design points with their conditions."""
+        return rare_document(self, self.folder)
 
     def write(self, folder: FilePath) -> None:
         """Write rare.json, flights.parquet and, where there are failures, failures.parquet."""
         super().write(Path(folder))
-
-    def report(self, path: FilePath) -> None:
-        """Write the page of `perilune rare --report`: one HTML file."""
-        write_rare_page(self, Path(path), self.folder)
-
-    def plot(self) -> Plot:
-        """Limit state over simulations, exceedance probability, failures over the two most influential parameters."""
-        from ..reports.chart.plot import plot_charts
-
-        charts = rare_charts(self)
-        return plot_charts(charts, HEIGHT, HALF_WIDTH, columns=2, titles=[chart.title for chart in charts])
-
-    def _repr_html_(self) -> str:
-        grids = [Grid(table.heads, table.rows) for table in (level_table(self), design_table(self))]
-        text = [self.headline(), f"{self.flights} simulations", *condition_lines(self)]
-        return notebook_view(f"{self.facts['system']}: rare failure", text, grids, self.plot())
 
 
 @verb(RARE)

@@ -9,42 +9,31 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
 from ...common.errors import suggestion
+from ..documents.model import Document
+from ..documents.of.studies.sensitivity import sensitivity_document
+from ..documents.of.studies.sensitivity_figures import index_figures
 from ..options.declared.studies import SENSITIVITY, SensitivityOptions
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..reports.common.notebook import Grid, notebook_view
-from ..reports.common.panels import HALF_WIDTH
-from ..reports.studies.sensitivity_page import (
-    LANE,
-    driver_table,
-    rank_table,
-    sensitivity_charts,
-    write_sensitivity_page,
-)
 from ..studies import sensitivity as study
 from .common.campaigns import commands_of, read_campaign
-from .common.studies import Stored, condition_lines, conditions, results_folder, store_result
+from .common.studies import Stored, conditions, results_folder, store_result
 
 if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
     from matplotlib.figure import Figure as Plot
-
-MOST_PLOTTED = 4  # metrics, in a notebook
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SensitivityResult(Stored, study.SensitivityResult):
     """Sobol' indices of metrics and success: `of` gives those of one, ``ranks`` the rank correlations."""
 
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.facts['system']}, {self.flights} simulations: {', '.join(self.told)})"
+    def document(self) -> Document:
+        """Return the indices and rank correlations with their conditions."""
+        return sensitivity_document(self, self.folder)
 
     def write(self, folder: FilePath) -> None:
         """Write sensitivity.json, flights.parquet and draws.parquet."""
         super().write(Path(folder))
-
-    def report(self, path: FilePath) -> None:
-        """Write the page of `perilune sensitivity --report`: one HTML file."""
-        write_sensitivity_page(self, Path(path), self.folder)
 
     def plot(self, *metrics: str) -> Plot:
         """Total and first-order indices with their intervals, a panel for each metric; by default of all.
@@ -56,18 +45,9 @@ class SensitivityResult(Stored, study.SensitivityResult):
                 raise KeyError(f"no indices of {name}; {suggestion(name, self.told)}")
         if not self.told:
             raise ValueError("no metric has indices")
-        from ..reports.chart.plot import plot_charts
+        from ..documents.render.notebook import plot_figures
 
-        charts = sensitivity_charts(self, metrics or self.told)
-        height = 1.0 + LANE * max(len(chart.y.ticks) for chart in charts)
-        titles = [f"{chart.title}: total, below it first order" for chart in charts]
-        return plot_charts(charts, height, HALF_WIDTH, columns=min(2, len(charts)), titles=titles)
-
-    def _repr_html_(self) -> str:
-        grids = [Grid(table.heads, table.rows) for table in (driver_table(self), rank_table(self))]
-        text = [f"{self.flights} simulations", *condition_lines(self)]
-        plot = self.plot(*self.told[:MOST_PLOTTED]) if self.told else None
-        return notebook_view(f"{self.facts['system']}: sensitivity", text, grids, plot)
+        return plot_figures(index_figures(self, metrics or self.told))
 
 
 @verb(SENSITIVITY)

@@ -5,18 +5,17 @@ from __future__ import annotations
 import os
 from contextlib import chdir
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import Unpack
 
 from ..campaigns.definition.plan import BatchPlan
 from ..commands.stability import study_command
+from ..documents.model import Document
+from ..documents.of.studies.worst import simulate_worst, worst_document
 from ..options.declared.studies import WORST, WorstOptions
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..reports.common.notebook import Grid, notebook_view
-from ..reports.common.panels import HALF_WIDTH
-from ..reports.studies.worst_figures import HEIGHT, worst_charts
-from ..reports.studies.worst_page import metric_table, parameter_table, worst_flight, write_worst_page
 from ..runtime.system.options import system_options
 from ..studies.flown import Commands
 from ..studies.worst import outcome
@@ -24,10 +23,7 @@ from ..studies.worst.request import MarginAsked, check_options, margin_asked
 from ..studies.worst.study import MARGIN, worst_case, worst_margin
 from .common.arguments import read_requirements
 from .common.campaigns import commands_of, read_campaign
-from .common.studies import Conditions, Required, condition_lines, conditions, results_folder, store_result
-
-if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
-    from matplotlib.figure import Figure as Plot
+from .common.studies import Conditions, Required, conditions, results_folder, store_result
 
 NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on which requirements are
 
@@ -41,31 +37,14 @@ class WorstResult(Required, outcome.WorstResult):
 
     plan: BatchPlan | None = None
 
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.facts['system']}, {self.headline()[0]})"
+    def document(self) -> Document:
+        """Return the worst case with its conditions, the search, random trials and the box; its page simulates it."""
+        simulate = None if self.plan is None else partial(simulate_worst, self, self.plan)
+        return worst_document(self, self.folder, simulate)
 
     def write(self, folder: FilePath) -> None:
         """Write worst.json, flights.parquet and worst.parquet."""
         super().write(Path(folder))
-
-    def report(self, path: FilePath) -> None:
-        """Write the page of `perilune worst --report`: one HTML file. It simulates the worst case once more."""
-        with chdir(Path.cwd()):  # an FMU may change the folder
-            target = Path(path).absolute()
-            flight, figures = (None, []) if self.plan is None else worst_flight(self, self.plan)
-        write_worst_page(self, target, flight, figures, self.folder)
-
-    def plot(self) -> Plot:
-        """The search over simulations, and the random trials with the worst case."""
-        from ..reports.chart.plot import plot_charts
-
-        charts = worst_charts(self)
-        return plot_charts(charts, HEIGHT, HALF_WIDTH, columns=2, titles=[chart.title for chart in charts])
-
-    def _repr_html_(self) -> str:
-        grids = [Grid(table.heads, table.rows) for table in (parameter_table(self), metric_table(self))]
-        text = [*self.headline(), *condition_lines(self)]
-        return notebook_view(f"{self.facts['system']}: worst case", text, grids, self.plot())
 
 
 class Search(Conditions, total=False):

@@ -116,7 +116,12 @@ def test_diagrams_of_a_loop(study):
 def test_a_law(tmp_path):
     law = perilune.law("diveev_2013")
     assert "u1 = " in "\n".join(law.lines())
-    assert "u1 = " in html.fromstring(law._repr_html_()).text_content()
+    notebook = law._repr_html_()
+    assert "u1 = " in html.fromstring(notebook).text_content()
+    assert len(pictures(notebook)) == 1
+    law.report(tmp_path / "law.html")
+    page = html.fromstring((tmp_path / "law.html").read_bytes())
+    assert page.xpath("//*[local-name()='svg' and @aria-label='Graph of diveev_2013']//*[.='u2 = z16']")
     law.write_parameters(tmp_path / "law.ssv")
     assert [*perilune.validate(tmp_path / "law.ssv")] == [FileCheck(str(tmp_path / "law.ssv"), (), ())]
 
@@ -127,5 +132,8 @@ def test_plans(tmp_path):
     assert 77.0 < plan.programme.duration < 78.0  # Huang (2017): 78 s
     plan.report(tmp_path / "page.html")
     assert (tmp_path / "page.html").is_file()
+    notebook = plan._repr_html_()
+    assert "propellant fraction 0.049514" in html.fromstring(notebook).text_content()
+    assert len(pictures(notebook)) == 1
     with pytest.raises(perilune.InputError, match="do not carry the mass"):
         perilune.plan_hover_transfer(vehicle=perilune.Vehicle(6000.0, 0.0, 300.0, 4707.0, 313.0, 0.01))

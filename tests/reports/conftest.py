@@ -1,25 +1,9 @@
-"""Pages that several tests open, each written once: of a run, of batches; and the three studies."""
+"""Pages that several tests open, each written once: of a run, of batches."""
 
 import pytest
 
 from perilune.analysis.cli import main
 from tests.support.locks import made_once
-from tests.support.pages.studies import rare_study, sensitivity_study, worst_study
-
-
-@pytest.fixture(scope="session")
-def rare_result(tmp_path_factory):
-    return rare_study(tmp_path_factory.mktemp("rare"))
-
-
-@pytest.fixture(scope="session")
-def worst_result(tmp_path_factory):
-    return worst_study(tmp_path_factory.mktemp("worst"))
-
-
-@pytest.fixture(scope="session")
-def sensitivity_result(tmp_path_factory):
-    return sensitivity_study(tmp_path_factory.mktemp("sensitivity"))
 
 
 @pytest.fixture(scope="session")

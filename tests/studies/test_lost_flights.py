@@ -66,7 +66,7 @@ def test_a_study_states_them(crashing, tmp_path, study, arguments):
     assert words in str(result.to_json()["conditions"])
     assert result.to_json()["lost"] == {"crashed": count}
     result.report(tmp_path / "page.html")
-    assert f"<strong>All numbers: {words}.</strong>" in (tmp_path / "page.html").read_text()
+    assert f"<p>All numbers: {words}.</p>" in (tmp_path / "page.html").read_text()
 
 
 @pytest.mark.parametrize("options", ["rare --samples 100", "worst --flights 100", "sensitivity --base 32"])

@@ -65,7 +65,7 @@ def test_the_noise_of_a_landing(tmp_path, capsys):
     captured = capsys.readouterr()
     assert "sensitivity: 32 x (6 draws + 3) = 288 flights" in captured.err
     assert "conditional" not in captured.out
-    assert "rank correlations leave it out" in captured.out
+    assert "all of these components are one input" in captured.out
     assert "position_error, m" in captured.out
     assert not re.search(r"-0\.00(?!\d)", captured.out)
     result = perilune.sensitivity(*CAMPAIGN, 32, compare=ONE, workers=1)
@@ -76,7 +76,7 @@ def test_the_noise_of_a_landing(tmp_path, capsys):
     table = pyarrow.parquet.read_table(out / "draws.parquet")
     assert table["streams_of.navigation"].to_pylist()[:2] == [0.0, 1.0]
     assert table["streams_of.navigation"].to_pylist()[-1] == 63.0
-    words = next(line for line in captured.out.splitlines() if line.startswith("replay: ")).split()[1:]
+    words = next(line for line in captured.out.splitlines() if line.startswith("the first simulation: ")).split()[3:]
     assert main([*words[1:3], "5", *words[4:], "--json", "-"]) in (0, 1)
     assert f"{result.flown.metrics['position_error'][5]:.4g}"[:4] in capsys.readouterr().out
 
@@ -85,5 +85,5 @@ def test_the_noise_of_a_landing(tmp_path, capsys):
 def test_held_noise_is_a_condition():
     result = perilune.sensitivity(*CAMPAIGN, 32, compare=ONE, noise_trial=2, workers=1)
     assert result.flights == 256
-    assert result.text().splitlines()[0].endswith("conditional on the noise realisation of trial 2")
+    assert result.lines()[0].endswith("conditional on the noise realisation of trial 2")
     assert "noise realisation" not in result.inputs

@@ -60,10 +60,10 @@ def test_the_shares_of_a_sum(linear, tmp_path):
             assert low < fraction < high
     assert result.untold == {"same": "-1 in all flights", "success": "1 in all flights"}
     assert result.flights == 256 * 5
-    assert json.loads((tmp_path / "out" / "sensitivity.json").read_text()) == result.document(tmp_path / "out")
+    assert json.loads((tmp_path / "out" / "sensitivity.json").read_text()) == result.json_document(tmp_path / "out")
     assert pyarrow.parquet.read_table(tmp_path / "out" / "flights.parquet").num_rows == 1280
     other = perilune.sensitivity(*linear, 256, workers=2)
-    assert other.document() == result.document()
+    assert other.json_document() == result.json_document()
 
 
 def test_the_command_says_its_price_first(linear, capsys):
@@ -72,10 +72,12 @@ def test_the_command_says_its_price_first(linear, capsys):
     captured = capsys.readouterr()
     assert captured.err == "perilune: sensitivity: 32 x (2 draws + 2) = 128 flights\n"
     assert captured.out.startswith(
-        "128 flights: Sobol' indices and their 95 % intervals, rank correlations, conditional on b.gain = 1\n"
+        "Sobol' indices of 1 of 3 numbers (metrics and success), by 128 simulations, conditional on b.gain = 1\n"
     )
     assert "same: no indices, -1 in all flights" in captured.out
-    first, second = (text.split()[0] for text in captured.out.splitlines()[4:6])
+    lines = captured.out.splitlines()
+    table = next(row for row, line in enumerate(lines) if line.startswith("parameter"))
+    first, second = (text.split()[0] for text in lines[table + 1 : table + 3])
     assert (first, second) == ("c.gain", "a.gain")
 
 

@@ -4,6 +4,7 @@ Truth: the published programme and the figures of the same plans made beforehand
 """
 
 import json
+import re
 import sys
 
 import pytest
@@ -26,12 +27,17 @@ def test_the_programme_alone(capsys):
     assert main(["design", "transfer"]) == 0
     captured = capsys.readouterr()
     assert captured.err == ""
-    assert captured.out.splitlines() == [
-        "programme with first burn: t2 15.270, t5 63.642, w 1.697 (k 0.9753), tp 10.989, t7 77.157 s",
-        "  propellant fraction 0.049514, 29.709 kg; full thrust 13.6 to 17.0 s, 66.2 to 77.2 s",
-        "  pitch 31.7 to 135.7 deg, 2.254 deg/s",
-        "  1.3072 x vertical descent, 0.037878 in 70.04 s",
-    ]
+    lines = captured.out.splitlines()
+    assert lines[1] == (
+        "propellant 29.709 kg; propellant fraction 0.049514; duration 77.157 s; relative to vertical descent 1.3072; "
+        "programme with first burn"
+    )
+    texts = [" ".join(line.split()) for line in lines]
+    assert "simplified programme 0.049514 29.709 77.16 13.6 to 17, 66.2 to 77.2" in texts
+    assert "vertical descent 0.037878 22.727 70.04 59.8 to 70" in texts
+    assert "plan t2, s t5, s w, s k tp, s t7, s" in texts
+    assert "simplified programme 15.27 63.642 1.697 0.9753 10.989 77.157" in texts
+    assert lines[-1] == "pitch of the programme 31.7 to 135.7 deg, largest rate 2.254 deg/s"
 
 
 def test_a_given_time(capsys):
@@ -85,8 +91,8 @@ def test_optimum_bound_and_curves(tmp_path, capsys):
     more = ["--optimum", "--bound", "--curves", "--intervals", "60", "--json", str(document)]
     assert main(["design", "transfer", *more]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[4].startswith("true optimum: propellant fraction 0.0487")
-    assert lines[6].startswith("point-mass bound: propellant fraction 0.0448")
+    assert any(re.match(r"true optimum +0\.0487", line) for line in lines)
+    assert any(re.match(r"point-mass bound +0\.0448", line) for line in lines)
     actual = json.loads(document.read_text())
     assert actual["true_optimum"]["propellant_fraction"] == pytest.approx(0.0488, abs=5e-5)
     assert actual["bound"]["propellant_fraction"] == pytest.approx(0.04481, abs=1e-5)
@@ -218,8 +224,8 @@ def test_landing(capsys):
 def test_landing_in_words(capsys):
     assert main(["design", "bound", "--direct", "--intervals", "40", "--dry-mass", "600"]) == 1
     captured = capsys.readouterr()
-    assert captured.out.startswith("bound 400.8")
-    assert "\ndirect method 400.8" in captured.out
+    assert "\npropellant 400.8" in captured.out
+    assert "\ndirect method, in which nothing is convex: 400.8" in captured.out
     assert captured.err.startswith("perilune: the bound takes 400.8")
 
 
@@ -229,7 +235,7 @@ def test_a_systems_bound_is_stored(tmp_path, capsys):
     arguments = ["design", "bound", str(place), "--intervals", "20"]
     assert main([*arguments, "--store", "--json", str(tmp_path / "bound.json")]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[3].startswith("  braking alone: ")
+    assert lines[3].startswith("braking alone: ")
     assert lines[-2:] == [f"stored: {place / PLACE}", f"written: {tmp_path / 'bound.json'}"]
     stored = find_bound(prepare_system(place, SystemOptions()))
     actual = json.loads((tmp_path / "bound.json").read_text())

@@ -11,10 +11,13 @@ import sys
 import time
 
 import pytest
+from lxml import etree
 
 from perilune.analysis.cli import main
 from perilune.analysis.design.synthesis.synthesis import run_synthesis
 from perilune.analysis.design.synthesis.synthesis_file import read_synthesis
+from perilune.analysis.documents.of.synthesis import synthesis_document
+from perilune.analysis.documents.render.terminal import document_lines
 from tests.support.laws.campaign_text import CAMPAIGN, TEXT
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -39,10 +42,11 @@ def test_prints_and_writes_what_was_found(file, tmp_path, capsys):
     assert f"search.toml: no law found: the chosen one succeeds in {chosen.successes} of 4 trials; " in captured.err
     for name, total in zip(("altitude", "speed"), chosen.objectives, strict=True):
         assert f"{name} {total / 4:.6g} per flight ({total:.6g} over 4)" in captured.out
-    assert captured.out == "\n".join(expected.lines()) + f"\nwritten: {out}\n"
-    assert json.loads((out / "pareto.json").read_text()) == expected.to_json()
+    assert captured.out == "\n".join(document_lines(synthesis_document(expected))) + f"\nwritten: {out}\n"
+    assert etree.parse(out / "law.svg").getroot().tag == "{http://www.w3.org/2000/svg}svg"
+    assert json.loads((out / "pareto.json").read_text()) == expected.content()
     assert main([*command, "--resume", "--json", "-"]) == 1
-    assert json.loads(capsys.readouterr().out) == expected.to_json()
+    assert json.loads(capsys.readouterr().out) == expected.content()
     fly = ["run", "lunar_descent_2d", "--parameters", str(out / "law.ssv"), "--stop-time", "10"]
     assert main(fly) == 1  # nowhere near the limits yet
 

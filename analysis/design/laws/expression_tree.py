@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ....fmus_src.mathlib.network_operator import SIZE
-from ...reports.common.quantities import MINUS
 
+MINUS = "\N{MINUS SIGN}"
 SOURCE_NAMES = ("pi + theta", "q1", "(hf - h)/h0", "q2", "theta", "q3")  # nodes 1 to 6
 OUTPUT_NUMBERS = (15, 16)  # counted from 1, as printed
 

@@ -66,17 +66,6 @@ def formula(law: Law) -> dict[str, str]:
     return lines
 
 
-def formula_text(law: Law) -> str:
-    """The formula for a terminal, the values of its parameters below it."""
-    lines = formula(law)
-    outputs = {f"z{number}": f"u{index}" for index, number in enumerate(OUTPUT_NUMBERS, 1)}
-    text = [
-        f"{outputs.get(name, '')}{' = ' if name in outputs else ''}{name} = {right}" for name, right in lines.items()
-    ]
-    values = [f"q{index} = {value:.10g}" for index, value in enumerate(law.q, 1)]
-    return "\n".join([*text, "", ", ".join(values) + f"; exp saturates {law.exp_saturation}"])
-
-
 def _node(node: Node, known: Mapping[int, Text]) -> Text:
     parts = [(IDENTITY, Text(node.source, SOURCE_LEVELS.get(node.source, ATOM)))] if node.source is not None else []
     parts += [(operation, known[other.number]) for operation, other in node.terms]

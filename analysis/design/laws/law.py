@@ -40,7 +40,8 @@ class Law:
     exp_saturation: str
     description: str = ""
 
-    def document(self) -> dict[str, object]:
+    def content(self) -> dict[str, object]:
+        """Return the content of the law's file."""
         return {
             "format": FORMAT,
             "version": VERSION,
@@ -54,7 +55,7 @@ class Law:
     def write(self, path: Path) -> None:
         """Write the law's file, a line to each row of the matrix."""
         rows = ",\n".join(f"  [{', '.join(f'{entry:2d}' for entry in row)}]" for row in self.matrix)
-        lines = {key: json.dumps(value, ensure_ascii=False) for key, value in self.document().items()}
+        lines = {key: json.dumps(value, ensure_ascii=False) for key, value in self.content().items()}
         lines["matrix"] = f"[\n{rows}\n ]"
         text = ",\n".join(f' "{key}": {value}' for key, value in lines.items())
         write_atomically(path, f"{{\n{text}\n}}\n".encode())

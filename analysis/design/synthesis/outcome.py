@@ -1,4 +1,4 @@
-"""What a synthesis leaves: the Pareto set, the chosen law as file, parameter set and drawing, a log."""
+"""What a synthesis leaves: the Pareto set, the chosen law as file and parameter set, a log."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ....common.atomic import write_atomically
-from ..laws.formula import formula, formula_text
-from ..laws.graph import law_svg
+from ..laws.formula import formula
 from ..laws.law import Law, parameter_set
 from .candidate import Candidate
 from .checkpoint import finite_or_none
@@ -42,7 +41,7 @@ class SynthesisResult:
         file = Path(self.synthesis.campaign.file).name
         description = (
             f"Found by {file}, seed {self.provenance['seed']}, from {self.synthesis.basic.name}: "
-            f"{self._words(candidate)}; "
+            f"{self.objectives_text(candidate)}; "
             f"{evaluation.successes} of {evaluation.flown} trials are successes."
         )
         name = f"{Path(file).stem}_{candidate.key[:8]}"
@@ -53,45 +52,39 @@ class SynthesisResult:
         """Whether the chosen law has every trial a success."""
         return self.search.choose().evaluation.successes == self.search.evaluator.trials
 
-    def problems(self) -> list[str]:
-        """A line for a search that found no law, with what to do."""
-        if self.succeeded:
-            return []
-        evaluation = self.search.choose().evaluation
-        return [
-            f"{self.synthesis.campaign.file}: no law found: the chosen one succeeds in {evaluation.successes} of "
-            f"{self.search.evaluator.trials} trials; give more generations, another `seed` or another basic solution"
-        ]
+    def pareto_set(self) -> list[Candidate]:
+        """Return the Pareto set in the order of the first objective."""
+        return sorted(self.search.state.front, key=lambda candidate: candidate.evaluation.objectives)
 
-    def _objectives(self, candidate: Candidate) -> dict[str, dict[str, float]]:
-        """Of each objective the sum over the flights, which the search makes small, and the mean of one flight."""
+    def objectives(self, candidate: Candidate) -> dict[str, dict[str, float]]:
+        """Return of each objective the sum over the flights, which is minimised, and the mean of one flight."""
         _, _, flown = evaluation = candidate.evaluation
         sums = zip(self.synthesis.objectives, evaluation.objectives, strict=True)
         return {name: {"sum": value, "mean": value / flown} for name, value in sums}
 
-    def _words(self, candidate: Candidate) -> str:
+    def objectives_text(self, candidate: Candidate) -> str:
+        """Return the objectives of a candidate, as the description of its law has them."""
         flown = candidate.evaluation.flown
         return ", ".join(
             f"{name} {value['mean']:.6g} per flight ({value['sum']:.6g} over {flown})"
-            for name, value in self._objectives(candidate).items()
+            for name, value in self.objectives(candidate).items()
         )
 
     def _member(self, candidate: Candidate) -> dict[str, object]:
         objectives = {
             name: {kind: finite_or_none(number) for kind, number in value.items()}
-            for name, value in self._objectives(candidate).items()
+            for name, value in self.objectives(candidate).items()
         }
         return {
             "objectives": objectives,
             "flights": candidate.evaluation.flown,
             "successes": candidate.evaluation.successes,
-            "law": self._law(candidate).document(),
+            "law": self._law(candidate).content(),
         }
 
-    def to_json(self) -> dict[str, object]:
-        """The result: provenance, counts, the chosen law with its formula, and the Pareto set."""
+    def content(self) -> dict[str, object]:
+        """Return the content of pareto.json: provenance, counts, the chosen law and its formula, the Pareto set."""
         state = self.search.state
-        front = sorted(state.front, key=lambda candidate: candidate.evaluation.objectives)
         return {
             "format": FORMAT,
             "version": VERSION,
@@ -101,30 +94,17 @@ class SynthesisResult:
             "evaluations": state.evaluations,
             "flights": state.flights,
             "chosen": self._member(self.search.choose()) | {"formula": formula(self.law)},
-            "members": [self._member(candidate) for candidate in front],
+            "members": [self._member(candidate) for candidate in self.pareto_set()],
         }
 
     def write(self, folder: str | os.PathLike[str]) -> None:
-        """Write pareto.json, law.json, law.ssv, law.svg and log.csv."""
+        """Write pareto.json, law.json, law.ssv and log.csv."""
         folder = Path(folder)
-        text = json.dumps(self.to_json(), indent=1, allow_nan=False) + "\n"
+        text = json.dumps(self.content(), indent=1, allow_nan=False) + "\n"
         write_atomically(folder / "pareto.json", text.encode())
         self.law.write(folder / "law.json")
         write_atomically(folder / "law.ssv", parameter_set(self.law, self.synthesis.component))
-        write_atomically(folder / "law.svg", law_svg(self.law))
         write_log(folder / "log.csv", self.synthesis, self.search)
-
-    def lines(self) -> list[str]:
-        """The result for a terminal."""
-        state, chosen = self.search.state, self.search.choose()
-        return [
-            f"laws evaluated: {state.evaluations}, in {state.flights} simulations, {state.generation} generations; "
-            f"ended by {self.ended}; {len(state.front)} in the Pareto set",
-            f"chosen: {chosen.evaluation.successes} of {chosen.evaluation.flown} trials are successes; "
-            + self._words(chosen),
-            "",
-            *formula_text(self.law).splitlines(),
-        ]
 
 
 def write_log(path: Path, synthesis: Synthesis, search: Search) -> None:

@@ -137,7 +137,7 @@ def provenance(synthesis: Synthesis, plan: BatchPlan, prepared: PreparedSystem) 
         "campaign_sha256": plan.campaign_sha256,
         "seed": plan.campaign.seed,
         "component": synthesis.component,
-        "basic_solution": synthesis.basic.document(),
+        "basic_solution": synthesis.basic.content(),
         "start_time": prepared.start,
         "step": prepared.step,
         "steps": prepared.steps,

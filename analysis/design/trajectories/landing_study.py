@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 from ....common.progress import progress_bar
 from .declared_bound import Inputs
@@ -12,7 +12,7 @@ from .multiple_shooting import direct_propellant
 from .path import PlannedPath
 from .point_mass import PointMassProblem, landing_problem
 from .stored_bound import StoredBound, digest
-from .vehicle import Landing, Vehicle, limits_document
+from .vehicle import Landing, Vehicle
 
 
 @dataclass(frozen=True)
@@ -54,30 +54,6 @@ class LandingStudy:
             sha256=digest(inputs),
             inputs=inputs,
         )
-
-    def document(self) -> dict[str, object]:
-        """All of it for other programs; SI, but angular acceleration."""
-        direct = self.direct
-        return {
-            "vehicle": limits_document(self.vehicle),
-            "landing": asdict(self.landing),
-            "bound": {
-                "duration_s": self.bound.duration,
-                "propellant_fraction": self.bound.propellant_fraction,
-                "propellant_kg": self.propellant,
-                "intervals": self.bound.throttle.size,
-                "full_thrust_s": [list(burn) for burn in self.bound.burns()],
-                "looseness_m_s2": self.looseness,
-            },
-            "pieces_kg": dict(self.pieces),
-            "direct_method": None
-            if direct is None
-            else {
-                "duration_s": direct.duration,
-                "propellant_fraction": direct.propellant_fraction,
-                "propellant_kg": direct.propellant_fraction * self.vehicle.mass,
-            },
-        }
 
 
 def landing_study(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Self, TypeVar
 
 import numpy as np
@@ -15,7 +15,7 @@ from ....fmus_src.mathlib.hover.solution import PlanKind
 from ..trajectories.least_time import BOUND_INTERVALS, least_propellant
 from ..trajectories.path import PlanError, PlannedPath
 from ..trajectories.point_mass import transfer_problem
-from ..trajectories.vehicle import Margins, Transfer, Vehicle, limits_document
+from ..trajectories.vehicle import Margins, Transfer, Vehicle
 from .adjoint import AdjointSolution, integrate_adjoint
 from .finite_switches import FiniteProfile, find_finite_switches
 from .free_fall import FreeFallProgramme, find_free_fall
@@ -25,7 +25,6 @@ from .true_optimum import find_true_optimum
 OPTIMUM_INTERVALS = 320
 Plan = TypeVar("Plan")
 VERTICAL = PlanKind.meanings[PlanKind.VERTICAL]
-NAMES = ("t2_s", "t5_s", "w_s", "tp_s", "t7_s")
 
 
 @dataclass(frozen=True)
@@ -82,76 +81,6 @@ class HoverStudy:
     @property
     def path(self) -> PlannedPath:
         return self.programme.path(self.vehicle.maximum_thrust)
-
-    def document(self) -> dict[str, object]:
-        """All of it for other programs; times in s, angles in deg, propellant over the initial mass and in kg."""
-        programme = self.programme
-        minimum, largest = (math.degrees(angle) for angle in programme.extremes)
-        return {
-            "vehicle": limits_document(self.vehicle),
-            "margins": None if self.margins is None else limits_document(self.margins),
-            "transfer": asdict(self.transfer),
-            "programme": {
-                "kind": programme.kind,
-                "duration_given": self.given,
-                **dict(zip(NAMES, programme.times, strict=True)),
-                "k": programme.threshold,
-                **self._propellant(programme.propellant_fraction),
-                "least_pitch_deg": minimum,
-                "largest_pitch_deg": largest,
-                "largest_pitch_rate_deg_s": math.degrees(programme.turn_rate),
-                "full_thrust_s": [list(burn) for burn in programme.burns],
-                "over_vertical": programme.propellant_fraction / self.vertical.propellant_fraction,
-            },
-            "vertical": {"t7_s": self.vertical.duration, **self._propellant(self.vertical.propellant_fraction)},
-            "true_optimum": self._path(self.optimum),
-            "bound": self._path(self.bound),
-            "over_duration": _curve(self.durations, "t7_s"),
-            "over_distance": _curve(self.distances, "distance_m"),
-            "adjoint": None if self.adjoint is None else self.adjoint.document(),
-            "finite_switches": self._finite(),
-            "free_fall": self._free_fall(),
-            "free_fall_over_distance": [
-                {name: _number(value) for name, value in asdict(each).items()} for each in self.comparisons
-            ],
-        }
-
-    def _finite(self) -> dict[str, object] | None:
-        profile = self.finite
-        if profile is None:
-            return None
-        return {
-            **dict(zip(("t2_s", "t3_s", "t4_s", "t5_s", "t7_s"), profile.times, strict=True)),
-            **self._propellant(profile.propellant_fraction),
-            "full_thrust_s": [list(burn) for burn in profile.full_thrust],
-        }
-
-    def _free_fall(self) -> dict[str, object] | None:
-        programme = self.free_fall
-        if programme is None:
-            return None
-        return {
-            **dict(zip(NAMES, programme.times.elements(), strict=True)),
-            "free_fall_s": programme.fall,
-            "last_burn_s": programme.last_burn,
-            "duration_s": programme.duration,
-            "drop_m": programme.drop,
-            **self._propellant(programme.propellant_fraction),
-            "full_thrust_s": [list(burn) for burn in programme.full_thrust],
-        }
-
-    def _propellant(self, fraction: float) -> dict[str, float]:
-        return {"propellant_fraction": fraction, "propellant_kg": fraction * self.vehicle.mass}
-
-    def _path(self, path: PlannedPath | None) -> dict[str, object] | None:
-        if path is None:
-            return None
-        return {
-            "duration_s": path.duration,
-            **self._propellant(path.propellant_fraction),
-            "intervals": path.throttle.size,
-            "full_thrust_s": [list(burn) for burn in path.burns()],
-        }
 
 
 def hover_study(
@@ -239,17 +168,6 @@ def _compare(planned: Vehicle, transfer: Transfer, turn_begun: float) -> Compari
     return Comparison(transfer.distance, *fractions)
 
 
-def _number(value: float) -> float | None:
-    return None if math.isnan(value) else value
-
-
 def _bound(vehicle: Vehicle, transfer: Transfer, intervals: int) -> PlannedPath:
     problem = transfer_problem(vehicle, transfer)
     return least_propellant(problem, intervals).make_path(problem)
-
-
-def _curve(curve: Curve | None, name: str) -> dict[str, list[float] | list[float | None]] | None:
-    if curve is None:
-        return None
-    values = [_number(float(value)) for value in curve.propellant]
-    return {name: [float(value) for value in curve.at], "propellant_fraction": values}

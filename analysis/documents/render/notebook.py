@@ -2,11 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from markupsafe import Markup
+
 from ...reports.common.notebook import Grid, notebook_view
 from ...reports.common.panels import HALF_WIDTH
-from ..model import Document, Figures, Node, Table, Text, Verdict, nodes_of
+from ..model import (
+    Cell,
+    Diagram,
+    Document,
+    Figure,
+    Figures,
+    KeyNumbers,
+    LegendEntry,
+    Node,
+    Table,
+    Text,
+    Verdict,
+    nodes_of,
+)
 from .html import cell_markup
-from .words import rich_text
+from .words import cell_text, number_line, rich_text
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Plot
 
 PLOTTED = 4  # figures
 
@@ -15,24 +37,56 @@ def document_view(document: Document) -> str:
     """Return the HTML of a document: its statements, the first rows of its tables, its first figures."""
     nodes = nodes_of(document)
     grids = [
-        Grid(node.heads, [[cell_markup(cell) for cell in row] for row in node.rows])
+        Grid(node.heads, [[_cell(cell) for cell in row] for row in node.rows])
         for node in nodes
         if isinstance(node, Table)
     ]
-    figures = [figure for node in nodes if isinstance(node, Figures) for figure in node.draw()][:PLOTTED]
-    plot = None
-    if figures:
-        from ...reports.chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
+    figures = figures_of(document)
+    words = [text for node in nodes for text in _words(node)]
+    return notebook_view(document.title, words, grids, plot_figures(figures) if figures else _plot_diagram(nodes))
 
-        charts, titles = [each.chart for each in figures], [each.label for each in figures]
-        plot = plot_charts(charts, figures[0].height, HALF_WIDTH, columns=2, titles=titles)
-    return notebook_view(document.title, [text for node in nodes for text in _words(node)], grids, plot)
+
+def figures_of(document: Document) -> list[Figure]:
+    """Return the first figures of a document."""
+    groups = (node for node in nodes_of(document) if isinstance(node, Figures))
+    return list(islice((figure for group in groups for figure in group.draw()), PLOTTED))
+
+
+def plot_figures(figures: Sequence[Figure]) -> Plot:
+    """Return figures next to each other as one of matplotlib's, with their legends."""
+    from ...reports.chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
+
+    return plot_charts(
+        [each.chart for each in figures],
+        max(each.height for each in figures),
+        HALF_WIDTH,
+        columns=min(2, len(figures)),
+        titles=[": ".join(filter(None, (each.label, each.chart.title))) for each in figures],
+        legends=[[curve.name for curve in each.chart.curves] if each.legend else [] for each in figures],
+    )
+
+
+def _plot_diagram(nodes: Sequence[Node]) -> Plot | None:
+    diagram = next((node for node in nodes if isinstance(node, Diagram)), None)
+    if diagram is None:
+        return None
+    from ...reports.chart.plot import POINTS, plot_charts
+
+    chart, width, height = diagram.draw()
+    return plot_charts([chart], height / POINTS, width / POINTS)
+
+
+def _cell(cell: Cell) -> Markup | str:
+    """Return a cell as markup; the look of a line needs the style of a page."""
+    return cell_text(cell) if isinstance(cell, LegendEntry) else cell_markup(cell)
 
 
 def _words(node: Node) -> list[str]:
     match node:
         case Text(content):
             return [rich_text(content)]
+        case KeyNumbers():
+            return [number_line(node)]
         case Verdict(lead, inner):
             return [rich_text(lead), *(text for each in inner for text in _words(each))]
     return []

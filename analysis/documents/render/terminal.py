@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from ...campaigns.plain_text import align_columns
 from ..model import Commands, Document, Fold, KeyNumbers, Node, Section, Table, Text, Verdict
-from .words import cell_text, rich_text
+from .words import cell_text, number_line, rich_text
 
 
 def document_lines(document: Document) -> list[str]:
@@ -32,14 +32,17 @@ def _node_lines(node: Node) -> list[str]:
             return [rich_text(content)]
         case Verdict(lead, nodes):
             return [rich_text(lead), *_lines(nodes)]
-        case KeyNumbers(entries):
-            return ["; ".join(f"{name} {cell_text(cell)}" for name, cell in entries)]
+        case KeyNumbers():
+            return [number_line(node)]
         case Commands(entries, missing):
-            return [f"{purpose}: {command}" for purpose, command in entries] or [missing]
+            return [f"{purpose}: {command}" for purpose, command in entries] or [rich_text(missing)]
+        case Fold(summary, nodes, is_listed=True):
+            return ["", summary, *_lines(nodes)]
         case Fold(summary):
             return [summary]
         case Table() if node.rows:
             rows = [[cell_text(cell) for cell in row] for row in node.rows[: node.listed]]
             more = len(node.rows) - len(rows)
-            return [*align_columns([list(node.heads), *rows]), *([f"and {more} more"] if more else [])]
+            lines = [line.rstrip() for line in align_columns([list(node.heads), *rows])]
+            return [*lines, *([f"and {more} more"] if more else [])]
     return []

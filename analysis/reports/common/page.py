@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -16,14 +15,17 @@ from ..interactive.charts import Drawing
 from ..interactive.embedded import Embedded
 from .colours import colour_properties
 from .contents import Contents
-from .quantities import MINUS, display_unit, in_display_unit, number
+from .quantities import display_unit, in_display_unit, number
 
 FOLDER = Path(__file__).parent
 
 
-def exact(value: Any, unit: str | None = None, digits: int = 4) -> Markup:
-    """A number for reading in its shown unit, with the exact SI value in the markup for programs."""
-    displayed = number(in_display_unit(value, unit), digits)
+def exact(value: Any, unit: str | None = None, digits: int = 4, decimals: int | None = None) -> Markup:
+    """A number for reading in its shown unit, with the exact SI value in the markup for programs.
+
+    It has ``digits`` significant digits, or ``decimals``.
+    """
+    displayed = number(in_display_unit(value, unit), digits, decimals)
     if value is None or isinstance(value, str):
         return Markup("<span>{}</span>").format(displayed)
     return with_exact(str(value).lower() if isinstance(value, bool) else repr(value), displayed)
@@ -82,25 +84,9 @@ def write_page(path: Path, template: Path, **content: Any) -> None:
     write_atomically(path, render_page(template, **content).encode())
 
 
-PLACES = 3  # decimals of a fraction
-
-
 class Table(NamedTuple):
     """Headings and rows of cells; the columns ``numbers`` are aligned right."""
 
     heads: Sequence[str]
     rows: Sequence[Sequence[Markup | str]]
     numbers: Sequence[int]
-
-
-def fraction(value: float | None) -> Markup:
-    """A number of the order of 1 with `PLACES` decimals and the exact value in the markup."""
-    if value is None or not math.isfinite(value):
-        return exact(value)
-    displayed = f"{round(value, PLACES) + 0.0:.{PLACES}f}".replace("-", MINUS)
-    return with_exact(repr(value), displayed)
-
-
-def fractions(low: float | None, high: float | None) -> Markup:
-    """The two ends of an interval."""
-    return Markup("{} to {}").format(fraction(low), fraction(high))

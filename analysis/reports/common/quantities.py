@@ -39,8 +39,11 @@ def label_with_unit(name: str, unit: str | None) -> str:
     return f"{name}, {displayed}" if displayed else name
 
 
-def number(value: Any, digits: int = 4) -> str:
-    """A number rounded to so many significant digits, with an exponent from a million on; None is a dash."""
+def number(value: Any, digits: int = 4, decimals: int | None = None) -> str:
+    """A number rounded to so many significant digits, with an exponent from a million on; None is a dash.
+
+    With ``decimals`` it has that many instead, for a number of the order of 1.
+    """
     if value is None:
         return NONE
     if isinstance(value, bool | str):
@@ -49,6 +52,8 @@ def number(value: Any, digits: int = 4) -> str:
         return str(value).replace("-", MINUS)
     if not math.isfinite(value):
         return {math.inf: "∞", -math.inf: f"{MINUS}∞"}.get(value, "not a number")
+    if decimals is not None:
+        return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)
     text = f"{value + 0.0:.{digits}g}"
     if "e" in text:
         mantissa, exponent = text.split("e")

@@ -1,4 +1,4 @@
-"""What a study of a rare failure comes to: document, tables, trials to fly again."""
+"""What a study of a rare failure comes to: numbers, JSON, tables, trials to replay."""
 
 from __future__ import annotations
 
@@ -11,11 +11,9 @@ from typing import NotRequired
 import numpy as np
 
 from ....common.percent import short_percent
-from ...campaigns.plain_text import align_columns, assumption_lines
 from ..failure import Failure
 from ..flown import FlightDocument, StudyResult, strict
-from ..noise import noise_line
-from ..units import unit_of_expression, with_unit
+from ..units import unit_of_expression
 from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
 from .uncertainty import CONFIDENCE, significant_digits
 
@@ -117,7 +115,7 @@ class RareResult(StudyResult):
         low, high = self.interval
         return {"probability": fraction, "interval[1]": low, "interval[2]": high, "flights": float(self.flights)}
 
-    def document(self, folder: Path | None = None) -> dict[str, object]:
+    def json_document(self, folder: Path | None = None) -> dict[str, object]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
         simulation = self.simulation
         failures = self.failures
@@ -149,54 +147,10 @@ class RareResult(StudyResult):
             "trusted": level.trusted,
         }
 
-    def headline(self) -> str:
-        """The failure, its probability and what that is conditional on."""
-        return f"{self.failure.text}: {self.estimate_text()}{self.conditions}"
-
     @property
     def digits(self) -> int:
         """How many digits of the probability its interval leaves."""
         return significant_digits(*self.interval)
-
-    def estimate_text(self) -> str:
-        """The probability with its interval, or what bounds it; no more digits than the interval leaves."""
-        percent, (low, high) = f"{100 * CONFIDENCE:g} %", self.interval
-        ends = max(self.digits, 2)
-        if self.probability is None:
-            return f"not reached; probability below {high:.{ends}g}, {percent}"
-        estimate = f"{self.probability:.{self.digits}g}"
-        if self.simulation.noise_ends:
-            return f"probability below {high:.{ends}g}, {percent} bound; estimate {estimate}"
-        return f"probability {estimate}, {percent} interval {low:.{ends}g} to {high:.{ends}g}"
-
-    def text(self, folder: Path | None = None) -> str:
-        """The result for a terminal; ``folder`` as in `document`."""
-        under, simulation = self.conditions, self.simulation
-        levels, trials = simulation.levels, simulation.equivalent_trials
-        cost = f"{simulation.evaluations} flights in {len(levels)} level{'s' if len(levels) > 1 else ''}"
-        count = simulation.families
-        cost += f", {count} independent {'family' if count == 1 else 'families'}"
-        cost += "" if trials is None else f"; equivalent Monte Carlo sample size: {trials:.2g}{under}"
-        lines = [self.headline(), cost]
-        lines += [line for line in (noise_line(self.noise), self.bound_text()) if line]
-        lines += assumption_lines(self.facts.get("assumptions", ()))
-        unit = f" ({self.margin_unit})" if self.margin_unit else ""
-        cells = [LEVEL_HEADS, *(_level_cells(number, level) for number, level in enumerate(levels, 1))]
-        lines += ["", f"levels, thresholds of the margin{unit}{under}", *align_columns(cells)]
-        if self.failures:
-            lines += ["", f"most probable failures{under}", *align_columns(self._failure_rows(f"margin{unit}"))]
-            lines += self._replay_lines(folder)
-        return "\n".join(line.rstrip() for line in lines)
-
-    def bound_text(self) -> str:
-        """Why levels ended, where that is the noise, and what plain Monte Carlo takes for what is below; else empty."""
-        trials = self.brute_force
-        if not self.simulation.noise_ends or trials is None:
-            return ""
-        text = f"{self.why_levels_ended}; what is below is bounded as by {trials:.2g} Monte Carlo flights"
-        command = self.monte_carlo
-        repeated = f": {command}" if command else ""
-        return f"{text}; a bound ten times lower takes {10.0 * trials:.2g}{repeated}{self.conditions}"
 
     @property
     def monte_carlo(self) -> str:
@@ -209,38 +163,6 @@ class RareResult(StudyResult):
             return ""
         return command(round(10.0 * trials))
 
-    def _failure_rows(self, margin: str) -> list[list[str]]:
-        names = self.space.names
-        rows = [["", "beta", margin, *(with_unit(name, self.units) for name in names)]]
-        for entry in self.failures:
-            value = "-" if entry["margin"] is None else f"{entry['margin']:.4g}"
-            draws = [f"{entry['draws'][name]:.6g}" for name in names]
-            rows.append([f"trial {entry['trial']}", f"{entry['distance']:.2f}", value, *draws])
-        return rows
-
     def write(self, folder: Path) -> None:
         """Write rare.json, flights.parquet and, where there are failures, failures.parquet for `--draws`."""
         self._write(folder, "rare", "margin", self._places)
-
-
-LEVEL_HEADS = [
-    "level", "threshold", "samples", "probability", "accepted: draws", "noise", "lowest source", "gamma", "c.o.v.",
-]  # fmt: skip
-
-
-def _level_cells(number: int, level: Level) -> list[str]:
-    return [
-        str(number),
-        _cell(level.threshold, ".4g"),
-        str(level.samples),
-        _cell(level.probability, ".4f"),
-        _cell(level.draw_acceptance, ".2f"),
-        _cell(level.noise_acceptance, ".3f"),
-        _cell(level.least_acceptance, ".3f"),
-        f"{level.correlation:.2f}",
-        _cell(level.deviation, ".3f"),
-    ]
-
-
-def _cell(value: float | None, form: str) -> str:
-    return "-" if value is None else format(value, form)

@@ -1,4 +1,4 @@
-"""What a search for the worst case comes to: text, document, tables, trials to fly again."""
+"""What a search for the worst case comes to: numbers, JSON, tables, trials to replay."""
 
 from __future__ import annotations
 
@@ -8,10 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ...campaigns.plain_text import align_columns, assumption_lines
 from ..flown import FlightDocument, StudyResult
-from ..noise import noise_line
-from ..units import unit_of_expression, with_unit
+from ..units import unit_of_expression
 from .objective import Objective
 from .realisations import ONE, Fresh, Realisations
 from .search import Phase
@@ -112,7 +110,7 @@ class WorstResult(StudyResult):
         }
         return {name: self.badness.size(value) for name, value in values.items()} | {"flights": float(self.flights)}
 
-    def document(self, folder: Path | None = None) -> dict[str, object]:
+    def json_document(self, folder: Path | None = None) -> dict[str, object]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
         replay = self.replay(folder, 0)
         return {
@@ -141,59 +139,6 @@ class WorstResult(StudyResult):
         largest = self.worst_realisation
         return entries if largest is None else entries | {"worst_realisation": self.as_json(largest)}
 
-    def text(self, folder: Path | None = None) -> str:
-        """The result for a terminal; ``folder`` as in `document`."""
-        case, random, under = self.worst, self.worst_random, self.conditions
-        lines = [*self.headline(), *([f"failed: {self.reason}"] if self.reason else [])]
-        lines += [line for line in (noise_line(self.noise),) if line and self.over is None]
-        lines += assumption_lines(self.facts.get("assumptions", ()))
-        rows = [["", "trial 0: worst", "trial 1: random"]]
-        for part in ("draws", "metrics"):
-            names = self.space.names if part == "draws" else list(case[part])
-            rows += [
-                [with_unit(name, self.units), _format(case[part][name]), _format(random[part][name])] for name in names
-            ]
-        lines += ["", *([under.removeprefix(", ")] if under else []), *align_columns(rows), *self._replay_lines(folder)]
-        return "\n".join(line.rstrip() for line in lines)
-
-    def headline(self) -> list[str]:
-        """The worst case, the worst random trial and what fresh noise does to the worst case, with their conditions."""
-        case, random = self.worst, self.worst_random
-        within = f"search box +-{self.sigmas:g} sigma (normal), full range (others)"
-        outside = "" if random["inside"] else ", outside the box"
-        unit, under = f" {self.unit}" if self.unit else "", self.conditions
-        of = "" if self.over is None else f" ({self.over.text})"
-        largest = self.worst_realisation
-        extreme = "" if largest is None else f"; worst of them {_format(self.as_json(largest))}{unit}"
-        flown = "" if self.over is None else f" ({self.flown_text}{extreme})"
-        return [
-            f"{self.badness.text}: worst {_format(case['value'])}{unit}{flown} in {self.flights} flights, "
-            f"{within}{under}",
-            f"worst of {self.random_trials} random trials: {_format(random['value'])}{unit}{of}{outside}{under}",
-            *self._fresh_lines(unit),
-        ]
-
-    def _fresh_lines(self, unit: str) -> list[str]:
-        """What fresh noise does to the worst point, and how the noise was flown; none where it is not random."""
-        if self.fresh is None or self.over is None:
-            return []
-        worst, quantile = (_format(self.as_json(value)) for value in (self.fresh.worst, self.fresh.at_quantile))
-        at_quantile = "" if self.over.quantile == 1.0 else f", {self.over.name} {quantile}{unit}"
-        lines = [
-            f"the worst point under {self.fresh.values.size} fresh noise realisations: "
-            f"worst {worst}{unit}{at_quantile}{self.conditions}"
-        ]
-        names = ", ".join(self.noise.components)
-        count = self.over.count
-        every = f"the same {'realisation' if count == 1 else f'{count} realisations'} at every point"
-        if self.noise_matters is False:
-            every = f"changes none of the random trials in {count} realisations, so that the search flew one"
-        return [*lines, f"noise of {names}: {every}"]
-
     def write(self, folder: Path) -> None:
         """Write worst.json, flights.parquet, and worst.parquet for `--draws`: the worst trial, and the random one."""
         self._write(folder, "worst", "value", np.array(self.places))
-
-
-def _format(value: float | str | None) -> str:
-    return value if isinstance(value, str) else "failed" if value is None else f"{value:.6g}"

@@ -1,28 +1,23 @@
-"""What the verbs of studies share: the folder of results, conditions in notebooks, requirements on their numbers."""
+"""What the verbs of studies share: results with documents and folders, requirements on their numbers, options."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any, Protocol, TypedDict, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypedDict, TypeVar
 
 from ....common.errors import UnwrittenError
 from ....common.targets import check_folder
 from ...campaigns.definition.expressions import Expression
-from ...campaigns.plain_text import assumption_lines
+from ...documents.render.words import lead_text
 from ...options.declared.studies import ConditionOptions
-from ...reports.studies.conditions import StudyResult, conditions_of
+from ...studies.flown import StudyResult
 from .arguments import requirement_problems
+from .documented import Documented
 
-
-class _Outcome(Protocol):
-    """What a study's result can do, of which `Stored` and `Required` make what the command line needs."""
-
-    @property
-    def folder(self) -> Path | None: ...
-    def document(self, folder: Path | None) -> dict[str, Any]: ...
-    def text(self, folder: Path | None) -> str: ...
+if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
+    from matplotlib.figure import Figure as Plot
 
 
 class _RequiredOutcome(Protocol):
@@ -39,18 +34,20 @@ Study = TypeVar("Study", bound=_Writable)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Stored:
+class Stored(Documented):
     """``folder`` is where a study's result is stored, if it is."""
 
     folder: Path | None = None
 
-    def to_json(self: _Outcome) -> dict[str, object]:
-        """The result for other programs."""
-        return self.document(self.folder)
+    def __repr__(self) -> str:
+        document = self.document()
+        return f"{type(self).__name__}({document.title.partition(': ')[0]}, {lead_text(document)})"
 
-    def lines(self: _Outcome) -> list[str]:
-        """What the verb prints."""
-        return [self.text(self.folder)]
+    def plot(self) -> Plot:
+        """Return the figures that a notebook has of the study."""
+        from ...documents.render.notebook import figures_of, plot_figures
+
+        return plot_figures(figures_of(self.document()))
 
     def problems(self) -> list[str]:
         """None."""
@@ -101,14 +98,3 @@ def store_result(kind: Callable[..., Study], result: StudyResult, folder: Path |
         except OSError as error:
             raise UnwrittenError(error, complete) from error
     return complete
-
-
-def condition_lines(result: StudyResult) -> list[str]:
-    """What a study's numbers are conditional on, for a notebook."""
-    stated = conditions_of(result)
-    return [
-        f"campaign {stated.campaign}",
-        stated.noise.rstrip("."),
-        stated.given.removeprefix(", "),
-        *assumption_lines(result.facts.get("assumptions", ())),
-    ]

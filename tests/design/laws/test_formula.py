@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from perilune.analysis.design.laws.expression_tree import expression_tree, nodes_of
-from perilune.analysis.design.laws.formula import formula, formula_text
+from perilune.analysis.design.laws.formula import formula
 from perilune.analysis.design.laws.law import Law, find_law, read_law
 from perilune.fmus_src.kernel.matrices import Matrix
 from perilune.fmus_src.mathlib import network_operator
@@ -110,8 +110,6 @@ def test_the_published_law_as_it_is_printed():
         "z15": "(pi + theta)*q1 + step(z3)*z3*q2",
         "z16": "-cos(theta)*theta*q3",
     }
-    assert "u2 = z16 = -z12" in formula_text(PAPER)
-    assert "q1 = 1.50049, q2 = 13.5459, q3 = 12.96753" in formula_text(PAPER)
 
 
 FUNCTIONS = {
@@ -144,7 +142,7 @@ def test_what_is_printed_is_what_is_evaluated():
         theta, d = random.uniform(-3.0, 0.5), random.uniform(-1.0, 1.0)
         if all(1e-3 < abs(value) < 15.0 for value in node_values(law, theta, d)):
             actual = evaluate_tree(law, theta, d)
-            assert actual == pytest.approx(read_back(law, theta, d), rel=1e-9), formula_text(law)
+            assert actual == pytest.approx(read_back(law, theta, d), rel=1e-9), formula(law)
             compared |= set(np.ravel(law.matrix).tolist())
     assert compared == {0, *network_operator.UNARY_OPERATIONS}
 

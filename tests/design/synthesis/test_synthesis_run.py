@@ -76,7 +76,6 @@ def test_what_is_written(whole):
         "draws.parquet",
         "law.json",
         "law.ssv",
-        "law.svg",
         "log.csv",
         "pareto.json",
     ]
@@ -84,7 +83,7 @@ def test_what_is_written(whole):
     assert law == result.law
     document = json.loads((folder / "pareto.json").read_text())
     assert document["format"] == "perilune-pareto-set"
-    assert document["chosen"]["law"] == law.document()
+    assert document["chosen"]["law"] == law.content()
     members = [tuple(value["sum"] for value in member["objectives"].values()) for member in document["members"]]
     chosen = result.search.choose().evaluation.objectives
     assert [*document["chosen"]["objectives"].values()] == [{"sum": total, "mean": total / 4} for total in chosen]

@@ -7,8 +7,9 @@ import pytest
 
 from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_VEHICLE
 from perilune.analysis.design.transfers.hover_study import hover_study
+from perilune.analysis.documents.of.transfer import transfer_document
+from perilune.analysis.documents.render.html import write_document
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
-from perilune.analysis.reports.plan_pages import write_hover_page
 from perilune.analysis.reports.run_report import write_run_report
 from tests.support.lengths import either
 from tests.support.pages.narrow import assert_legible
@@ -29,7 +30,7 @@ def write_batch(page):
 
 
 def write_plan(page):
-    write_hover_page(hover_study(HOVER_VEHICLE, HOVER_TRANSFER, curves=True), page)
+    write_document(transfer_document(hover_study(HOVER_VEHICLE, HOVER_TRANSFER)), page)
 
 
 PAGES = (write_flight, write_figures_of_its_own, write_batch, write_plan)

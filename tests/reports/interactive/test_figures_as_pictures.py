@@ -20,12 +20,13 @@ from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import RecordedRun
 from perilune.analysis.documents.of.differences import differences_document
+from perilune.analysis.documents.of.landing_bound import landing_bound_document
+from perilune.analysis.documents.of.transfer import transfer_document
 from perilune.analysis.documents.render.html import write_document
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
-from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
 from perilune.analysis.reports.run_report import write_run_report
 from perilune.common.paths import ROOT
-from tests.reports.test_plan_pages import LANDER, LANDING
+from tests.documents.of.test_plan_pages import LANDER, LANDING
 from tests.support.lengths import either
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses
 from tests.support.pages.pictures.reading import read_page, reading
@@ -72,11 +73,11 @@ def write_sensitivity(request, page):
 
 
 def write_transfer(request, page):
-    write_hover_page(hover_study(HOVER_VEHICLE, HOVER_TRANSFER, curves=True), page)
+    write_document(transfer_document(hover_study(HOVER_VEHICLE, HOVER_TRANSFER)), page)
 
 
 def write_bound(request, page):
-    write_landing_page(landing_study(LANDER, LANDING, intervals=40), page)
+    write_document(landing_bound_document(landing_study(LANDER, LANDING, intervals=40)), page)
 
 
 def write_differences(request, page):
@@ -134,12 +135,7 @@ TEMPLATES = {
     "batch_report.html": [write_batch, write_many_trials, write_recorded],
     "comparison.html": [write_comparison],
     "stability.html": [write_stability],
-    "rare.html": [write_rare],
-    "worst.html": [write_worst],
-    "sensitivity.html": [write_sensitivity],
-    "hover_transfer.html": [write_transfer],
-    "landing_bound.html": [write_bound],
-    "document.html": [write_differences],
+    "document.html": [write_differences, write_rare, write_worst, write_sensitivity, write_transfer, write_bound],
     "demo.html": [write_demo],
     "system.html": [],  # a block diagram, the same with scripts: tests/reports/diagram
     "show.html": [],  # without scripts it has no figure: tests/show

@@ -222,7 +222,7 @@ def test_studies_say_what_is_assumed(study, options, undeclared, tmp_path):
     campaign.write_text(CAMPAIGN)
     for said in ((), ("gain",)):
         result = study(path, campaign, workers=1, feedthrough=said, **options)
-        assert ("assumed: gain: FMU gain does not declare" in result.text()) is (not said)
+        assert ("assumed: gain: FMU gain does not declare" in "\n".join(result.lines())) is (not said)
         if not said:
             result.report(tmp_path / "page.html")
             assert "Assumed: gain: FMU gain does not declare" in (tmp_path / "page.html").read_text()

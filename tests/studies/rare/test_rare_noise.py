@@ -50,20 +50,20 @@ def test_the_interval_is_that_of_trials_with_noise_of_their_own(actual):
     assert high > exact.low
     assert high / low < either(3.0, 12.0)
     assert result.conditions == ""
-    assert "conditional" not in result.text()
-    assert result.document()["noise"] == {"components": ["navigation", "allocation"], "random": True}
-    assert result.document()["noise_trial"] is None
+    assert "conditional" not in "".join(result.lines())
+    assert result.json_document()["noise"] == {"components": ["navigation", "allocation"], "random": True}
+    assert result.json_document()["noise_trial"] is None
 
 
 def test_noise_moves_are_in_the_table_of_levels(actual):
     _, result = actual
-    second = result.document()["levels"][1]
+    second = result.json_document()["levels"][1]
     assert 0.0 < second["noise_acceptance"] <= 1.0
     assert second["source"] in (None, "navigation", "allocation")
-    heading = next(line for line in result.text().splitlines() if line.startswith("level "))
+    heading = next(line for line in result.lines() if line.startswith("level "))
     assert "accepted: draws" in heading
     assert "noise" in heading
-    assert "levels, thresholds of the margin (m)" in result.text()
+    assert "threshold, m" in heading
 
 
 def test_failures_fly_again_with_the_stream_of_each_component(actual):
@@ -86,7 +86,7 @@ def test_failures_fly_again_with_the_stream_of_each_component(actual):
 def test_the_printed_command_flies_a_failure_again(actual, capsys):
     folder, result = actual
     command = result.replay(folder, 0)
-    assert command in result.text(folder)
+    assert command in "\n".join(result.lines())
     assert json.loads((folder / "rare.json").read_text())["failures"][0]["replay"] == command
     words = command.split()
     assert words[0] == "perilune"
@@ -98,7 +98,7 @@ def test_held_noise_is_a_condition_on_every_line(limit, capsys):
     line = ["rare", CAMPAIGN[0], "--campaign", CAMPAIGN[1], "--compare", "guidance=analytic_guidance", "--workers", "1"]
     assert main([*line, "--failure", f"position_error > {limit / 2}", "--samples", "100", "--noise-trial", "3"]) == 0
     text = capsys.readouterr().out
-    for start in ("position_error >", "levels, thresholds", "most probable failures"):
+    for start in ("failure probability", "Levels", "Design points"):
         of = next(line for line in text.splitlines() if line.startswith(start))
         assert of.endswith("conditional on the noise realisation of trial 3")
 

@@ -133,7 +133,7 @@ def test_the_worst_is_studied_again(actual, late, box, capsys):
     assert margins == [result.worst["value"], result.worst_random["value"]]
     assert spread.worst == 0
     document = json.loads((folder / "worst.json").read_text())
-    assert document == result.document(folder)
+    assert document == result.json_document(folder)
     command, *arguments = shlex.split(document["replay"])
     assert command == "perilune"
     assert main([*arguments, "--json", "-"]) in (0, 1)
@@ -180,7 +180,7 @@ def test_of_several_channels_the_least_counts(exact_fmus, written, tmp_path):
 def test_workers_do_not_matter(actual, late, box):
     _, result = actual
     other = perilune.worst(late, box, loop="loop", flights=FLIGHTS, workers=2)
-    assert other.document() == result.document()
+    assert other.json_document() == result.json_document()
     assert other.flown.values.tobytes() == result.flown.values.tobytes()
 
 
@@ -194,7 +194,7 @@ def test_draws_that_cannot_be_studied_are_the_worst(exact_fmus, written, tmp_pat
     result = perilune.worst(path, campaign, loop="loop", flights=FLIGHTS, workers=1)
     assert result.worst["value"] is None
     assert "plant.position never falls to -0.005" in result.reason
-    assert f"failed: {result.reason}" in result.text()
+    assert f"failed: {result.reason}" in result.lines()
     assert result.flights < FLIGHTS
 
 

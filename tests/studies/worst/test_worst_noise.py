@@ -44,7 +44,7 @@ def test_the_worst_is_the_largest_objective_and_fresh_noise_says_what_it_is(actu
     pairs = errors[: -10 * COUNT].reshape(-1, COUNT).max(axis=1)
     inside = np.all((result.flown.points >= 0) & (result.flown.points <= 1), axis=1)[: -10 * COUNT : COUNT]
     assert result.value == pairs[inside].max()
-    fresh = result.document()["fresh"]
+    fresh = result.json_document()["fresh"]
     assert fresh["worst"] == errors[-10 * COUNT :].max() == fresh["at_quantile"]
     assert fresh["realisations"] == 10 * COUNT
     assert result.values()["fresh_worst"] == fresh["worst"]
@@ -66,25 +66,25 @@ def test_fresh_flights_are_those_of_the_worst_draws(actual, tmp_path):
 
 
 def test_what_is_printed(actual, capsys):
-    folder, result = actual
-    text = result.text(folder)
+    _, result = actual
+    text = "\n".join(result.lines())
     assert "position_error: worst " in text
-    assert f" m (worst of {COUNT} noise realisations) in {result.flights} flights" in text
+    assert f" m (worst of {COUNT} noise realisations), of " in text
     assert f"under {10 * COUNT} fresh noise realisations: worst " in text
     assert "conditional" not in text
     assert "position_error, m" in text
-    words = next(line for line in text.splitlines() if line.startswith("replay: ")).split()[1:]
+    words = next(line for line in text.splitlines() if line.startswith("worst case: ")).split()[2:]
     assert main([*words[1:], "--json", "-"]) in (0, 1)
     assert f"{result.value:.4g}"[:4] in capsys.readouterr().out
 
 
 def test_held_noise_is_a_condition(fmus):
     result = perilune.worst(*CAMPAIGN, compare=ONE, metric="position_error", flights=100, noise_trial=4, workers=1)
-    text = result.text()
     assert result.flights == 100
     assert result.fresh is None
-    lines = text.splitlines()
-    assert all(line.endswith("conditional on the noise realisation of trial 4") for line in lines[:2])
+    lead, random = result.lines()[:2]
+    assert random.startswith("worst of ")
+    assert all(line.endswith("conditional on the noise realisation of trial 4") for line in (lead, random))
 
 
 @pytest.mark.parametrize(

@@ -51,13 +51,13 @@ def test_it_flies_again_to_the_last_bit(actual, linear):
     assert repeated.tolist() == [result.worst["value"], result.worst_random["value"]]
     document = json.loads((folder / "worst.json").read_text())
     assert document["worst"]["metrics"]["total"] == result.value
-    assert document == result.document(folder)
+    assert document == result.json_document(folder)
 
 
 def test_workers_do_not_matter(actual, linear):
     _, result = actual
     other = perilune.worst(*linear, metric="total", flights=400, workers=2)
-    assert other.document() == result.document()
+    assert other.json_document() == result.json_document()
     assert other.flown.points.tobytes() == result.flown.points.tobytes()
 
 
@@ -87,7 +87,7 @@ def test_the_command(linear, tmp_path, capsys):
     line = ["worst", linear[0], "--campaign", linear[1], "--metric", "total", "--flights", "150", "--workers", "1"]
     assert main([*line, "--output", str(tmp_path / "out"), "--require", "worst < 5"]) == 0
     text = capsys.readouterr().out
-    assert text.startswith("total: worst 4.2 in 150 flights")
+    assert text.startswith("total: worst 4.2, of 150 points in 150 simulations")
     assert "worst of 30 random trials" in text
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         "flights.parquet", "worst.json", "worst.parquet",

@@ -54,7 +54,7 @@ class FluidFrame(Frame):
     def repeat(self, element: str, positions: Sequence[tuple[float, float]]) -> str:
         if len(positions) == 1:
             return self.put(*positions[0], element)
-        key = f"{self.name}-{zlib.crc32(element.encode()):x}"
+        key = f"{self.name}-{zlib.crc32(f'{element}{positions}'.encode()):x}"
         copies = (f'<use href="#{key}" x="{self.along(x)}" y="{self.rise(y)}"/>' for x, y in positions)
         return f'<defs><g id="{key}">{element}</g></defs>{"".join(copies)}'
 

@@ -10,18 +10,16 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from perilune.analysis.reports.studies.rare_figures import (
-    Equivalent,
+from perilune.analysis.documents.of.studies.rare import design_table, level_table
+from perilune.analysis.documents.of.studies.rare_figures import (
     design_chart,
-    equivalents,
     exceedance_chart,
-    influence,
     interval_chart,
-    level_spans,
     limit_state_chart,
 )
-from perilune.analysis.reports.studies.rare_page import level_table, write_rare_page
 from perilune.analysis.studies.noise import Noise
+from perilune.analysis.studies.rare.interpretation import Equivalent, equivalents, influence, level_spans
+from tests.documents.leads import assert_lead_everywhere
 from tests.support.pages.checks import assert_self_contained, data_values, text_of
 from tests.support.pages.studies import LIMIT
 
@@ -38,8 +36,8 @@ def test_the_headline_states_the_estimate_and_its_conditions(rare_result, tmp_pa
     assert {repr(rare_result.probability), *map(repr, rare_result.interval), repr(rare_result.flights)} <= values
     words = text_of(page)
     assert f"Failure: total > {LIMIT}" in words
-    assert "Dispersed: 3 parameters (a.gain, b.gain, c.gain)" in words
-    assert "No component draws random numbers of its own." in words
+    assert "3 dispersed parameters: a.gain, b.gain, c.gain" in words
+    assert "No component draws random numbers." in words
     assert "conditional on" not in words.casefold()
     assert page_of(rare_result, tmp_path) == page
 
@@ -47,7 +45,7 @@ def test_the_headline_states_the_estimate_and_its_conditions(rare_result, tmp_pa
 def test_noise_of_one_trial_stands_in_every_section(rare_result, tmp_path):
     fixed = replace(rare_result, noise=Noise(("imu", "star"), 4, 7))
     words = text_of(page_of(fixed, tmp_path))
-    assert "Noise of imu, star: that of trial 4 in all simulations, not random." in words
+    assert "Noise of imu, star: that of trial 4 in all simulations, seed 7." in words
     assert "All numbers: conditional on the noise realisation of trial 4." in words
     lead = words[words.index("Failure probability") : words.index("Failure: total")]
     assert "conditional on the noise realisation of trial 4" in lead
@@ -82,7 +80,7 @@ def test_levels_are_those_that_were_flown(rare_result):
     assert len(rows) == len(spans)
     product = np.prod([level.probability for level in rare_result.simulation.levels])
     assert product == pytest.approx(rare_result.probability, rel=1e-12)
-    assert f'value="{spans[-1].reached * rare_result.simulation.levels[-1].probability!r}"' in rows[-1][5]
+    assert rows[-1][5].value == spans[-1].reached * rare_result.simulation.levels[-1].probability
 
 
 def test_the_limit_state_of_every_simulation_is_drawn(rare_result):
@@ -151,8 +149,7 @@ def test_monte_carlo_equivalents(rare_result):
 def test_a_failure_that_was_not_reached_is_a_bound(rare_result, tmp_path):
     simulation = replace(rare_result.simulation, probability=None, equivalent_trials=None)
     bound = replace(rare_result, simulation=simulation)
-    write_rare_page(bound, tmp_path / "page.html")
-    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    page = page_of(bound, tmp_path)
     assert_self_contained(page)
     assert "Failure not reached: probability below" in text_of(page)
 
@@ -161,9 +158,8 @@ def test_a_wide_interval_leaves_one_digit_and_a_bound_no_interval(rare_result, t
     interval = rare_result.simulation.interval._replace(low=1.234e-12, high=0.0012345)
     simulation = replace(rare_result.simulation, probability=2.345e-7, interval=interval, families=1)
     wide = replace(rare_result, simulation=simulation)
-    head = f"total > {LIMIT}: probability"
-    assert wide.headline() == f"{head} 2e-07, 95 % interval 1.2e-12 to 0.0012"
-    assert ", 1 independent family; equivalent" in wide.text()
+    assert wide.lines()[0] == "failure probability 2e-7, 95 % interval 1.2e-12 to 0.0012"
+    assert any(line.endswith("; independent families 1") for line in wide.lines())
     words = text_of(page_of(wide, tmp_path))
     assert "Failure probability 2e-7, 95 % interval 1.2e-12 to 0.0012" in words
     assert {repr(2.345e-7), repr(1.234e-12)} <= set(data_values(page_of(wide, tmp_path)))
@@ -172,10 +168,10 @@ def test_a_wide_interval_leaves_one_digit_and_a_bound_no_interval(rare_result, t
     bound = replace(
         wide, simulation=replace(simulation, levels=levels, noise_ends=True), noise=Noise(("imu",), None, 7)
     )
-    assert bound.headline().startswith(f"{head} below 0.0012, 95 % bound; estimate 2e-07")
     assert bound.why_levels_ended == "levels end at level 3: 1 % of the noise moves of imu are accepted, below 5 %"
     unnamed = replace(bound.simulation, levels=(*levels[:-1], replace(ended, source=None)))
     fixed = replace(bound, simulation=unnamed, noise=Noise(("imu",), 1, 7))  # so that failures need no streams
+    assert fixed.lines()[0].startswith("failure probability below 0.0012, a 95 % bound; estimate 2e-7")
     assert "Failure probability below 0.0012, a 95 % bound; estimate 2e-7" in text_of(page_of(fixed, tmp_path))
 
 
@@ -204,3 +200,13 @@ def test_the_command_that_flies_a_design_point_again(rare_result, tmp_path):
     assert rare_result.replay(rare_result.folder, 0) in words
     without = text_of(page_of(replace(rare_result, folder=None), tmp_path))
     assert "The samples were not written" in without
+
+
+def test_all_media_have_the_lead(rare_result, tmp_path):
+    lead = assert_lead_everywhere(rare_result, tmp_path)
+    numbers = [each.value for each in lead if not isinstance(each, str)]
+    assert numbers == [rare_result.probability, *rare_result.interval]
+    numbers = dict(rare_result.document().summary[1].entries)
+    assert (numbers["simulations"], numbers["levels"]) == (rare_result.flights, len(rare_result.simulation.levels))
+    for row, entry in zip(design_table(rare_result).rows, rare_result.failures, strict=True):
+        assert [cell.value for cell in row[1:]] == [entry["distance"], entry["margin"], *entry["draws"].values()]

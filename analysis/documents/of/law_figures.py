@@ -4,20 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
+from ...design.laws.expression_tree import (
+    BINARY,
+    IDENTITY,
+    OUTPUT_NUMBERS,
+    UNARY,
+    Node,
+    expression_tree,
+    nodes_of,
+)
+from ...design.laws.law import Law
+from ...design.laws.layers import Edge, Layout
 from ...reports.chart.lines import line
 from ...reports.chart.marks import outline, rectangle
 from ...reports.chart.symbols import BARB, arrow, mark, marker
-from ...reports.chart.write_svg import write_svg
 from ...reports.common.colours import BLUE, FAINT, INK, VERMILION
 from ...reports.common.quantities import MINUS
 from ...reports.font.text import text_width
 from ...reports.interactive.charts import Area, Axis, Backing, Chart, Curve, Note
-from .expression_tree import BINARY, IDENTITY, OUTPUT_NUMBERS, UNARY, Node, expression_tree, nodes_of
-from .law import Law
-from .layers import Edge, Layout
+from ..model import Diagram
 
 INCH = 72.0  # pt
 COLUMN, ROW = 1.75 * INCH, 0.66 * INCH  # pt, between layers and between neighbours
@@ -35,11 +44,9 @@ OUTPUT_NAMES = dict(zip(OUTPUT_NUMBERS, ("u1", "u2"), strict=True))
 Point = tuple[float, float]
 
 
-def law_svg(law: Law) -> bytes:
-    """Return the graph of a law as an SVG document; the same law gives the same bytes."""
-    chart, width, height = law_chart(law)
-    svg = write_svg(chart, "law", f"Graph of {law.name}", width, height)
-    return f'<svg width="{width:g}pt" height="{height:g}pt" {svg.removeprefix("<svg ")}\n'.encode()
+def law_diagram(law: Law) -> Diagram:
+    """Return the graph of a law."""
+    return Diagram("law", f"Graph of {law.name}", partial(law_chart, law))
 
 
 def law_chart(law: Law) -> tuple[Chart, float, float]:

@@ -7,21 +7,31 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..design.transfers.programme import Programme
-from .chart.axes import linear_axis
-from .chart.lines import line
-from .chart.marks import during, instant, level
-from .chart.symbols import mark, marker
-from .chart.ticks import axis_ends
-from .common.colours import BLUE, FAINT, INK, SKY, VERMILION
-from .common.quantities import number
-from .interactive.charts import NO_BOX, Backing, Chart, Curve, Note
-from .interactive.measures import TICK_SIZE
+from ...design.transfers.programme import Programme
+from ...reports.chart.axes import linear_axis
+from ...reports.chart.lines import line
+from ...reports.chart.marks import during, instant, level
+from ...reports.chart.symbols import mark, marker
+from ...reports.chart.ticks import axis_ends
+from ...reports.common.colours import BLUE, FAINT, INK, SKY, VERMILION
+from ...reports.common.quantities import number
+from ...reports.interactive.charts import NO_BOX, Backing, Chart, Curve, Note
+from ...reports.interactive.measures import TICK_SIZE
+from ..model import Figure
 
+HEIGHT = 3.4  # in
 HEAD = 5.0  # pt, of an arrow
 SAMPLES = 400  # of the tilt
 LANE = 0.16  # of the range of the tilt, from a dimension to the next one above it
 DOTS, DASHES = (1.0, 2.0), (5.0, 3.0)
+
+
+def sketch_figure(programme: Programme) -> list[Figure]:
+    """Return the sketch of a programme, as wide as the page."""
+    burns = " and ".join(f"{number(begin, 4)} to {number(end, 4)} s" for begin, end in programme.burns)
+    words = f"Tilt of thrust of the {programme.kind} programme over time, full thrust {burns}"
+    chart = sketch_chart(programme)
+    return [Figure(chart.title, "programme", words, chart, HEIGHT, is_wide=True)]
 
 
 def sketch_chart(programme: Programme) -> Chart:

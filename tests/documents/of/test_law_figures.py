@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from perilune.analysis.design.laws.formula import formula
-from perilune.analysis.design.laws.graph import law_chart, law_svg
 from perilune.analysis.design.laws.law import Law, find_law, read_law
 from perilune.analysis.design.laws.layers import JOINT_GAP, NODE_GAP, Layout, longest_paths
+from perilune.analysis.documents.of.law_figures import law_chart, law_diagram
+from perilune.analysis.documents.render.diagram import diagram_svg
 from perilune.analysis.reports.font.text import text_width
 from tests.support.laws.networks import matrices
 
@@ -76,8 +77,8 @@ def test_a_graph_that_can_be_drawn_without_crossings_is():
 @pytest.mark.parametrize("name", ["diveev_2013", "diveev_2013_basic"])
 def test_the_svg_is_the_same_every_time(name):
     law = read_law(find_law(name))
-    drawing = law_svg(law)
-    assert drawing == law_svg(law)
+    drawing = diagram_svg(law_diagram(law))
+    assert drawing == diagram_svg(law_diagram(law))
     root = etree.fromstring(drawing)
     assert root.tag == "{http://www.w3.org/2000/svg}svg"
 

@@ -6,8 +6,10 @@ Truth: the shares of the variance of a sum of independent draws; lengths measure
 import numpy as np
 import pytest
 
+from perilune.analysis.documents.of.studies.sensitivity import index_table, rank_table
+from perilune.analysis.documents.of.studies.sensitivity_figures import bars_of
 from perilune.analysis.reports.common.colours import BLUE, SKY
-from perilune.analysis.reports.studies.sensitivity_page import bars_of
+from tests.documents.leads import assert_lead_everywhere
 from tests.support.pages.checks import assert_self_contained, data_values, parse, read_path, text_of
 from tests.support.pages.studies import SHARES
 
@@ -23,8 +25,8 @@ def test_stands_alone(page):
     assert_self_contained(page)
     words = text_of(page)
     assert "Sobol' indices of 1 of 3 numbers" in words
-    assert "same (-1 in all flights)" in words
-    assert "Dispersed: 3 parameters (a.gain, b.gain, c.gain)" in words
+    assert "Same: no indices, -1 in all flights" in words
+    assert "3 dispersed parameters: a.gain, b.gain, c.gain" in words
 
 
 def test_the_shares_of_a_sum_lie_in_the_intervals(sensitivity_result):
@@ -56,3 +58,14 @@ def test_bars_are_as_long_as_the_indices(sensitivity_result, page):
             lengths.append(max(x) - min(x))
             indices.append(abs(getattr(bar, order)))
     np.testing.assert_allclose(np.array(lengths) / lengths[0], np.array(indices) / indices[0], atol=2e-3)
+
+
+def test_all_media_have_the_lead(sensitivity_result, tmp_path):
+    assert_lead_everywhere(sensitivity_result, tmp_path)
+    indices = sensitivity_result.of("total")
+    for name, total, ends, first, _, rank in index_table(sensitivity_result, "total").rows:
+        entry = indices[name]
+        expected = [entry["total"], *entry["total_interval"], entry["first"], entry["rank"]]
+        assert [each.value for each in (total, *ends, first, rank)] == expected
+    for metric, *ranks in rank_table(sensitivity_result).rows:
+        assert [each.value for each in ranks] == [*sensitivity_result.ranks[metric].values()]

@@ -14,8 +14,10 @@ from perilune.analysis.design.trajectories.landing_study import landing_study
 from perilune.analysis.design.trajectories.vehicle import Landing, Margins, Transfer, Vehicle
 from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.design.transfers.programme import find_programme
-from perilune.analysis.reports.plan_pages import write_hover_page, write_landing_page
-from perilune.analysis.reports.programme_sketch import sketch_chart
+from perilune.analysis.documents.of.landing_bound import landing_bound_document
+from perilune.analysis.documents.of.programme_sketch import sketch_chart
+from perilune.analysis.documents.of.transfer import transfer_document
+from perilune.analysis.documents.render.html import write_document
 from tests.support.lengths import either
 from tests.support.pages.browser import start
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of, without_policy
@@ -43,7 +45,7 @@ addEventListener("load", () => {
 def hover():
     transfer = Transfer(1600.0, 2300.0, 1.622)
     more = {"adjoint": True, "finite_switches": True, "free_fall": True, "distances": (0.0, 500.0)}
-    return hover_study(VEHICLE, transfer, MARGINS, optimum=True, bound=True, curves=True, intervals=40, **more)
+    return hover_study(VEHICLE, transfer, MARGINS, optimum=True, bound=True, intervals=40, **more)
 
 
 @pytest.fixture(scope="module")
@@ -54,8 +56,8 @@ def landing():
 @pytest.fixture(scope="module")
 def pages(hover, landing, tmp_path_factory):
     folder = tmp_path_factory.mktemp("plans")
-    write_hover_page(hover, folder / "hover.html")
-    write_landing_page(landing, folder / "landing.html")
+    write_document(transfer_document(hover), folder / "hover.html")
+    write_document(landing_bound_document(landing), folder / "landing.html")
     return {name: folder / f"{name}.html" for name in ("hover", "landing")}
 
 
@@ -73,11 +75,13 @@ def test_transfer(hover, pages):
         assert all(repr(time) in values for burn in plan.full_thrust for time in burn)
     assert all(repr(time) in values for time in (*hover.adjoint.singular_span, *hover.adjoint.switching_times))
     assert repr(hover.comparisons[1].free_fall * VEHICLE.mass) in values
+    for plan in (hover.finite.times, hover.free_fall.times.elements()):
+        assert all(repr(time) in values for time in plan)
     words = text_of(text)
     for name in ("simplified programme", "true optimum", "point-mass bound", "the plan's throttle 0.1 to 0.9"):
         assert name in words
     assert "its angular acceleration 0.7 deg/s²" in words
-    assert "Not asked for" not in words
+    assert "Not computed" not in words
     assert len(parse(text).xpath("//*[local-name()='svg' and @class='figure']")) == 6
 
 
@@ -93,15 +97,15 @@ def test_landing(landing, pages):
 
 
 def test_the_same_bytes_again(hover, landing, pages, tmp_path):
-    write_hover_page(hover, tmp_path / "hover.html")
-    write_landing_page(landing, tmp_path / "landing.html")
+    write_document(transfer_document(hover), tmp_path / "hover.html")
+    write_document(landing_bound_document(landing), tmp_path / "landing.html")
     for name, path in pages.items():
         assert (tmp_path / f"{name}.html").read_bytes() == path.read_bytes()
 
 
 def test_straight_down(tmp_path):
-    study = hover_study(VEHICLE, Transfer(0.0, 2300.0, 1.622), curves=True)
-    write_hover_page(study, tmp_path / "down.html")
+    study = hover_study(VEHICLE, Transfer(0.0, 2300.0, 1.622))
+    write_document(transfer_document(study), tmp_path / "down.html")
     text = (tmp_path / "down.html").read_text(encoding="utf-8")
     assert_self_contained(text)
     assert parse(text).xpath("//dt[.='programme']/../dd/text()") == ["vertical"]
@@ -109,7 +113,7 @@ def test_straight_down(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["hover", "landing"])
-@pytest.mark.parametrize(("width", "height"), either([(1200, 3200), (400, 4200)], [(400, 4200)]))
+@pytest.mark.parametrize(("width", "height"), either([(1200, 3200), (400, 4800)], [(400, 4800)]))
 def test_page_renders(browser, pages, tmp_path, name, width, height):
     start(browser, pages[name], tmp_path, f"--window-size={width},{height}", f"--screenshot={tmp_path / 'page.png'}")
     pixels = image.imread(tmp_path / "page.png")[..., :3] * 255.0

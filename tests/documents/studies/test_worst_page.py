@@ -8,19 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perilune.analysis.reports.studies.worst_figures import (
-    box_chart,
-    box_lanes,
-    fresh_chart,
-    objective_of,
-    point_values,
-    search_chart,
-    trials_chart,
-)
-from perilune.analysis.reports.studies.worst_page import worst_flight
+from perilune.analysis.documents.model import Quantity
+from perilune.analysis.documents.of.studies.worst import metric_table, parameter_table, simulate_worst
+from perilune.analysis.documents.of.studies.worst_figures import box_chart, fresh_chart, search_chart, trials_chart
+from perilune.analysis.documents.of.studies.worst_points import box_lanes, objective_of, point_values
 from perilune.analysis.studies.flown import Flown
 from perilune.analysis.studies.noise import Noise
 from perilune.analysis.studies.worst.realisations import Fresh, Realisations
+from tests.documents.leads import assert_lead_everywhere
 from tests.support.pages.checks import assert_self_contained, data_values, text_of
 
 # a.gain to 3 times 1.2; b and c along the axes (1, 1) and (1, -1) of their covariance, variances 1.28 and 0.72.
@@ -39,10 +34,10 @@ def test_the_page(worst_result, tmp_path):
     assert {repr(worst_result.value), repr(worst_result.worst_random["value"])} <= set(data_values(page))
     words = text_of(page)
     assert "total: worst" in words
-    assert "A search proves no bound" in words
-    assert "Dispersed: 3 parameters (a.gain, b.gain, c.gain)" in words
+    assert "a search proves no bound" in words
+    assert "3 dispersed parameters: a.gain, b.gain, c.gain" in words
     assert f"{worst_result.folder}/worst.parquet" in words
-    assert "Flight of the worst case" in words
+    assert "Simulation of the worst case" in words
 
 
 def test_every_point_and_the_worst_so_far_are_drawn(worst_result):
@@ -85,7 +80,7 @@ def test_the_worst_is_in_the_corner_of_the_box(worst_result):
 
 
 def test_the_flight_is_that_of_the_worst_case(worst_result):
-    flight, _ = worst_flight(worst_result, worst_result.plan)
+    flight, _ = simulate_worst(worst_result, worst_result.plan)
     final = flight.final()
     assert final["a.y"] + final["b.y"] + final["c.y"] - 6.0 == worst_result.value
 
@@ -128,12 +123,12 @@ def test_a_point_has_the_median_of_its_realisations(worst_result, matters, tmp_p
         largest = flown[:-9][same].max()
         assert study.worst_realisation == largest
         assert f"(median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g})" in words
-        assert f" (median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g}) in " in study.text()
-        document = study.document()
+        assert f" (median, quantile 0.5, of 3 noise realisations; worst of them {largest:.6g}), of " in study.lines()[0]
+        document = study.json_document()
         assert (document["quantile"], document["worst_realisation"]) == (0.5, largest)
     else:
         assert "(one noise realisation), of" in words
-        assert " (one noise realisation) in " in study.text()
+        assert " (one noise realisation), of " in study.lines()[0]
 
 
 def test_a_margin_is_worse_where_it_is_smaller(worst_result):
@@ -141,3 +136,22 @@ def test_a_margin_is_worse_where_it_is_smaller(worst_result):
     objective = objective_of(replace(worst_result, badness=margin))
     assert not objective.rising
     np.testing.assert_array_equal(objective.worst_so_far(), np.minimum.accumulate(-worst_result.flown.values))
+
+
+def test_all_media_have_the_lead(worst_result, tmp_path):
+    lead = assert_lead_everywhere(worst_result, tmp_path)
+    assert [each.value for each in lead if isinstance(each, Quantity)] == [worst_result.value]
+    assert [row[1].value for row in metric_table(worst_result).rows] == [*worst_result.worst["metrics"].values()]
+    random = worst_result.worst_random["draws"]
+    assert [row[-1].value for row in parameter_table(worst_result).rows] == [*random.values()]
+
+
+def test_only_the_page_simulates_the_worst_case(worst_result, tmp_path, monkeypatch):
+    def simulate(*_):
+        raise AssertionError("it simulated")
+
+    monkeypatch.setattr("perilune.analysis.verbs.worst.simulate_worst", simulate)
+    assert worst_result.lines()
+    assert worst_result._repr_html_()
+    with pytest.raises(AssertionError, match="it simulated"):
+        worst_result.report(tmp_path / "page.html")

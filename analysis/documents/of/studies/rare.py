@@ -1,0 +1,221 @@
+"""The document of a rare failure: probability, interval and their conditions, levels, design points, replays."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+from ....reports.common.quantities import label_with_unit
+from ....studies.rare.interpretation import equivalents, influence, level_spans
+from ....studies.rare.outcome import RareResult
+from ...model import (
+    Cell,
+    Code,
+    Document,
+    Figures,
+    KeyNumbers,
+    Node,
+    Note,
+    OnPage,
+    Quantity,
+    Rich,
+    Section,
+    Table,
+    Text,
+    Verdict,
+)
+from .conditions import UNWRITTEN, closing_sections, condition_nodes, condition_of
+from .rare_figures import DESIGN_LEGEND, PERCENT, design_figures, exceedance_figures, interval_figures, limit_figures
+
+DECIMALS = 3  # of acceptance rates
+
+
+def rare_document(study: RareResult, folder: Path | None = None) -> Document:
+    """Return the document of a rare failure; ``folder`` is where it has been written, if it has."""
+    condition = condition_of(study)
+    verdict = Verdict(
+        [*_estimate(study), study.conditions],
+        [
+            Text(["failure: ", Code(study.failure.text)]),
+            *([Text(_bound(study))] if study.why_levels_ended else []),
+            *condition_nodes(study),
+        ],
+        is_bad=study.probability is None,
+    )
+    sections = [
+        Section("Interval against Monte Carlo", [OnPage(partial(_against_monte_carlo, study))], condition),
+        Section(
+            "Limit state over simulations",
+            [
+                Figures(partial(limit_figures, study)),
+                Note(
+                    "The limit state is 0 or more where the failure occurs. Blue: the threshold of the next level, "
+                    "which the worst samples of this one exceed; numbers: levels. Dashed: the failure. From level 2 "
+                    "on, chains propose candidates, and those below the level's own threshold are rejected; they are "
+                    "drawn, too."
+                ),
+            ],
+            condition,
+        ),
+        Section(
+            "Levels",
+            [
+                level_table(study),
+                Figures(partial(exceedance_figures, study)),
+                Note(
+                    "Probability: of the next level, given this one; the last is that of the failure. Accepted: the "
+                    "fraction of candidates that stay in the level, of moves of the dispersed parameters and of moves "
+                    "of the noise, which renew one component's at a time; the lowest of a single component. Where "
+                    "fewer than one noise move in twenty of any component is accepted, levels end. The correlation "
+                    "gamma of samples in a chain and the coefficient of variation c.o.v. are those of Au and Beck "
+                    "(2001), level by level; the interval above counts the correlation from level to level, too."
+                ),
+            ],
+            condition,
+        ),
+        Section("Design points", _design_nodes(study), condition),
+        *closing_sections(study, _replays(study, folder), UNWRITTEN if study.failures else "no simulation failed"),
+    ]
+    title = f"{study.facts['system']}: rare failure"
+    return Document(title, [verdict, _key_numbers(study)], sections, study.json_document(folder))
+
+
+def _estimate(study: RareResult) -> Rich:
+    """Return the probability with its interval, or what bounds it; no more digits than the interval leaves."""
+    low, high = (Quantity(end, digits=max(study.digits, 2)) for end in study.interval)
+    estimate = Quantity(study.probability, digits=study.digits)
+    if study.probability is None:
+        return ["failure not reached: probability below ", high, f", with {PERCENT} confidence"]
+    if study.simulation.noise_ends:
+        return ["failure probability below ", high, f", a {PERCENT} bound; estimate ", estimate]
+    return ["failure probability ", estimate, f", {PERCENT} interval ", low, " to ", high]
+
+
+def _bound(study: RareResult) -> Rich:
+    """Return why levels ended, and how many Monte Carlo simulations bound what is below."""
+    trials = study.brute_force
+    if trials is None:
+        return f"{study.why_levels_ended}; what is below that level is bounded as Monte Carlo bounds it"
+    return [
+        f"{study.why_levels_ended}; what is below that level is bounded as by ", Quantity(trials, digits=2),
+        " Monte Carlo simulations; a bound ten times lower takes ", Quantity(10.0 * trials, digits=2),
+    ]  # fmt: skip
+
+
+def _key_numbers(study: RareResult) -> KeyNumbers:
+    simulation = study.simulation
+    return KeyNumbers(
+        [
+            ("simulations", study.flights),
+            ("levels", len(simulation.levels)),
+            ("samples per level", study.samples),
+            ("coefficient of variation", Quantity(simulation.interval.variation, digits=3)),
+            ("equivalent Monte Carlo trials", Quantity(study.brute_force, digits=3)),
+            ("independent families", simulation.families),
+        ]
+    )
+
+
+def _against_monte_carlo(study: RareResult) -> list[Node]:
+    rows = [
+        (row.label, Quantity(row.simulations), Quantity(row.low, digits=3), Quantity(row.high, digits=3))
+        for row in equivalents(study)
+    ]
+    return [
+        Figures(partial(interval_figures, study)),
+        Table(("estimate", "simulations", "from", "to"), rows),
+        Note(
+            "Of Monte Carlo: Clopper and Pearson's interval for the number of failures expected at this probability, "
+            "with as many simulations as this study took and with as many as give the same coefficient of variation. "
+            "An arrow: from 0."
+        ),
+    ]
+
+
+def level_table(study: RareResult) -> Table:
+    """Return a row for each level."""
+    rows: list[tuple[Cell, ...]] = []
+    for span, level in zip(level_spans(study), study.simulation.levels, strict=True):
+        reached = None if span.reached is None or level.probability is None else span.reached * level.probability
+        rates = (level.draw_acceptance, level.noise_acceptance, level.least_acceptance)
+        rows.append(
+            (
+                span.number,
+                Quantity(span.threshold, study.margin_unit, is_bare=True),
+                level.samples,
+                span.last - span.first + 1,
+                Quantity(level.probability),
+                Quantity(reached, digits=3),
+                *(Quantity(rate, decimals=DECIMALS) for rate in rates),
+                Quantity(level.correlation, digits=3),
+                Quantity(level.deviation, digits=3),
+            )
+        )
+    heads = (
+        "level", label_with_unit("threshold", study.margin_unit), "samples", "simulations", "probability",
+        "cumulative", "accepted: draws", "noise", "lowest source", "gamma", "c.o.v.",
+    )  # fmt: skip
+    return Table(heads, rows)
+
+
+def _design_nodes(study: RareResult) -> list[Node]:
+    if not study.failures:
+        return [Text("no simulation failed")]
+    noise = ""
+    if study.noise.sources:
+        noise = " It leaves the noise out; the noise of a component is that of the trial whose number stands there."
+    return [
+        Figures(partial(design_figures, study), DESIGN_LEGEND),
+        design_table(study),
+        Note(
+            "Most probable points of failure among the simulations: the distance beta is in standard deviations from "
+            "the medians of all dispersed parameters, as independent normal ones. Points nearer than 1 to a more "
+            f"probable one are left out.{noise}"
+        ),
+        OnPage(partial(_influence, study)),
+    ]
+
+
+def design_table(study: RareResult) -> Table:
+    """Return a row for each design point: distance, limit state, dispersed parameters, the noise of each component."""
+    names, sources, units = study.space.names, study.noise.sources, study.units
+    rows: list[tuple[Cell, ...]] = [
+        (
+            entry["trial"],
+            Quantity(entry["distance"], digits=3),
+            Quantity(entry["margin"], study.margin_unit, is_bare=True),
+            *(Quantity(entry["draws"][name], units.get(name), 6, is_bare=True) for name in names),
+            *(entry["streams"][source] for source in sources),
+        )
+        for entry in study.failures
+    ]
+    heads = (
+        "point",
+        "beta",
+        label_with_unit("limit state", study.margin_unit),
+        *(label_with_unit(name, units.get(name)) for name in names),
+        *(f"noise of {source}" for source in sources),
+    )
+    return Table(heads, rows)
+
+
+def _influence(study: RareResult) -> list[Node]:
+    rows = [(name, Quantity(shift, digits=3)) for name, shift in influence(study).items()]
+    if not rows:
+        return []
+    return [
+        Table(("parameter", "shift, standard deviations"), rows),
+        Note(
+            "How far failures lie from the campaign's own samples (level 1), parameter by parameter. "
+            "The panels show the first three in pairs."
+        ),
+    ]
+
+
+def _replays(study: RareResult, folder: Path | None) -> list[tuple[str, str]]:
+    """Return commands with what they do: design points where they were written, a lower bound where levels ended."""
+    command = study.replay(folder, 0) if study.failures else ""
+    replays = [("design point 0; trial K of the file is design point K", command)] if command else []
+    if study.monte_carlo:
+        replays.append(("a bound ten times lower, by Monte Carlo", study.monte_carlo))
+    return replays

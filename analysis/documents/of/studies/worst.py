@@ -1,0 +1,221 @@
+"""The document of a worst case: its number and conditions, the search, random trials, the box, its simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import chdir
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+from ....campaigns.definition.campaign import Record
+from ....campaigns.definition.plan import BatchPlan
+from ....campaigns.draws.declared import input_names
+from ....campaigns.draws.given import GivenDraws, part_streams, stream_component
+from ....campaigns.execute.flyer import Flyer
+from ....reports.common.quantities import label_with_unit
+from ....reports.figures.declared import Figure
+from ....reports.figures.reading import read_figures
+from ....runtime.flight.results import Result
+from ....studies.worst.outcome import WorstResult
+from ...model import Cell, Code, Document, Figures, Node, Note, OnPage, Quantity, Rich, Section, Table, Text, Verdict
+from ..simulation import simulation_nodes
+from .conditions import closing_sections, condition_nodes, condition_of
+from .worst_figures import box_figures, random_figures, search_figures
+from .worst_points import box_lanes, objective_of
+
+DIGITS = 6
+DECIMALS = 3  # of fractions of the search box
+
+Simulate = Callable[[], tuple[Result, Sequence[Figure]]]
+
+
+def worst_document(study: WorstResult, folder: Path | None = None, simulate: Simulate | None = None) -> Document:
+    """Return the document of a worst case; ``folder`` is where it has been written, if it has.
+
+    ``simulate`` returns the worst case with all signals, and the figures that the system declares; None where a margin
+    was studied.
+    """
+    condition = condition_of(study)
+    replay = study.replay(folder, 0)
+    sections = [
+        Section(
+            "Search",
+            [
+                Figures(partial(search_figures, study)),
+                OnPage(lambda: [_phases(study)]),
+                Note(
+                    "Grey: every point; blue: the worst so far; numbers: methods in their order. "
+                    f"The best of the random trials begin the evolution.{_of_realisations(study)}"
+                ),
+            ],
+            condition,
+        ),
+        Section(
+            "Against random trials",
+            [
+                Figures(partial(random_figures, study)),
+                Note(
+                    "Random trials are drawn as the campaign draws them, also outside of the box; they are the first "
+                    "points of the search."
+                ),
+                metric_table(study),
+            ],
+            condition,
+        ),
+        Section("Search box", _box_nodes(study), condition),
+        *(
+            [Section("Simulation of the worst case", [OnPage(partial(_simulation, study, simulate))], condition)]
+            if simulate
+            else []
+        ),
+        *closing_sections(study, [("worst case", replay)] if replay else []),
+    ]
+    title = f"{study.facts['system']}: worst case"
+    return Document(title, [_verdict(study)], sections, study.json_document(folder))
+
+
+def _verdict(study: WorstResult) -> Verdict:
+    realisations, largest, random = study.over, study.worst_realisation, study.worst_random
+    objective = objective_of(study)
+    outside = "" if random["inside"] else ", outside of the box"
+    name: Rich = [study.badness.text if study.badness.expression is None else Code(study.badness.text)]
+    flown: Rich = []
+    if realisations is not None:
+        extreme = [] if largest is None else ["; worst of them ", _sized(study, study.as_json(largest))]
+        flown = [f" ({study.flown_text}", *extreme, ")"]
+    simulations = "simulations" if objective.rising else "studies"
+    return Verdict(
+        [
+            *name, ": worst " if objective.rising else ": least ", _sized(study, study.worst["value"]), *flown,
+            f", of {objective.values.size} points in {study.flights} {simulations}{study.conditions}",
+        ],
+        [
+            *_fresh(study),
+            *([Text(f"failed: {study.reason}")] if study.reason else []),
+            Text([
+                f"worst of {study.random_trials} random trials: ", _sized(study, random["value"]),
+                f"{f' ({realisations.text})' if realisations else ''}{outside}{study.conditions}",
+            ]),
+            Text([
+                "search box: within ", Quantity(study.sigmas), " standard deviations of normal parameters, the full "
+                "range of others; a search proves no bound: there may be a worse point",
+            ]),
+            *condition_nodes(study, "random" if realisations is None else _noise(study)),
+        ],
+    )  # fmt: skip
+
+
+def _sized(study: WorstResult, size: float | str | None, *, is_bare: bool = False) -> Quantity | str:
+    """Return a number of the objective; that of a simulation without one is that it failed."""
+    return _cell(size, study.unit, is_bare=is_bare)
+
+
+def _cell(size: float | str | None, unit: str | None, *, is_bare: bool = True) -> Quantity | str:
+    if isinstance(size, str) or size is None:
+        return size or "failed"
+    return Quantity(float(size), unit, DIGITS, is_bare)
+
+
+def _fresh(study: WorstResult) -> list[Node]:
+    """Return what fresh noise does to the worst case; nothing where the noise is not random."""
+    if study.fresh is None or study.over is None:
+        return []
+    fresh = study.fresh.document(study.as_json)
+    quantile = [f", {study.over.name} ", _sized(study, fresh["at_quantile"])] if fresh["quantile"] < 1.0 else []
+    return [
+        Text([
+            f"the same point under {fresh['realisations']} fresh noise realisations: worst ",
+            _sized(study, fresh["worst"]), *quantile, study.conditions,
+        ]),
+        Note("The search has not used these; its own number is biased towards worse, since it chose the point."),
+    ]  # fmt: skip
+
+
+def _noise(study: WorstResult) -> str:
+    """Return how the search had random noise."""
+    assert study.over is not None
+    count = study.over.count
+    if study.noise_matters is False:
+        return f"changes none of the random trials in {count} realisations, so that the search has one"
+    return f"the same {'realisation' if count == 1 else f'{count} realisations'} at every point"
+
+
+def _of_realisations(study: WorstResult) -> str:
+    realisations = study.over
+    if realisations is None or realisations.count == 1:
+        return ""
+    only = " of random trials" if study.noise_matters is False else ""
+    return f" The number of a point{only} is the {realisations.text}, not that of a single simulation."
+
+
+def _phases(study: WorstResult) -> Table:
+    """Return a row for each phase of the search, with the worst number up to its end, as displayed."""
+    worst = objective_of(study).worst_so_far()
+    rows: list[tuple[Cell, ...]] = []
+    end = 0
+    for index, phase in enumerate(study.phases):
+        end += phase.evaluations
+        size = float(worst[end - 1])
+        rows.append((index + 1, phase.name, phase.evaluations, Quantity(None if size != size else size, digits=DIGITS)))
+    return Table(("", "method", "points", label_with_unit("worst so far", study.unit)), rows)
+
+
+def metric_table(study: WorstResult) -> Table:
+    """Return a row for each metric: worst case and worst random trial."""
+    worst, random, units = study.worst["metrics"], study.worst_random["metrics"], study.units
+    rows = [
+        (label_with_unit(name, units.get(name)), *(_cell(each[name], units.get(name)) for each in (worst, random)))
+        for name in worst
+    ]
+    return Table(("metric", "worst case", "worst random trial"), rows, len(rows))
+
+
+def parameter_table(study: WorstResult) -> Table:
+    """Return a row for each dispersed parameter: worst case, box, worst random trial."""
+    rows = [
+        (
+            lane.label,
+            *(_cell(each, lane.unit) for each in (lane.worst, lane.low, lane.high)),
+            Quantity(lane.at(lane.worst), decimals=DECIMALS),
+            _cell(lane.random, lane.unit),
+        )
+        for lane in box_lanes(study)
+    ]
+    heads = ("parameter", "worst case", "box from", "to", "fraction of the box", "worst random trial")
+    return Table(heads, rows, len(rows))
+
+
+def _box_nodes(study: WorstResult) -> list[Node]:
+    return [
+        OnPage(lambda: [Figures(partial(box_figures, study))]),
+        parameter_table(study),
+        Note(
+            "The box spans uniform parameters between their ends and normal ones within these standard deviations; "
+            "jointly normal ones along the axes of their covariance, so that they reach their ends one at a time. A "
+            "parameter at an end of the box says that the worst case may lie beyond it."
+        ),
+    ]
+
+
+def _simulation(study: WorstResult, simulate: Simulate) -> list[Node]:
+    simulation, figures = simulate()
+    realisations = study.over
+    end: Rich = [" at ", Quantity(float(simulation.time[-1]), "s", DIGITS)] if simulation.time.size else []
+    chosen = ""
+    if realisations is not None and realisations.count > 1 and study.noise_matters is not False:
+        chosen = f"; of the noise realisations it has the one that gives the {realisations.name}"
+    return [Text(["status ", Code(simulation.status), *end, chosen]), *simulation_nodes(simulation, figures)]
+
+
+def simulate_worst(study: WorstResult, plan: BatchPlan) -> tuple[Result, list[Figure]]:
+    """Return the worst case with the bits of the search; ``plan`` is that of the study. Raises InputError."""
+    plotted = study.flown.draws
+    names = [*input_names(plan.campaign), *(name for name in plotted if stream_component(name) is not None)]
+    given = GivenDraws(*part_streams({name: plotted[name][[study.row]] for name in names}))
+    plain = replace(plan, campaign=replace(plan.campaign, record=Record(), group=None, scatters=()))
+    with chdir(Path.cwd()):  # an FMU may change the folder
+        flyer = Flyer(plain.of_samples(given))
+        (variant,) = flyer.variants
+        simulation, _ = flyer.replay(variant, 0)
+        return simulation, read_figures(plain.prepare(flyer.variants[variant]))

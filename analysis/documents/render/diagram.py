@@ -1,0 +1,23 @@
+"""A diagram as SVG, in a page and as a file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from markupsafe import Markup
+
+from ...reports.chart.svg.fluid import POINT
+from ...reports.chart.write_svg import write_svg
+from ...reports.interactive.charts import Fluid
+from ..model import Diagram
+
+NO_MARGINS = (0.0, 0.0, 0.0, 0.0)
+
+
+def diagram_svg(diagram: Diagram) -> Markup:
+    """Return a diagram as an <svg> element of its size; equal diagrams have equal elements."""
+    chart, width, height = diagram.draw()
+    fluid = replace(chart, fluid=Fluid(NO_MARGINS, POINT))
+    svg = write_svg(fluid, diagram.name, diagram.words, width, height)
+    size = f'width="{POINT * width:g}" height="{POINT * height:g}"'
+    return Markup('<svg xmlns="http://www.w3.org/2000/svg" {}>{}</svg>').format(Markup(size), svg)

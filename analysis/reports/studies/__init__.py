@@ -1,1 +1,0 @@
-"""The pages of studies that choose the draws of a campaign: rare failure, worst case, sensitivity."""

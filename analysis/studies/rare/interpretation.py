@@ -1,0 +1,95 @@
+"""What follows from a rare failure's simulations: its levels, the influence of parameters, Monte Carlo as good."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...campaigns.summary import success_interval
+from ...campaigns.verdicts.order_statistics import quantiles
+from .outcome import RareResult
+
+
+class Span(NamedTuple):
+    """The simulations ``first`` to ``last`` of a level, their limit state ``threshold``, and that of the next level.
+
+    ``reached`` is the probability of the level itself, None where its chains are not trusted: no level follows then.
+    """
+
+    number: int
+    first: int
+    last: int
+    threshold: float | None
+    following: float | None
+    reached: float | None
+
+
+def level_spans(result: RareResult) -> list[Span]:
+    """The levels by the numbers of their simulations, counted from 1: a chain's seed was flown at the level before."""
+    spans: list[Span] = []
+    levels = result.simulation.levels
+    first, seeds, reached = 1, 0, 1.0
+    for index, level in enumerate(levels):
+        is_last = index + 1 == len(levels)
+        last = result.simulation.evaluations if is_last else first + level.samples - seeds - 1
+        following: float | None = 0.0 if is_last else levels[index + 1].threshold
+        trusted = level.probability is not None
+        spans.append(
+            Span(index + 1, first, last, level.threshold, following if trusted else None, reached if trusted else None)
+        )
+        fraction = level.probability or 0.0
+        first, seeds = last + 1, round(fraction * level.samples)
+        reached *= fraction
+    return spans
+
+
+def influence(result: RareResult) -> dict[str, float]:
+    """How far failures lie from the first level's samples in each dispersed parameter, the largest first.
+
+    In standard deviations of the first level: the larger of the shift of the mean and of that of the mean distance
+    from the median, which sees failures at both ends.
+    """
+    count = level_spans(result)[0].last
+    failed = result.flown.values >= 0.0
+    influences: dict[str, float] = {}
+    if not failed.any():
+        return influences
+    for name in result.space.names:
+        column = result.flown.draws[name]
+        start = column[:count]
+        middle, spread = float(quantiles(start, (0.5,))[0]), float(np.std(start))
+        if spread == 0.0:
+            continue
+        shift = abs(float(np.mean(column[failed]) - np.mean(start)))
+        apart = float(np.mean(np.abs(column[failed] - middle)) - np.mean(np.abs(start - middle)))
+        influences[name] = max(shift, apart) / spread
+    return dict(sorted(influences.items(), key=lambda item: -item[1]))
+
+
+class Equivalent(NamedTuple):
+    """A way to estimate the probability: its simulations, and the interval that they give."""
+
+    label: str
+    simulations: float
+    low: float
+    high: float
+
+
+def equivalents(result: RareResult) -> list[Equivalent]:
+    """This study, Monte Carlo with as many simulations, and with as many as give the same coefficient of variation.
+
+    Of Monte Carlo it is Clopper and Pearson's interval of the expected number of failures, as a whole number.
+    """
+    low, high = result.interval
+    estimates = [Equivalent("this study", result.flights, low, high)]
+    if result.probability is None:
+        return estimates
+    for label, trials in (
+        ("Monte Carlo, as many", float(result.flights)),
+        ("Monte Carlo, same c.o.v.", result.brute_force or 0.0),
+    ):
+        if trials >= 1.0:
+            low, high = success_interval(round(result.probability * trials), round(trials))
+            estimates.append(Equivalent(label, round(trials), low, high))
+    return estimates
