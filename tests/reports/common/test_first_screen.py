@@ -88,7 +88,7 @@ def test_the_search_shows_figures_of_a_name_alone(browser, flight):
         count = driver.find_element(By.CSS_SELECTOR, ".search output")
         WebDriverWait(driver, 10).until(lambda _: count.text)
         names = driver.execute_script(VISIBLE)
-        assert names == ["Tilt of the thrust axis", "plant.tilt over time"]
+        assert names == ["Tilt of the thrust axis: plant.tilt over time", "plant.tilt over time"]
         assert count.text.startswith("2 figures, ")
         rows = driver.find_elements(By.CSS_SELECTOR, ".signals tbody tr")
         assert "plant.tilt" in [row.text.split(" ")[0] for row in rows if row.is_displayed()]
