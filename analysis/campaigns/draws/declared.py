@@ -124,7 +124,7 @@ class Numbers(Protocol):
     def numbers_of(self, trials: range) -> np.ndarray: ...
 
 
-class Declared(Protocol):
+class CampaignDraws(Protocol):
     """A campaign, as far as its draws go. ``derived`` are formulas over draws and earlier derived values."""
 
     @property
@@ -141,7 +141,7 @@ class Declared(Protocol):
     def lookups(self) -> Sequence[Numbers]: ...
 
 
-def input_names(campaign: Declared) -> list[str]:
+def input_names(campaign: CampaignDraws) -> list[str]:
     """The values that the draws fill, in their order."""
     return [name for draw in campaign.draws for name in draw.names]
 

@@ -14,7 +14,7 @@ import numpy as np
 from ....common.bounds import INPUT_BYTES, TABLE_TRIALS, TRIALS
 from ....common.errors import InputError, suggestion
 from ....common.regular import read_input
-from .declared import Declared, input_names
+from .declared import CampaignDraws, input_names
 
 if TYPE_CHECKING:  # imported where a file is read
     import pyarrow
@@ -89,7 +89,7 @@ def part_streams(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarra
     return draws, streams
 
 
-def read_given(path: Path, campaign: Declared) -> GivenDraws:
+def read_given(path: Path, campaign: CampaignDraws) -> GivenDraws:
     """The draws of a campaign in a Parquet file, a row per trial, as draws.parquet of a batch. Raises InputError.
 
     Columns ``streams_of.COMPONENT`` say with which trial's random stream a component flies in a row, ``streams_of``
@@ -120,7 +120,7 @@ def read_given(path: Path, campaign: Declared) -> GivenDraws:
     return GivenDraws(*part_streams(columns), str(path), hashlib.sha256(content).hexdigest())
 
 
-def _check_columns(path: Path, schema: pyarrow.Schema, campaign: Declared) -> None:
+def _check_columns(path: Path, schema: pyarrow.Schema, campaign: CampaignDraws) -> None:
     """Refuse columns that are missing, unknown, given twice or of no numbers."""
     import pyarrow
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from ....common.bounds import TABLE_TRIALS
 from ....common.errors import InputError
-from .declared import Columns, Declared, Design, designs_of, input_names
+from .declared import CampaignDraws, Columns, Design, designs_of, input_names
 from .generators import generator, generator_at, independent_draws, sample_columns, stream_of
 from .given import stream_component
 
@@ -67,7 +67,7 @@ def split_trials(trials: int, size: int) -> Iterator[range]:
     return (range(first, min(first + size, trials)) for first in range(0, trials, size))
 
 
-def draw_parts(campaign: Declared, size: int) -> Iterator[DrawTable]:
+def draw_parts(campaign: CampaignDraws, size: int) -> Iterator[DrawTable]:
     """The table of draws and derived values of a campaign, ``size`` trials at a time, columns in the file's order.
 
     Neither the size nor the order in which draws are declared changes values. Only designs are held whole. Raises
@@ -89,12 +89,12 @@ def draw_parts(campaign: Declared, size: int) -> Iterator[DrawTable]:
         yield table_of(campaign, columns, part)
 
 
-def draw_table(campaign: Declared) -> DrawTable:
+def draw_table(campaign: CampaignDraws) -> DrawTable:
     """All of `draw_parts` in one. Raises InputError."""
     return next(draw_parts(campaign, campaign.trials))
 
 
-def table_of(campaign: Declared, drawn: Mapping[str, np.ndarray], trials: range | None = None) -> DrawTable:
+def table_of(campaign: CampaignDraws, drawn: Mapping[str, np.ndarray], trials: range | None = None) -> DrawTable:
     """The table with these draws, an array (trials,) by name, what the campaign derives of them, and its lookups.
 
     ``trials`` are the numbers of their trials, by default all of the campaign. Raises InputError where a derived
@@ -119,7 +119,7 @@ BLOCK = 1024  # trials
 class CountedDraws:
     """The draws of a campaign with draw_scheme = "counter". Raises InputError for designs that need a table."""
 
-    def __init__(self, campaign: Declared) -> None:
+    def __init__(self, campaign: CampaignDraws) -> None:
         for draw in campaign.draws:
             if isinstance(draw.distribution, Design) and not draw.distribution.is_periodic:
                 problem = (

@@ -34,7 +34,7 @@ from .workers import in_threads, needs_children, worker_count
 
 
 @dataclass(frozen=True)
-class Campaign:
+class PreparedCampaign:
     """A campaign that is ready to fly: every file of it read, in its folder if it has one (absolute).
 
     ``plan`` is the plan as given, ``flown`` the same with the files that are stored in the folder; ``named`` is the
@@ -48,7 +48,7 @@ class Campaign:
     folder: Path | None
     named: Path | None = None
 
-    def of_first(self, trials: int) -> Campaign:
+    def of_first(self, trials: int) -> PreparedCampaign:
         """The campaign of the first trials, which end with a shard; its folder holds no more either."""
         if trials == self.manifest.trials:
             return self
@@ -134,7 +134,7 @@ def open_campaign(
     engine: str | None = None,
     workers: int | None = None,
     elsewhere: str | None = None,
-) -> Campaign:
+) -> PreparedCampaign:
     """Check a plan and write down what it flies. Raises InputError before anything is written or flown.
 
     With ``output`` a campaign begins in that folder, in place of what is there, or goes on there with ``resume``; what
@@ -151,22 +151,22 @@ def open_campaign(
         check_fused(prepared, in_child=in_child or not may_load_here(prepared))
     manifest, contents = gather(plan, systems)
     if output is None:
-        return Campaign(plan, plan, systems, manifest, None)
+        return PreparedCampaign(plan, plan, systems, manifest, None)
     folder = output.absolute()  # FMUs may change the working folder
     with lock_folder(folder, alone=not resume):
         manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
     flown = restore(folder, manifest, plan.watch.log, trust=plan.options)
     flown = replace(flown, options=flown.options.but(flavour=plan.options.chosen["flavour"]))
     plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
-    return Campaign(plan, flown, systems, manifest, folder, output)
+    return PreparedCampaign(plan, flown, systems, manifest, folder, output)
 
 
-def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> Campaign:
+def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> PreparedCampaign:
     """The campaign whose manifest lies in a folder; ``trust`` is what foreign FMUs may do. Raises InputError."""
     named, folder = folder, folder.absolute()
     manifest = read_manifest(folder)
     plan = restore(folder, manifest, trust=trust)  # whose draws were looked at when the folder was made
-    return Campaign(plan, plan, prepare_variants(plan), manifest, folder, named)
+    return PreparedCampaign(plan, plan, prepare_variants(plan), manifest, folder, named)
 
 
 def read_folder(folder: Path) -> CampaignFolder:

@@ -25,7 +25,7 @@ from ..plotted_sample import PlottedSample, select_trials
 from ..summary import Summary, summarise
 from ..summary_text import select_metrics, summary_text
 from ..trials import TrialTable
-from .campaign import Campaign
+from .campaign import PreparedCampaign
 from .folder import tidy
 
 
@@ -48,7 +48,7 @@ class BatchResult:
         return describe_column(name, self.provenance)
 
     @classmethod
-    def finish(cls, campaign: Campaign, rows: Mapping[str, TrialTable], **more: Any) -> Self:
+    def finish(cls, campaign: PreparedCampaign, rows: Mapping[str, TrialTable], **more: Any) -> Self:
         """The result of a campaign's first trials, by variant; its summary completes the campaign's folder.
 
         ``more`` are further fields of a derived class.

@@ -16,14 +16,14 @@ from ..folder.lock import lock_folder
 from ..folder.numbering import spans
 from ..requirement_verdicts import satisfies, trials_to_decision
 from ..trials import TrialTable
-from .campaign import Campaign, open_campaign
+from .campaign import PreparedCampaign, open_campaign
 from .flights import fly_shards, task_size
 from .results import BatchResult
 from .store import ShardStore
 from .workers import FlyerPool, in_threads, worker_count
 
 # What flies shards of a campaign: each one's trials by variant, as soon as all are there, in any order of shards.
-Elsewhere = Callable[[Campaign, Sequence[int]], Generator[tuple[int, dict[str, TrialTable]]]]
+Elsewhere = Callable[[PreparedCampaign, Sequence[int]], Generator[tuple[int, dict[str, TrialTable]]]]
 
 
 def run_batch(
@@ -47,7 +47,7 @@ def run_batch(
     return BatchResult.finish(campaign, rows)
 
 
-def merge_rows(campaign: Campaign) -> Mapping[str, TrialTable]:
+def merge_rows(campaign: PreparedCampaign) -> Mapping[str, TrialTable]:
     """The trials by variant of a campaign whose shards are in its folder. Raises InputError where some are missing."""
     missing = campaign.missing()
     decision = _decision(campaign, missing)
@@ -59,7 +59,7 @@ def merge_rows(campaign: Campaign) -> Mapping[str, TrialTable]:
 
 
 def fly_campaign(
-    campaign: Campaign,
+    campaign: PreparedCampaign,
     shards: Sequence[int],
     *,
     workers: int | None = None,
@@ -91,7 +91,7 @@ def fly_campaign(
     return _rows(campaign, store, decision)
 
 
-def _decision(campaign: Campaign, missing: Collection[int]) -> CampaignDecision:
+def _decision(campaign: PreparedCampaign, missing: Collection[int]) -> CampaignDecision:
     """What the shards decide that lie in a campaign's folder."""
     decision, store, numbering = CampaignDecision(campaign.plan), campaign.store(), campaign.numbering
     if campaign.plan.until_decided and campaign.folder is not None:
@@ -100,7 +100,7 @@ def _decision(campaign: Campaign, missing: Collection[int]) -> CampaignDecision:
     return decision
 
 
-def _rows(campaign: Campaign, store: ShardStore, decision: CampaignDecision) -> dict[str, TrialTable]:
+def _rows(campaign: PreparedCampaign, store: ShardStore, decision: CampaignDecision) -> dict[str, TrialTable]:
     """The trials of the shards that decide a campaign, or else of all, by variant."""
     numbering = campaign.numbering
     if decision.shards is not None:
@@ -109,7 +109,7 @@ def _rows(campaign: Campaign, store: ShardStore, decision: CampaignDecision) -> 
 
 
 def _fly_here(
-    campaign: Campaign, shards: Sequence[int], workers: int | None, engine: str | None
+    campaign: PreparedCampaign, shards: Sequence[int], workers: int | None, engine: str | None
 ) -> Generator[tuple[int, dict[str, TrialTable]]]:
     count = worker_count(workers)
     threads = in_threads(campaign.systems.values(), engine)

@@ -18,7 +18,7 @@ from ...campaigns.definition.file import parse_campaign
 from ...campaigns.definition.plan import BatchPlan, read_plan
 from ...campaigns.definition.sweeps import part_sweeps
 from ...campaigns.draws.given import ALL, GivenDraws
-from ...campaigns.execute.campaign import Campaign
+from ...campaigns.execute.campaign import PreparedCampaign
 from ...campaigns.execute.cluster.tasks import WorkersDiedError
 from ...campaigns.folder.manifest import FILE as MANIFEST
 from ...commands.campaigns import campaign_command, replay_command
@@ -84,7 +84,7 @@ def commands_of(plan: BatchPlan) -> Commands:
     return Commands(replay, monte_carlo)
 
 
-def name_foreign(campaign: Campaign) -> None:
+def name_foreign(campaign: PreparedCampaign) -> None:
     """Say which foreign FMUs a campaign's folder is about to run: whoever wrote it has chosen them."""
     fmus = {fmu.digest: fmu for system in campaign.systems.values() for fmu in system.network.fmus.values()}
     foreign = sorted(f"{fmu.name} ({digest[:12]})" for digest, fmu in fmus.items() if not fmu.is_own)

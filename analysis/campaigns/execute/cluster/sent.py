@@ -15,7 +15,7 @@ from .....common.errors import InputError
 from .....common.paths import PACKAGE
 from ...folder.files import DRAWS, write_draws
 from ...folder.manifest import CONTENTS, Manifest, content_path
-from ..campaign import Campaign
+from ..campaign import PreparedCampaign
 from ..plan_manifest import gather
 from ..workers import in_threads
 
@@ -65,7 +65,7 @@ class Sent:
     in_child: bool
 
 
-def make_sent(campaign: Campaign) -> Sent:
+def make_sent(campaign: PreparedCampaign) -> Sent:
     """A campaign as workers are sent it: from its folder, or what it has read where it has none. Raises InputError."""
     manifest, folder = campaign.manifest, campaign.folder
     if folder is not None:
@@ -81,7 +81,7 @@ def make_sent(campaign: Campaign) -> Sent:
     return Sent(key, identity(), manifest, contents, draws, campaign.plan.watch.log, in_child)
 
 
-def _draws(campaign: Campaign) -> bytes:
+def _draws(campaign: PreparedCampaign) -> bytes:
     """The table of draws of a campaign without a folder, as a file."""
     with TemporaryDirectory() as place:
         write_draws(campaign.plan, Path(place), campaign.numbering.size)
