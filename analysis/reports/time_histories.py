@@ -164,8 +164,13 @@ def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, i
     """
     values, factor = group.values(result), display_factor(group.unit)
     curves = [
-        quantity_curve(result.time, row, name, group.unit, index, steps=not group.is_real)
-        for index, (name, row) in enumerate(zip(group.labels if group.is_named else group.names, values, strict=True))
+        replace(
+            quantity_curve(result.time, row, label, group.unit, index, steps=not group.is_real),
+            signal=name if group.is_named else "",
+        )
+        for index, (name, label, row) in enumerate(
+            zip(group.names, group.labels if group.is_named else group.names, values, strict=True)
+        )
     ]
     seen = result.time[np.isfinite(values).any(axis=0)]
     abscissa = linear_axis(axis_ends(seen), intervals[0], label="time, s")

@@ -26,8 +26,8 @@ RUN = "from perilune.analysis.cli import run; run()"
 
 
 PAGES = [
-    (["run", SYSTEM, "--stop-time", "60"], b'id="section-lunar-terminal-guidance"'),
-    (["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", "4"], b"<h2>Failure region"),
+    (["run", SYSTEM, "--stop-time", "60"], b'id="section-orbital-attitude"'),
+    (["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", "4"], b'id="section-failure-region"'),
 ]
 
 
@@ -53,4 +53,4 @@ def test_a_comparison_is_the_same_without_matplotlib(tmp_path):
     write_sample(tmp_path / "out")
     page, other = both(["compare", str(tmp_path / "out")], tmp_path)
     assert page == other
-    assert b"<h2>Trajectories" in page
+    assert b'id="section-trajectories"' in page

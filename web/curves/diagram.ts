@@ -40,8 +40,9 @@ export class Diagram {
     page.figures.forEach((charts, figure) =>
       charts.forEach((chart, index) => {
         if (chart.x.label !== time.label) return;
-        chart.curves?.forEach(({ name }, position) => {
-          if (name && !this.known.has(name)) this.known.set(name, { figure, chart: index, position });
+        chart.curves?.forEach(({ name, signal }, position) => {
+          const known = signal ?? name;
+          if (known && !this.known.has(known)) this.known.set(known, { figure, chart: index, position });
         });
       }),
     );

@@ -30,7 +30,8 @@ export interface Marker {
   width: number;
 }
 
-// A line; ``time`` (s) where its abscissa is another quantity; ``reduced`` where it is the envelope of its rows;
+// A line; ``signal`` where its ``name`` is not that of the signal; ``time`` (s) where its abscissa is another
+// quantity; ``reduced`` where it is the envelope of its rows;
 // ``metric`` where it is the distribution of that over the trials of a variant; ``beyond`` where marks reach beyond
 // the area of the axes.
 export interface Curve<Column = number> {
@@ -39,6 +40,7 @@ export interface Curve<Column = number> {
   factor: number;
   time?: Column;
   name?: string;
+  signal?: string;
   unit?: string;
   colour: string;
   opacity: number;

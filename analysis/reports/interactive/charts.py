@@ -56,7 +56,8 @@ class Marker:
 
 @dataclass(frozen=True, kw_only=True)
 class Curve:
-    """A line; ``time`` (s) where its abscissa is another quantity; ``reduced`` where it is the envelope of its rows;
+    """A line; ``signal`` where its ``name`` is not that of the signal; ``time`` (s) where its abscissa is another
+    quantity; ``reduced`` where it is the envelope of its rows;
     ``metric`` where it is the distribution of that over the trials of a variant; ``beyond`` where marks reach beyond
     the area of the axes.
     """
@@ -66,6 +67,7 @@ class Curve:
     factor: float
     time: np.ndarray | None = None
     name: str = ""
+    signal: str = ""
     unit: str = ""
     colour: str
     opacity: float

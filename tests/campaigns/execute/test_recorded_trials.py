@@ -108,7 +108,11 @@ def test_the_summary_says_what_the_columns_are(everything):
         "trials": None,
         "traces": "none",
     }
-    assert summary["signals"]["plant.position[3]"] == {"unit": FlatMoonLander.position.unit, "type": "Real"}
+    assert summary["signals"]["plant.position[3]"] == {
+        "unit": FlatMoonLander.position.unit,
+        "type": "Real",
+        "axis": "up",
+    }
     assert summary["signals"]["guidance.finished"] == {"unit": None, "type": "Boolean"}
     assert summary["signals"]["plant.velocity[1]"]["unit"] == "m/s"
     assert "plant.thrust" not in summary["signals"]

@@ -37,11 +37,11 @@ return {
 
 @pytest.mark.parametrize("phone", [False, True])
 def test_texts_and_axes(browser, flight, phone):
-    with driven(browser, flight / "page.html", phone=phone) as driver:
-        frames = driver.find_elements(By.CSS_SELECTOR, ".live:not(details *):has(> svg.figure)")
+    with driven(browser, flight / "page.html", phone=phone, unfolded=True) as driver:
+        frames = driver.find_elements(By.CSS_SELECTOR, ".live:has(> svg.figure)")
         visible = [frame for frame in frames if frame.size["height"]]
         assert len(visible) > 30
-        for frame in visible[::2]:
+        for frame in visible[::4]:
             scroll_to_plot(driver, frame)
             measured = driver.execute_script(MEASURE, frame.find_element(By.CSS_SELECTOR, "svg.figure"))
             assert measured["live"] == pytest.approx(measured["axes"], abs=1.0)

@@ -93,7 +93,7 @@ def test_the_last_rows_of_a_landing(browser, flight):
             assert len(texts) >= 10
             for label in ("plant.position", "plant.altitude", "plant.velocity", "plant.tilt", "plant.mass"):
                 expected, unit = values_of(table, label, int(row))
-                pattern = re.compile(rf"(?:\[\d\] )?(\S+)(?: {re.escape(display_unit(unit))})?$")
+                pattern = re.compile(rf"(?:(?:\[\d\]|north|west|up) )?(\S+)(?: {re.escape(display_unit(unit))})?$")
                 assert [pattern.match(text)[1] for text in texts[label]] == expected, (label, row)
         plot.send_keys("0")
         ActionChains(driver).send_keys(Keys.HOME, Keys.ARROW_RIGHT).perform()

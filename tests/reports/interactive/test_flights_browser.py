@@ -78,7 +78,9 @@ def test_a_pinned_trial_shows_what_it_recorded(browser, recorded):
             for name, unit in (("plant.mass", "kg"), ("plant.altitude", "m"), ("allocation.thrust", "N")):
                 assert panels[f"{name}, {unit}"] == [f"{number(float(np.float32(flight[name][row])), 6)} {unit}"]
             position = [number(float(np.float32(flight[f"plant.position[{k}]"][row])), 6) for k in (1, 2, 3)]
-            assert panels["plant.position, m"] == [f"[{k}] {text} m" for k, text in enumerate(position, 1)]
+            assert panels["plant.position, m"] == [
+                f"{axis} {text} m" for axis, text in zip(("north", "west", "up"), position, strict=True)
+            ]
         first = card.element.find_element(By.CSS_SELECTOR, ".flight .chart")
         first.send_keys(Keys.HOME, Keys.ARROW_RIGHT)
         assert card.panels()["plant.mass, kg"] == [f"{number(float(np.float32(flight['plant.mass'][1])), 6)} kg"]

@@ -158,7 +158,7 @@ def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
     write_batch_report(whole, tmp_path / "whole.html", "Long")
     assert "plots and rank correlations use" not in (tmp_path / "whole.html").read_text(encoding="utf-8")
     tables = [
-        re.findall(r"<table>.*?</table>", (tmp_path / name).read_text(), re.DOTALL)
+        re.findall(r"<table.*?</table>", (tmp_path / name).read_text(), re.DOTALL)
         for name in ("page.html", "whole.html")
     ]
     assert tables[0][0] == tables[1][0]  # rates are of all trials
