@@ -32,6 +32,7 @@ POINT = """
 const { right, top } = arguments[0].getBoundingClientRect();
 arguments[0].dispatchEvent(new PointerEvent("pointermove", { clientX: right, clientY: top + 60 }));
 """
+OPEN = "for (let e = arguments[0].closest('details'); e; e = e.parentElement.closest('details')) e.open = true"
 HIDE = "document.querySelector('.explore')?.remove()"  # which lies over what is behind it
 
 
@@ -66,6 +67,7 @@ def _scene(driver: Chrome) -> bytes:
 def _curves(driver: Chrome) -> bytes:
     """The last minute of the altitude and its neighbours, at the cursor."""
     frame = driver.find_element(By.XPATH, "//*[@aria-label='plant.altitude over time']/..")
+    driver.execute_script(OPEN, frame)
     area = scroll_to_plot(driver, frame)
     width = area.size["width"]
     ActionChains(driver).move_to_element_with_offset(area, round(0.46 * width), 0).click_and_hold().move_by_offset(
@@ -79,6 +81,7 @@ def _curves(driver: Chrome) -> bytes:
 def _diagram(driver: Chrome) -> bytes:
     driver.execute_script(HIDE)
     diagram = driver.find_element(By.CSS_SELECTOR, "svg.diagram")
+    driver.execute_script(OPEN, diagram)
     _scroll_to(driver, diagram)
     driver.execute_script(AT, TURNING)
     driver.execute_script(POINT, driver.find_element(By.CSS_SELECTOR, "g.block[data-block=plant]"))
