@@ -29,8 +29,8 @@ def percent(part, whole):
 
 
 def test_turn_in_free_fall(study):
-    more = [float(percent(each.free_fall, each.programme)) for each in study.comparisons]
-    assert f"{min(more)} to {max(more)} % more at distances of {DISTANCES[0]} to {DISTANCES[-1]} m" in PAGE
+    more = [100.0 * (each.free_fall / each.programme - 1.0) for each in study.comparisons]
+    assert f"{min(more):.3g} to {max(more):.3g} % more at distances of {DISTANCES[0]} to {DISTANCES[-1]} m" in PAGE
     assert f"--distances {','.join(map(str, DISTANCES))}`" in PAGE
     begun = find_free_fall(study.programme, 0.6)
     fractions = [each.propellant_fraction for each in (study.free_fall, begun)]

@@ -67,11 +67,11 @@ def clip_spikes(axes, values):
     axes.text(0.98 if early else 0.02, 0.98, text, transform=axes.transAxes, **style)
 
 
-LAID_OUT = ("box", "fluid", "few")
+APART = ("box", "fluid", "few", "signal")  # laid out by either in its own way, or no picture has it
 
 
 def plain(node):
-    """Numbers and texts alone, rounded as pages have them; a box is laid out by either in its own way."""
+    """Numbers and texts alone, rounded as pages have them."""
     if isinstance(node, Coarse):
         return plain(node.numbers)
     if isinstance(node, np.ndarray):
@@ -81,7 +81,7 @@ def plain(node):
     if isinstance(node, list | tuple):
         return [plain(each) for each in node]
     if hasattr(node, "__dataclass_fields__"):
-        return {each.name: plain(getattr(node, each.name)) for each in fields(node) if each.name not in LAID_OUT}
+        return {each.name: plain(getattr(node, each.name)) for each in fields(node) if each.name not in APART}
     return node
 
 
