@@ -1,4 +1,4 @@
-"""What the columns of tables of trials mean, and their units; in Arrow's schemas in the metadata of each field."""
+"""Meanings and units of the columns of tables of trials; in Arrow's schemas in the metadata of each field."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def describe_column(name: str, provenance: Mapping[str, Any]) -> Column:
 
 
 def describe_metric(fact: Mapping[str, Any]) -> str:
-    """What a metric is, as declared; of an element along a named axis without a description that: up of a velocity."""
+    """Return a metric's description; where an element along a named axis has none, the axis: final of velocity up."""
     if fact["description"] or "axis" not in fact:
         return str(fact["description"])
     return f"{fact['reduction']} of {fact['expression'].rpartition('[')[0]} {fact['axis']}"

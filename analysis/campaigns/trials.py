@@ -145,14 +145,14 @@ class TrialTable:
     def part(self, numbers: range) -> TrialTable:
         """Those with some consecutive numbers."""
         first, end = np.searchsorted(self.trial, [numbers.start, numbers.stop]).tolist()
-        traces = {trial: trace for trial, trace in self._traces.items() if trial in numbers}
-        return self._like(self._table.slice(first, end - first), traces)
+        traces = {trial: trace for trial, trace in self.traces.items() if trial in numbers}
+        return self._like(self.table.slice(first, end - first), traces)
 
     def renumber(self, first: int) -> TrialTable:
         """The same with other numbers, as many higher."""
         numbers = numbers_of(self.trial + first)
-        table = self._table.set_column(self.names.index("trial"), "trial", numbers)
-        return self._like(table, {trial + first: trace for trial, trace in self._traces.items()})
+        table = self.table.set_column(self.names.index("trial"), "trial", numbers)
+        return self._like(table, {trial + first: trace for trial, trace in self.traces.items()})
 
     @property
     def trial(self) -> np.ndarray:
@@ -218,4 +218,4 @@ def join_trials(parts: Iterable[TrialTable]) -> TrialTable:
     if len(ordered) == 1:
         return ordered[0]
     tables = [part.table for part in ordered]
-    return TrialTable(pyarrow.concat_tables(tables, promote_options="permissive").combine_chunks(), traces)
+    return ordered[0]._like(pyarrow.concat_tables(tables, promote_options="permissive").combine_chunks(), traces)

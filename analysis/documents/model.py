@@ -1,4 +1,4 @@
-"""The nodes of a document: what a result says, without markup and without a medium.
+"""The nodes of a document: what a result says, without a medium.
 
 A renderer decides how a node is shown; which nodes a medium has follows from their type alone:
 

@@ -1,8 +1,8 @@
-"""What flights of one variant come to: metrics, success, records, looked at together where that is possible.
+"""Evaluation of the trials of one variant: metrics, success, records, of several simulations at once where possible.
 
-A metric of the end needs a flight's last row only: these rows are collected, and each expression is worked out once for
-a task's flights. A metric over time is worked out as soon as its flights are there, since the next ones take their
-place.
+A metric of the end needs the last row of a simulation only: these rows are collected, and each expression is evaluated
+once for the simulations of a task. A metric over time is evaluated as soon as its simulations are there, since the next
+ones overwrite them.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from ..definition.reductions import largest
 from ..trials import TrialTable
 
 Columns = Mapping[str, np.ndarray]  # of flights, an entry for each: named as in tables of trials
-COMPLETE = "complete"  # true of a flight that came to its end
+COMPLETE = "complete"  # true of a simulation that did not fail
 
 
 class MetricEvaluator:
-    """The metrics, success and records of a variant's flights, which are added one group behind the other."""
+    """Metrics, success and records of a variant's simulations, which are added group by group."""
 
     def __init__(self, campaign: Campaign, names: VariantNames) -> None:
         self._campaign = campaign
@@ -46,7 +46,7 @@ class MetricEvaluator:
         self._traces: dict[int, dict[str, np.ndarray]] = {}
 
     def add(self, group: FlightGroup, trials: range, sampled: TrialSamples) -> None:
-        """Look at flights of these trials; nothing of them is needed afterwards."""
+        """Evaluate simulations of these trials; nothing of them is needed afterwards."""
         signals, draws = group.signals, sampled.columns_of(trials)
         lengths = group.ends - group.starts
         rows = {name: np.repeat(draws[name], lengths) for name in self._draws_over_time}
@@ -88,7 +88,7 @@ class MetricEvaluator:
             }
 
     def trials(self) -> TrialTable:
-        """What the flights since the last call have come to; there is one or more."""
+        """Return the table of the simulations added since the last call, one or more."""
         columns = {name: np.concatenate([group[name] for group in self._groups]) for name in self._groups[0]}
         metrics = self._metrics(columns)
         trials = TrialTable.of(
@@ -107,7 +107,7 @@ class MetricEvaluator:
         return trials
 
     def _metrics(self, columns: Columns) -> dict[str, np.ndarray]:
-        """All metrics of flights, in the campaign's order; nan where a flight did not come to its end."""
+        """Return all metrics in the campaign's order (simulations,); nan for a simulation that failed."""
         values = {
             **self._names.constants,
             **{name: columns[f"draw.{name}"] for name in self._draws_at_end},
@@ -123,7 +123,7 @@ class MetricEvaluator:
         return metrics
 
     def _success(self, columns: Columns, metrics: Mapping[str, np.ndarray]) -> np.ndarray:
-        """Which of these flights are successes."""
+        """Return which simulations are successes (simulations,)."""
         complete = columns[COMPLETE]
         return successes(self._campaign.success, metrics, complete.size) & complete
 
@@ -132,7 +132,7 @@ WORST = re.compile(r"([^\s(),]+) (-?\d+)[,)]")
 
 
 def trial_statuses(group: FlightGroup, statuses: Iterable[str]) -> list[str]:
-    """How each flight ended, with the worst status of every component that reported other than 0.
+    """Return how each simulation ended, with the worst status of every component that reported other than 0.
 
     For instance ``finished`` or ``finished (guidance.status 2)``.
     """
@@ -148,5 +148,5 @@ def trial_statuses(group: FlightGroup, statuses: Iterable[str]) -> list[str]:
 
 
 def worst_statuses(text: str) -> dict[str, int]:
-    """What `trial_statuses` says in its brackets: the worst status other than 0 by the signal that reported it."""
+    """Read the brackets of `trial_statuses`: the worst status other than 0 by the signal that reported it."""
     return {name: int(value) for name, value in WORST.findall(text)}

@@ -1,4 +1,4 @@
-"""What a study of a rare failure comes to: numbers, JSON, tables, trials to replay."""
+"""Result of a study of a rare failure: numbers, JSON, tables, trials to replay."""
 
 from __future__ import annotations
 

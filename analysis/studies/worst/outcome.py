@@ -1,4 +1,4 @@
-"""What a search for the worst case comes to: numbers, JSON, tables, trials to replay."""
+"""Result of a search for the worst case: numbers, JSON, tables, trials to replay."""
 
 from __future__ import annotations
 

@@ -13,6 +13,7 @@ import pytest
 
 import perilune
 from perilune.analysis.campaigns.execute.campaign import read_folder
+from perilune.analysis.campaigns.execute.store import ShardTable
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.show.campaign import open_campaign
 from perilune.common.errors import InputError
@@ -70,6 +71,18 @@ def test_every_reader_has_the_trials_that_were_written(original, read):
     assert list(actual) == ["alpha", "beta", "gamma"]
     for name, trials in sample_batch(trials=TRIALS).trials.items():
         assert np.asarray(actual[name]).tobytes() == trials.metrics["miss"].tobytes()
+
+
+def test_some_trials_of_a_folder_are_a_table(original):
+    source = read_folder(original)
+    stored = ShardTable(source, "beta", source.shards)
+    written = sample_batch(trials=TRIALS).trials["beta"]
+    some = stored.part(range(20, 55))  # of all three shards
+    assert some.trial.tolist() == list(range(20, 55))
+    assert some.metrics["miss"].tobytes() == written.metrics["miss"][20:55].tobytes()
+    renumbered = stored.renumber(100)
+    assert renumbered.trial.tolist() == list(range(100, 100 + TRIALS))
+    assert renumbered.statuses == written.statuses
 
 
 def rewrite(folder, change):
