@@ -64,14 +64,14 @@ class Law(Documented, NoProblems, laws.Law):
 
 @dataclass
 class SynthesisResult(Documented, outcome.SynthesisResult):
-    """A search as far as it came; ``ended`` says why: success, generations or evaluations."""
+    """Result of a search for a law; ``ended`` is the reason: success, generations or evaluations."""
 
     def document(self) -> Document:
         """Return how the search ended, the chosen law and the Pareto set."""
         return synthesis_document(self)
 
     def problems(self) -> list[str]:
-        """A line for a search that found no law, with what to do."""
+        """Return a line for a search without a successful law, with the remedy."""
         if self.succeeded:
             return []
         evaluation = self.search.choose().evaluation
