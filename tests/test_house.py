@@ -10,7 +10,7 @@ from pathlib import PurePosixPath
 
 import pytest
 
-from tests.house import likeness, names, structure
+from tests.house import likeness, names, prose, structure
 from tests.house.sources import Checkout, Source
 
 LIMITS = {"words": {"told": 2}, "names": {"place": 3}, "plain": {"data": 10}}
@@ -27,8 +27,13 @@ class Files(Checkout):
 
 
 def test_words_to_be_given_up_become_fewer():
-    limits = names.read_limits()
-    problems = names.check_limits(names.count_words(iter_once(Checkout().read()), limits), limits)
+    limits, limits_of_prose = names.read_limits(), prose.read_limits()
+    in_names: Counter[str] = Counter()
+    in_prose: Counter[tuple[str, str]] = Counter()
+    for source in iter_once(Checkout().read()):
+        in_names += names.count_words([source], limits)
+        in_prose += prose.count([source], limits_of_prose)
+    problems = names.check_limits(in_names, limits) + prose.check_limits(in_prose, limits_of_prose)
     assert not problems, "\n".join(problems)
 
 
@@ -64,6 +69,30 @@ def test_numbers_may_only_fall_and_plain_names_grow_by_a_tenth(words, data, mess
 def test_the_ratchet_lowers_and_never_raises():
     text = "# x = 1\n[words]\ntold = 2\n[names]\nplace = 3\n[plain]\ndata = 10\n"
     assert names.lower_limits(text, Counter(told=1, place=5, data=7)) == text.replace("told = 2", "told = 1")
+
+
+def test_docstrings_and_comments_are_counted_and_strings_are_not():
+    text = (
+        '"""What is made."""\nclass A:\n    """Result."""\n\n    def f(self):  # so many\n'
+        '        """what a part comes\n        to: parts."""\n        return "part  made"\n'
+    )
+    source = Source(PurePosixPath("analysis/a.py"), text)
+    limits = {
+        "openings": {"what": 1},
+        "phrases": {"made": 1, "part": 1, "so many": 1, "comes to": 1},
+        "names": {"f": 1},
+    }
+    counts = prose.count([source], limits)
+    assert {k: n for k, n in counts.items() if k[1] in limits[k[0]]} == {
+        ("names", "f"): 1,
+        ("openings", "what"): 2,
+        ("phrases", "made"): 1,
+        ("phrases", "so many"): 1,
+        ("phrases", "part"): 1,
+        ("phrases", "comes to"): 1,
+    }
+    assert prose.lower_limits(counts, '[openings]\n"what" = 3\n') == '[openings]\n"what" = 2\n'
+    assert [problem.split(":")[0] for problem in prose.check_limits(counts, limits)] == ["what"]
 
 
 def test_circles_hide_neither_below_type_checking_nor_in_functions():

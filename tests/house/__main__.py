@@ -6,7 +6,7 @@ import argparse
 import json
 from pathlib import Path
 
-from . import likeness, names, size, structure
+from . import likeness, names, prose, size, structure
 from .sources import ROOT, Checkout
 
 # Measure, its function, and what is wanted of it.
@@ -15,6 +15,8 @@ MEASURES = (
     ("pairs of places with six like lines", likeness.like_lines, "the top 45 gone, none an option list"),
     ("found as a name", structure.actual, "0"),
     ("functions named by a past participle", structure.participles, "< 20"),
+    ("openings of docstrings to give up", prose.openings, "< 80"),
+    ("phrases to give up in docstrings and comments", prose.phrases, "< 200"),
     ("dict[str, Any] / Any", structure.untyped, "< 50 / < 300"),
     ("--flag outside of the command line", structure.flags, "0"),
     ("module functions used once with six lines or fewer", structure.used_once, "a verdict each"),
@@ -34,7 +36,9 @@ def main() -> None:
     parser.add_argument(
         "--list", metavar="TEXT", help="print where: of measures whose title has TEXT, or of a limited name"
     )
-    parser.add_argument("--ratchet", action="store_true", help="lower the numbers of limits.toml to what is counted")
+    parser.add_argument(
+        "--ratchet", action="store_true", help="lower the numbers of limits.toml and prose.toml to what is counted"
+    )
     parser.add_argument("--root", type=Path, default=ROOT, help="another checkout to count (default: this one)")
     arguments = parser.parse_args()
     checkout = Checkout(arguments.root)
@@ -42,6 +46,9 @@ def main() -> None:
     if arguments.ratchet:
         text = names.LIMITS.read_text(encoding="utf-8")
         names.LIMITS.write_text(names.lower_limits(text, names.count_words(checkout.sources, limits)), encoding="utf-8")
+        counts = prose.count(checkout.sources, prose.read_limits())
+        text = prose.LIMITS.read_text(encoding="utf-8")
+        prose.LIMITS.write_text(prose.lower_limits(counts, text), encoding="utf-8")
     elif arguments.list:
         for title, measure, _ in MEASURES:
             if arguments.list in title:
