@@ -72,7 +72,7 @@ def _verdicts(system: Path, name: str, options: SystemOptions, timeout: float | 
     plan = read_plan(system, name, options, watch=Watch(timeout))
     with chdir(Path.cwd()):  # an FMU may change the folder
         campaign = open_campaign(plan, None)
-        made = BatchResult.finish(campaign, fly_campaign(campaign, campaign.missing())).document()
+        made = BatchResult.finish(campaign, fly_campaign(campaign, campaign.missing())).content()
     return {"campaign": name, **{key: made[key] for key in ("trials", "seed", "success", "metrics", "variants")}}
 
 

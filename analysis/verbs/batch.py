@@ -51,7 +51,7 @@ class BatchResult(results.BatchResult):
 
     def to_json(self) -> dict[str, object]:
         """Provenance and the summary of each variant."""
-        return self.document()
+        return self.content()
 
     def lines(self) -> list[str]:
         """What `perilune batch` prints."""

@@ -63,7 +63,7 @@ class Comparison(NoProblems, comparison.Comparison):
 
     def to_json(self) -> dict[str, object]:
         """Provenance of every batch, numbers of every variant and of every pair, for other programs."""
-        return self.document()
+        return self.content()
 
     def plot(self, *metrics: str) -> Plot:
         """How metrics are distributed over successful trials, contender over contender; of none named all that vary.

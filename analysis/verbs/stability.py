@@ -51,12 +51,8 @@ class StabilityReport(report.StabilityReport):
             raise KeyError(f"{name} is not studied at {point}; {suggestion(point, named)}")
         return next(iter(named.values())) if point is None else named[point]
 
-    def document(self) -> dict[str, Any]:
-        """What `perilune stability --json` writes: dB, deg and s."""
-        return document(self)
-
     def to_json(self) -> dict[str, object]:
-        """As `document`."""
+        """What `perilune stability --json` writes: dB, deg and s."""
         return document(self)
 
     def lines(self) -> list[str]:

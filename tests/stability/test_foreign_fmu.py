@@ -108,7 +108,7 @@ def test_an_unstable_loop_reads_unstable_with_its_growth(path, capsys, gain):
     expected = f"unstable, grows {math.sqrt(gain * STEP):.5g}-fold a sample"
     assert (report.loops, lost.name, lost.what, lost.reason) == ((), "law.y", "loop", expected)
     assert (lost.verdict, report.verdict) == ("fail", "fail")
-    assert report.document()["unstudied"][0]["verdict"] == "fail"
+    assert report.to_json()["unstudied"][0]["verdict"] == "fail"
     assert main(["stability", str(path), "--loop", "law.y", "--at", "1", "--set", f"law.gain={gain}", *DIRECT]) == 1
     captured = capsys.readouterr()
     assert captured.err.splitlines() == [f"perilune: loop law.y at t = 1 s: {expected}"]

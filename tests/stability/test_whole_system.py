@@ -34,7 +34,7 @@ def test_nothing_holds_a_pendulum(every, exact_fmus, tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         report = perilune.stability(path, set=NOTHING)
-        json.dumps(report.document(), allow_nan=False)
+        json.dumps(report.to_json(), allow_nan=False)
     (loop,) = report.loops
     assert not np.any(loop.curve.value)
     assert (loop.stable, loop.verdict, report.verdict) == (False, "fail", "fail")

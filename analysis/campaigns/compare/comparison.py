@@ -185,7 +185,7 @@ class Comparison:
         """Whether any of the batches flew with faults."""
         return any(batch.faults for batch in self.batches.values())
 
-    def document(self) -> dict[str, object]:
+    def content(self) -> dict[str, object]:
         """The comparison as JSON: provenance of every batch, per contender its numbers, per pair theirs."""
         group: dict[str, object] = {} if self.group is None else {"group": self.group}
         return group | {

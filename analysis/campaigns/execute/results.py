@@ -94,7 +94,7 @@ class BatchResult:
         schema = with_metadata(table.schema, self._describe).with_metadata({"perilune": json.dumps(self.provenance)})
         return pyarrow.Table.from_arrays(table.columns, schema=schema)
 
-    def document(self) -> dict[str, object]:
+    def content(self) -> dict[str, object]:
         """The machine-readable result: provenance and the summary of each variant."""
         return {**self.provenance, "variants": to_json(self.summary)}
 
@@ -125,5 +125,5 @@ class BatchResult:
 
     def write_summary(self, folder: Path) -> None:
         """Write summary.json, which completes the folder: the shards are stored there already."""
-        text = json.dumps(self.document(), indent=1, allow_nan=False)
+        text = json.dumps(self.content(), indent=1, allow_nan=False)
         write_atomically(folder / SUMMARY, f"{text}\n".encode())

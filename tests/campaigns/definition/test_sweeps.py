@@ -131,7 +131,7 @@ def test_a_sweep_flies_what_a_grid_of_the_campaigns_file_flies(folder, tmp_path)
     declared = perilune.batch(SYSTEM, tmp_path / "own.toml", trials=20, compare=ONE)
     swept = perilune.merge(folder)
     assert swept.table().equals(declared.table())
-    assert json.dumps(swept.document()["variants"]) == json.dumps(declared.document()["variants"])
+    assert json.dumps(swept.to_json()["variants"]) == json.dumps(declared.to_json()["variants"])
     assert list(swept.summary["analytic_guidance"].groups) == ["900", "925", "950", "975", "1000"]
     assert perilune.batch(SYSTEM, "paper", trials=20, compare=ONE, set={MASS: "900:1000:25"}).summary == swept.summary
 

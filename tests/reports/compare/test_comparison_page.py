@@ -297,7 +297,7 @@ def test_groups(tmp_path):
     np.testing.assert_allclose(table_rows(tree, 5), rates, rtol=1e-9)
     np.testing.assert_allclose(table_rows(tree, 10), metrics, rtol=1e-12)
     actual = compare([tmp_path / "out"])
-    assert actual.document()["group"] == "case"
+    assert actual.content()["group"] == "case"
     assert actual.summary["beta"].groups["2"].rates["success"].trials == 20
     assert [line.split()[:3] for line in actual.text().splitlines()[1:4]] == [
         ["alpha", "all", "40"], ["alpha", "1", "20"], ["alpha", "2", "20"],
@@ -454,7 +454,7 @@ def test_traces_of_failures_only_are_called_biased(tmp_path):
 
 
 def test_document_is_json_and_has_the_pages_numbers(folder, page):
-    document = compare([folder]).document()
+    document = compare([folder]).content()
     json.dumps(document, allow_nan=False)
     values = set(data_values(page))
     for entry in document["variants"].values():
