@@ -10,7 +10,9 @@ A renderer decides how a node is shown; which nodes a medium has follows from th
 | `Figures` | no | the first ones | yes |
 | `Diagram` | no | where there are no figures | yes |
 | `Fold` | its summary; its nodes if ``is_listed`` | no | opens |
-| `Note`, `OnPage`, `SystemFigures`, `History` | no | no | yes |
+| `Only` | in its medium | in its medium | in its medium |
+| `Printed` | yes | no | no |
+| all others | no | no | yes |
 | heading of a `Section` | where it has lines | no | yes |
 """
 
@@ -18,70 +20,42 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from enum import Enum
+from typing import Any, ClassVar, Literal
 
 from markupsafe import Markup
 
 from ..reports.common.colours import Look
+from ..reports.diagram.diagram import Diagram as BlockDiagram
 from ..reports.figures.section import Section as SystemFigure
-from ..reports.interactive.charts import Chart, Curve, Marker
+from ..reports.interactive.charts import Chart
 from ..reports.time_histories import ComponentHistory
+from .cells import Cell, Head, LegendEntry, Rich, Row, RowHeading, RowNote
 
 
-class Quantity(NamedTuple):
-    """A number in SI, displayed with ``digits`` significant digits in the unit that people read.
+class Medium(Enum):
+    """A reader's medium: what a renderer writes."""
 
-    ``is_bare``: without the unit, which its row or column states. ``decimals``: with this many instead of ``digits``,
-    for fractions, of which a column has the same decimals.
-    """
-
-    value: float | None
-    unit: str | None = None
-    digits: int = 4
-    is_bare: bool = False
-    decimals: int | None = None
-
-
-class Interval(NamedTuple):
-    """The two ends of an interval in one cell."""
-
-    low: Quantity
-    high: Quantity
-
-
-class Code(NamedTuple):
-    """Text of a program: an expression, a file, a digest; a column of ``is_long`` ones is not narrowed."""
-
-    text: str
-    is_long: bool = False
-
-
-Inline = str | Quantity | Code
-Rich = str | Sequence[Inline]  # a sentence; its numbers keep their exact values in a page
-
-
-class Phrase(NamedTuple):
-    """Several numbers and words in a cell."""
-
-    content: Sequence[Inline]
-
-
-class LegendEntry(NamedTuple):
-    """A look of lines or of marks, and what has it: the names of ``lines``, or words in them."""
-
-    look: Look | Marker | Curve
-    lines: Sequence[str]
-
-
-Cell = Inline | Interval | float | bool | Phrase | LegendEntry | None
+    TERMINAL = "terminal"
+    NOTEBOOK = "notebook"
+    PAGE = "page"
 
 
 @dataclass(frozen=True)
 class Text:
-    """A statement of a result, without a full stop."""
+    """A statement of a result, without a full stop; ``style`` is that of a page."""
 
     kind: ClassVar[str] = "text"
     content: Rich
+    style: Literal["", "lead", "fail"] = ""
+
+
+@dataclass(frozen=True)
+class Printed:
+    """Lines of a terminal, for what a page and a notebook show in another way."""
+
+    kind: ClassVar[str] = "printed"
+    lines: Sequence[str]
 
 
 @dataclass(frozen=True)
@@ -89,6 +63,14 @@ class Note:
     """An aid to read a figure or a table, which only a page needs."""
 
     kind: ClassVar[str] = "note"
+    content: Rich
+
+
+@dataclass(frozen=True)
+class Missing:
+    """A statement of what a result does not have and why, in the place where readers look for it."""
+
+    kind: ClassVar[str] = "missing"
     content: Rich
 
 
@@ -111,6 +93,15 @@ class KeyNumbers:
 
 
 @dataclass(frozen=True)
+class Items:
+    """Short statements as a list; ``style`` is that of a page: names with values in columns, or in one line."""
+
+    kind: ClassVar[str] = "items"
+    items: Sequence[Rich]
+    style: Literal["", "note", "pairs", "inline", "differences"] = ""
+
+
+@dataclass(frozen=True)
 class Commands:
     """Command lines with their purposes; ``missing`` says why there is none."""
 
@@ -120,21 +111,36 @@ class Commands:
 
 
 @dataclass(frozen=True)
+class Repeat:
+    """The command that repeats a result."""
+
+    kind: ClassVar[str] = "repeat"
+    command: str
+
+
+@dataclass(frozen=True)
 class Table:
-    """Rows of cells below ``heads``; a terminal and a notebook list the first ``listed`` rows."""
+    """Rows of cells below ``heads``; a terminal and a notebook list the first ``listed`` rows.
+
+    ``is_grouped``: a cell of the first column is left out where it equals the one above. ``style`` is that of a page:
+    ``tight`` for many columns, ``replays`` for rows that stack on a narrow page; ``is_printed``: on paper, too.
+    """
 
     kind: ClassVar[str] = "table"
-    heads: Sequence[str]
-    rows: Sequence[Sequence[Cell]]
+    heads: Sequence[str | Head]
+    rows: Sequence[Sequence[Cell] | Row | RowHeading | RowNote]
     listed: int = 20
+    style: Literal["board", "", "tight", "tight verdicts", "replays", "signals"] = "board"
+    is_grouped: bool = False
 
 
 @dataclass(frozen=True)
 class Figure:
     """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` describe it to those who do not see.
 
-    ``is_wide``: as wide as the page; ``is_narrow``: three in a row of a wide page, not two.
-    ``legend`` is that of this figure alone.
+    ``is_wide``: as wide as the page; ``is_narrow``: three in a row of a wide page, not two. ``below`` is a second chart
+    over the same abscissa. ``look``: that of what the label names. ``legend`` is that of this figure alone.
+    ``is_printed``: on paper, too.
     """
 
     label: str
@@ -145,6 +151,10 @@ class Figure:
     is_wide: bool = False
     is_narrow: bool = False
     legend: Sequence[LegendEntry] = ()
+    below: Chart | None = None
+    look: Look | None = None
+    is_printed: bool = True
+    is_reduced: bool = False  # a page has only envelopes of its curves
 
 
 @dataclass(frozen=True)
@@ -170,6 +180,47 @@ class Diagram:
 
 
 @dataclass(frozen=True)
+class Blocks:
+    """The block diagram of a system."""
+
+    kind: ClassVar[str] = "blocks"
+    diagram: BlockDiagram
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A view in space that a page's script turns and plays, and its first and last picture where there is no script."""
+
+    kind: ClassVar[str] = "scene"
+    view: Any
+    pictures: Sequence[tuple[float, Markup]] = ()
+    notes: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class ForScript:
+    """A document by ``name`` that the page's script ``bundle`` reads, and the nodes that only make sense with it."""
+
+    kind: ClassVar[str] = "for_script"
+    name: str
+    bundle: str
+    content: Any
+    nodes: Sequence[Node] = ()
+    style: str = ""
+    anchor: str = ""
+
+
+@dataclass(frozen=True)
+class Group:
+    """Nodes below a small ``heading`` inside a section; at ``level`` 4 inside a group."""
+
+    kind: ClassVar[str] = "group"
+    heading: str
+    nodes: Sequence[Node]
+    level: Literal[3, 4] = 3
+
+
+@dataclass(frozen=True)
 class Fold:
     """Nodes that few readers need, behind their ``summary``.
 
@@ -184,10 +235,11 @@ class Fold:
 
 
 @dataclass(frozen=True)
-class OnPage:
-    """Nodes that only a page has; ``compose`` them while it is written, since they may take a simulation."""
+class Only:
+    """Nodes that one medium has; ``compose`` them while it is written, since they may take a simulation."""
 
-    kind: ClassVar[str] = "on_page"
+    kind: ClassVar[str] = "only"
+    medium: Medium
     compose: Callable[[], Sequence[Node]]
 
 
@@ -209,32 +261,66 @@ class History:
 
 
 Node = (
-    Text | Note | Verdict | KeyNumbers | Commands | Table | Figures | Diagram | Fold | OnPage | SystemFigures | History
+    Text
+    | Printed
+    | Note
+    | Missing
+    | Verdict
+    | KeyNumbers
+    | Items
+    | Commands
+    | Repeat
+    | Table
+    | Figures
+    | Diagram
+    | Blocks
+    | Scene
+    | ForScript
+    | Group
+    | Fold
+    | Only
+    | SystemFigures
+    | History
 )
 
 
 @dataclass(frozen=True)
 class Section:
-    """Nodes below a ``heading``, which may be empty; ``given`` is what all its numbers are conditional on."""
+    """Nodes below a ``heading``, which may be empty; ``given`` is what all its numbers are conditional on.
+
+    A page folds it if ``is_folded``; ``style`` is that of a page: only on screens, or unbroken on paper, on a sheet of
+    its own.
+    """
 
     heading: str
     nodes: Sequence[Node]
     given: str = ""
+    is_folded: bool = False
+    style: Literal["", "screen", "whole", "sheet whole"] = ""
 
 
 @dataclass(frozen=True)
 class Document:
     """A result for its readers: ``summary`` first, then sections.
 
-    ``json`` is what programs read; its keys are part of the interface.
+    ``json`` is what programs read; its keys are part of the interface. ``has_contents``: a page lists its sections.
     """
 
     title: str
     summary: Sequence[Node]
     sections: Sequence[Section]
     json: object
+    has_contents: bool = False
 
 
-def nodes_of(document: Document) -> list[Node]:
-    """Return the nodes of the summary and of all sections, in order."""
-    return [*document.summary, *(node for section in document.sections for node in section.nodes)]
+def nodes_of(document: Document, medium: Medium) -> list[Node]:
+    """Return the nodes of the summary and of all sections that a medium has, in order."""
+    nodes = [*document.summary, *(node for section in document.sections for node in section.nodes)]
+    return [each for node in nodes for each in select(node, medium)]
+
+
+def select(node: Node, medium: Medium) -> Sequence[Node]:
+    """Return a node for a medium: itself, or what `Only` composes for it."""
+    if not isinstance(node, Only):
+        return [node]
+    return node.compose() if node.medium is medium else []

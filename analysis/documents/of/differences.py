@@ -9,7 +9,8 @@ import numpy as np
 
 from ...differences.differences import RunDifferences, SignalDifference
 from ...reports.common.quantities import number
-from ..model import Cell, Document, Figures, Fold, Node, Note, Quantity, Section, Table, Text
+from ..cells import Cell, Quantity
+from ..model import Document, Figures, Fold, Node, Note, Section, Table, Text
 from .differences_figures import difference_figures, difference_legend, plotted_signals
 
 NAMED = 6  # signals of one run alone

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from ...design.laws.expression_tree import OUTPUT_NUMBERS
 from ...design.laws.formula import formula
 from ...design.laws.law import Law
-from ..model import Code, Document, Node, Section, Table, Text
+from ..cells import Code
+from ..model import Document, Node, Section, Table, Text
 from .law_figures import law_diagram
 
 OUTPUTS = {f"z{number}": f"u{index} = " for index, number in enumerate(OUTPUT_NUMBERS, 1)}

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from ...design.synthesis.outcome import SynthesisResult
-from ..model import Cell, Document, KeyNumbers, Phrase, Quantity, Section, Table, Text, Verdict
+from ..cells import Cell, Phrase, Quantity
+from ..model import Document, KeyNumbers, Section, Table, Text, Verdict
 from .law import formula_nodes
 from .law_figures import law_diagram
 

@@ -8,21 +8,8 @@ from functools import partial
 
 from ...design.transfers.adjoint import AdjointSolution
 from ...design.transfers.hover_study import HoverStudy
-from ..model import (
-    Cell,
-    Document,
-    Figures,
-    Inline,
-    KeyNumbers,
-    LegendEntry,
-    Node,
-    Note,
-    Phrase,
-    Quantity,
-    Section,
-    Table,
-    Text,
-)
+from ..cells import Cell, Inline, LegendEntry, Phrase, Quantity
+from ..model import Document, Figures, KeyNumbers, Node, Note, Section, Table, Text
 from .plan_figures import NAMES, Series, curve_figures, path_figure, plan_series, time_figures
 from .programme_sketch import sketch_figure
 from .transfer_json import transfer_json

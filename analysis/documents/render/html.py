@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
+from typing import NamedTuple
 
-from markupsafe import Markup, escape
-
-from ...reports.chart.legend import swatch_of
-from ...reports.chart.panel import chart_panel, wide_figure
-from ...reports.common.colours import Look
-from ...reports.common.page import exact, write_page
-from ...reports.common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, mark_swatch, swatch
-from ...reports.common.quantities import display_unit
-from ...reports.interactive.charts import Curve, Marker
-from ..model import Cell, Code, Document, Figure, Interval, LegendEntry, Phrase, Quantity, Rich, Table
+from ...reports.chart.panel import chart_panel, stack_panel, wide_figure
+from ...reports.common.page import write_page
+from ...reports.common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, swatch
+from ...reports.interactive.bundles import MISSING
+from ..cells import Cell, Head, Row, RowHeading, RowNote
+from ..model import Document, Figure, Medium, Table, select
+from .cell_markup import cell_class, cell_markup, is_number, legend_swatch, rich_markup
 from .diagram import diagram_svg
 
 TEMPLATE = Path(__file__).with_name("document.html")
@@ -30,61 +28,91 @@ def write_document(document: Document, path: Path) -> None:
         document=document,
         cell=cell_markup,
         rich=rich_markup,
-        is_number=_is_number,
-        is_unbroken=_is_unbroken,
-        is_long=_is_long,
+        layout=lay_out,
         rows=_rows,
-        entry_swatch=_swatch,
+        swatch=swatch,
+        entry_swatch=legend_swatch,
         diagram=diagram_svg,
+        on_page=lambda node: select(node, Medium.PAGE),
+        scripts_missing=MISSING,
     )
 
 
-def cell_markup(cell: Cell) -> Markup:
-    """Return a cell with its exact SI value in the markup; a name may continue in a new line."""
-    match cell:
-        case str():
-            return Markup("__<wbr>").join(cell.split("__"))
-        case Code(text):
-            return Markup("<code>{}</code>").format(text)
-        case Phrase(content):
-            return rich_markup(content)
-        case LegendEntry(_, lines):
-            return _swatch(cell) + ", ".join(lines)
-        case Interval(low, high):
-            return Markup("{} to {}").format(cell_markup(low), cell_markup(high))
-        case Quantity(value, unit, digits, is_bare, decimals):
-            number = exact(value, unit, digits, decimals)
-            return number if is_bare or not display_unit(unit) else Markup("{} {}").format(number, display_unit(unit))
-    return exact(cell)
+class HeadCell(NamedTuple):
+    """A cell of a table's head, over ``columns`` columns and ``rows`` rows."""
+
+    text: str
+    note: str
+    is_number: bool
+    columns: int = 1
+    rows: int = 1
 
 
-def rich_markup(content: Rich, *, is_sentence: bool = False) -> Markup:
-    """Return a sentence as markup; ``is_sentence``: with a capital letter and a full stop."""
-    inline = [content] if isinstance(content, str) else list(content)
-    if is_sentence and isinstance(inline[0], str):
-        inline[0] = inline[0][:1].upper() + inline[0][1:]
-    return Markup("").join(map(cell_markup, inline)) + (escape(".") if is_sentence else Markup(""))
+class BodyRow(NamedTuple):
+    """A row of a table's body: cells with their classes, or one text over all columns."""
+
+    cells: Sequence[tuple[str, Cell]] = ()
+    anchor: str = ""
+    is_first: bool = False
+    heading: RowHeading | None = None
+    note: RowNote | None = None
 
 
-def _is_number(table: Table, column: int) -> bool:
-    """True if a column has numbers, which are aligned to the right."""
-    return not all(isinstance(row[column], str | Code | Phrase | LegendEntry) for row in table.rows)
+class TableLayout(NamedTuple):
+    """A table as a page has it: one or two rows of heads, the rows of its body, the number of columns."""
+
+    heads: Sequence[Sequence[HeadCell]]
+    rows: Sequence[BodyRow]
+    columns: int
 
 
-def _is_unbroken(cell: Cell) -> bool:
-    """True for a cell that stays in one line."""
-    return isinstance(cell, Phrase | LegendEntry)
+def lay_out(table: Table) -> TableLayout:
+    """Return a table with the classes and extents of its cells."""
+    heads = [head if isinstance(head, Head) else Head(head) for head in table.heads]
+    plain = [row for row in table.rows if not isinstance(row, RowHeading | RowNote)]
+    columns = sum(max(1, len(head.below)) for head in heads)
+    cells = [row.cells if isinstance(row, Row) else row for row in plain]
+    numeric = [all(is_number(row[column]) for row in cells) and bool(cells) for column in range(columns)]
+    starts = [sum(max(1, len(each.below)) for each in heads[:index]) for index in range(len(heads))]
+    has_two = any(head.below for head in heads)
+    upper = [
+        HeadCell(head.text, head.note, numeric[start], max(1, len(head.below)), 2 if has_two and not head.below else 1)
+        for head, start in zip(heads, starts, strict=True)
+    ]
+    lower = [
+        HeadCell(text, "", numeric[start + index])
+        for head, start in zip(heads, starts, strict=True)
+        for index, text in enumerate(head.below)
+    ]
+    return TableLayout([upper, lower] if has_two else [upper], _body(table, numeric), columns)
 
 
-def _is_long(table: Table, column: int) -> bool:
-    """True if a column has code that is not narrowed."""
-    cells = (row[column] for row in table.rows)
-    return any(isinstance(cell, Code) and cell.is_long for cell in cells)
+def _body(table: Table, numeric: Sequence[bool]) -> list[BodyRow]:
+    body: list[BodyRow] = []
+    above: Cell = None
+    for row in table.rows:
+        match row:
+            case RowHeading():
+                body.append(BodyRow(heading=row, is_first=True))
+                above = None
+                continue
+            case RowNote():
+                body.append(BodyRow(note=row))
+                continue
+        cells, anchor, is_first = row if isinstance(row, Row) else Row(row)
+        first = cells[0]
+        is_new = not table.is_grouped or first != above
+        above = first
+        classes = [cell_class(cell, is_numeric) for cell, is_numeric in zip(cells, numeric, strict=True)]
+        displayed = [first if is_new else "", *cells[1:]]
+        starts_group = is_first or (table.is_grouped and is_new)
+        body.append(BodyRow(list(zip(classes, displayed, strict=True)), anchor, starts_group))
+    return body
 
 
-def _rows(figures: Sequence[Figure]) -> list[tuple[str, list[Panel]]]:
+def _rows(figures: Sequence[Figure]) -> list[tuple[str, list[tuple[Figure, Panel]]]]:
     """Return runs of figures of one width in order: ``wide``, or a kind of grid."""
-    return [(kind, [_panel(figure) for figure in run]) for kind, run in groupby(figures, _kind)]
+    return [(kind, [(figure, _panel(figure)) for figure in run]) for kind, run in groupby(figures, _kind)]
 
 
 def _kind(figure: Figure) -> str:
@@ -92,20 +120,22 @@ def _kind(figure: Figure) -> str:
 
 
 def _panel(figure: Figure) -> Panel:
-    arguments = (figure.name, figure.words, figure.chart, figure.height)
-    legend = [(_swatch(entry), ", ".join(entry.lines)) for entry in figure.legend]
-    title = figure.chart.title
-    if figure.is_wide:
-        return Panel(figure.label, wide_figure(*arguments, title=title), legend)
+    legend = [(legend_swatch(entry), ", ".join(entry.lines)) for entry in figure.legend]
     width = PANEL_WIDTH if figure.is_narrow else HALF_WIDTH
-    return chart_panel(figure.label, *arguments, width, title=title)._replace(legend=legend)
-
-
-def _swatch(entry: LegendEntry) -> Markup:
-    match entry.look:
-        case Look():
-            return swatch(entry.look)
-        case Marker():
-            return mark_swatch(entry.look)
-        case Curve():
-            return swatch_of(entry.look)
+    named = (figure.name, figure.words)
+    if figure.is_wide:
+        wide = wide_figure(*named, figure.chart, figure.height, title=figure.chart.title)
+        return Panel(figure.label, wide, legend)
+    if figure.below is not None:
+        stack = stack_panel(figure.label, *named, (figure.chart, figure.below), figure.height, width)
+        return stack._replace(legend=legend)
+    panel = chart_panel(
+        figure.label,
+        *named,
+        figure.chart,
+        figure.height,
+        width,
+        title=figure.chart.title,
+        reduced=figure.is_reduced,
+    )
+    return panel._replace(legend=legend)

@@ -10,14 +10,14 @@ from markupsafe import Markup
 
 from ...reports.common.notebook import Grid, notebook_view
 from ...reports.common.panels import HALF_WIDTH
+from ..cells import Cell, LegendEntry
 from ..model import (
-    Cell,
     Diagram,
     Document,
     Figure,
     Figures,
     KeyNumbers,
-    LegendEntry,
+    Medium,
     Node,
     Table,
     Text,
@@ -25,7 +25,7 @@ from ..model import (
     nodes_of,
 )
 from .html import cell_markup
-from .words import cell_text, number_line, rich_text
+from .words import cell_text, heads_of, number_line, rich_text, rows_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Plot
@@ -35,9 +35,9 @@ PLOTTED = 4  # figures
 
 def document_view(document: Document) -> str:
     """Return the HTML of a document: its statements, the first rows of its tables, its first figures."""
-    nodes = nodes_of(document)
+    nodes = nodes_of(document, Medium.NOTEBOOK)
     grids = [
-        Grid(node.heads, [[_cell(cell) for cell in row] for row in node.rows])
+        Grid(heads_of(node), [[_cell(cell) for cell in row] for row in rows_of(node)])
         for node in nodes
         if isinstance(node, Table)
     ]
@@ -48,7 +48,7 @@ def document_view(document: Document) -> str:
 
 def figures_of(document: Document) -> list[Figure]:
     """Return the first figures of a document."""
-    groups = (node for node in nodes_of(document) if isinstance(node, Figures))
+    groups = (node for node in nodes_of(document, Medium.NOTEBOOK) if isinstance(node, Figures))
     return list(islice((figure for group in groups for figure in group.draw()), PLOTTED))
 
 

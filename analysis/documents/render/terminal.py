@@ -5,8 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...campaigns.plain_text import align_columns
-from ..model import Commands, Document, Fold, KeyNumbers, Node, Section, Table, Text, Verdict
-from .words import cell_text, number_line, rich_text
+from ..model import (
+    Commands,
+    Document,
+    Fold,
+    KeyNumbers,
+    Medium,
+    Node,
+    Only,
+    Printed,
+    Section,
+    Table,
+    Text,
+    Verdict,
+    select,
+)
+from .words import cell_text, heads_of, number_line, rich_text, rows_of
 
 
 def document_lines(document: Document) -> list[str]:
@@ -30,6 +44,10 @@ def _node_lines(node: Node) -> list[str]:
     match node:
         case Text(content):
             return [rich_text(content)]
+        case Printed(lines):
+            return list(lines)
+        case Only():
+            return _lines(select(node, Medium.TERMINAL))
         case Verdict(lead, nodes):
             return [rich_text(lead), *_lines(nodes)]
         case KeyNumbers():
@@ -41,8 +59,8 @@ def _node_lines(node: Node) -> list[str]:
         case Fold(summary):
             return [summary]
         case Table() if node.rows:
-            rows = [[cell_text(cell) for cell in row] for row in node.rows[: node.listed]]
-            more = len(node.rows) - len(rows)
-            lines = [line.rstrip() for line in align_columns([list(node.heads), *rows])]
+            rows = [[cell_text(cell) for cell in row] for row in rows_of(node)[: node.listed]]
+            more = len(rows_of(node)) - len(rows)
+            lines = [line.rstrip() for line in align_columns([heads_of(node), *rows])]
             return [*lines, *([f"and {more} more"] if more else [])]
     return []

@@ -2,21 +2,55 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from ....common.percent import short_percent
 from ...reports.common.quantities import display_unit, in_display_unit, number
-from ..model import Cell, Code, Document, Interval, KeyNumbers, LegendEntry, Phrase, Quantity, Rich, Verdict
+from ..cells import (
+    Bar,
+    Cell,
+    Code,
+    CommandLine,
+    Digest,
+    Faint,
+    Head,
+    Interval,
+    Judged,
+    LegendEntry,
+    Lines,
+    Link,
+    Percentage,
+    Phrase,
+    Quantity,
+    Rich,
+    Row,
+    RowHeading,
+    RowNote,
+    Strong,
+    Track,
+)
+from ..model import Document, KeyNumbers, Table, Verdict
 
 
 def cell_text(cell: Cell) -> str:
-    """Return a cell as text; a quantity in its displayed unit."""
+    """Return a cell as text; a quantity in its displayed unit. A drawing has none."""
     match cell:
-        case Code(text):
+        case Code(text) | CommandLine(text) | Digest(text) | Link(text) | Judged(text):
             return text
         case Phrase(content):
             return rich_text(content)
+        case Strong(inner) | Faint(inner):
+            return cell_text(inner)
+        case Lines(cells):
+            return ", ".join(map(cell_text, cells))
         case LegendEntry(_, lines):
             return ", ".join(lines)
         case Interval(low, high):
             return f"{cell_text(low)} to {cell_text(high)}"
+        case Percentage(fraction):
+            return short_percent(fraction)
+        case Track() | Bar():
+            return ""
         case Quantity(value, unit, digits, is_bare, decimals):
             text = number(in_display_unit(value, unit), digits, decimals)
             return text if is_bare or not display_unit(unit) else f"{text} {display_unit(unit)}"
@@ -26,6 +60,18 @@ def cell_text(cell: Cell) -> str:
 def rich_text(content: Rich) -> str:
     """Return a sentence as text."""
     return content if isinstance(content, str) else "".join(map(cell_text, content))
+
+
+def heads_of(table: Table) -> list[str]:
+    """Return the headings of all columns as text; of a heading over several columns with it before each."""
+    heads = [head if isinstance(head, Head) else Head(head) for head in table.heads]
+    return [" ".join(filter(None, (head.text, each))) for head in heads for each in head.below or [""]]
+
+
+def rows_of(table: Table) -> list[Sequence[Cell]]:
+    """Return the rows of cells of a table, without headings and notes between them."""
+    rows = (row for row in table.rows if not isinstance(row, RowHeading | RowNote))
+    return [row.cells if isinstance(row, Row) else row for row in rows]
 
 
 def number_line(numbers: KeyNumbers) -> str:

@@ -8,7 +8,8 @@ from pathlib import PurePosixPath
 from ....reports.campaign.tables import draw_rows, fmu_rows
 from ....studies.flown import StudyResult
 from ....studies.noise import Noise
-from ...model import Cell, Code, Commands, KeyNumbers, Node, Note, OnPage, Quantity, Rich, Section, Table, Text
+from ...cells import Cell, Code, Quantity, Rich
+from ...model import Commands, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text
 
 DEFAULT = "default"  # the name of a campaign's only variant
 UNWRITTEN: Rich = [
@@ -68,8 +69,8 @@ def closing_sections(
     """Return replays, dispersed parameters and provenance; ``missing`` says why there are no replays."""
     return [
         Section("Replay", [Commands(replays, missing)]),
-        Section("Dispersed parameters", [OnPage(lambda: _draws(study))]),
-        Section("Provenance", [OnPage(lambda: _provenance(study))]),
+        Section("Dispersed parameters", [Only(Medium.PAGE, lambda: _draws(study))]),
+        Section("Provenance", [Only(Medium.PAGE, lambda: _provenance(study))]),
     ]
 
 

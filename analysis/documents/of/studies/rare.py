@@ -8,22 +8,8 @@ from pathlib import Path
 from ....reports.common.quantities import label_with_unit
 from ....studies.rare.interpretation import equivalents, influence, level_spans
 from ....studies.rare.outcome import RareResult
-from ...model import (
-    Cell,
-    Code,
-    Document,
-    Figures,
-    KeyNumbers,
-    Node,
-    Note,
-    OnPage,
-    Quantity,
-    Rich,
-    Section,
-    Table,
-    Text,
-    Verdict,
-)
+from ...cells import Cell, Code, Quantity, Rich
+from ...model import Document, Figures, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text, Verdict
 from .conditions import UNWRITTEN, closing_sections, condition_nodes, condition_of
 from .rare_figures import DESIGN_LEGEND, PERCENT, design_figures, exceedance_figures, interval_figures, limit_figures
 
@@ -43,7 +29,7 @@ def rare_document(study: RareResult, folder: Path | None = None) -> Document:
         is_bad=study.probability is None,
     )
     sections = [
-        Section("Interval against Monte Carlo", [OnPage(partial(_against_monte_carlo, study))], condition),
+        Section("Interval against Monte Carlo", [Only(Medium.PAGE, partial(_against_monte_carlo, study))], condition),
         Section(
             "Limit state over simulations",
             [
@@ -172,7 +158,7 @@ def _design_nodes(study: RareResult) -> list[Node]:
             "the medians of all dispersed parameters, as independent normal ones. Points nearer than 1 to a more "
             f"probable one are left out.{noise}"
         ),
-        OnPage(partial(_influence, study)),
+        Only(Medium.PAGE, partial(_influence, study)),
     ]
 
 

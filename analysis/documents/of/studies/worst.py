@@ -18,7 +18,8 @@ from ....reports.figures.declared import Figure
 from ....reports.figures.reading import read_figures
 from ....runtime.flight.results import Result
 from ....studies.worst.outcome import WorstResult
-from ...model import Cell, Code, Document, Figures, Node, Note, OnPage, Quantity, Rich, Section, Table, Text, Verdict
+from ...cells import Cell, Code, Quantity, Rich
+from ...model import Document, Figures, Medium, Node, Note, Only, Section, Table, Text, Verdict
 from ..simulation import simulation_nodes
 from .conditions import closing_sections, condition_nodes, condition_of
 from .worst_figures import box_figures, random_figures, search_figures
@@ -43,7 +44,7 @@ def worst_document(study: WorstResult, folder: Path | None = None, simulate: Sim
             "Search",
             [
                 Figures(partial(search_figures, study)),
-                OnPage(lambda: [_phases(study)]),
+                Only(Medium.PAGE, lambda: [_phases(study)]),
                 Note(
                     "Grey: every point; blue: the worst so far; numbers: methods in their order. "
                     f"The best of the random trials begin the evolution.{_of_realisations(study)}"
@@ -65,7 +66,13 @@ def worst_document(study: WorstResult, folder: Path | None = None, simulate: Sim
         ),
         Section("Search box", _box_nodes(study), condition),
         *(
-            [Section("Simulation of the worst case", [OnPage(partial(_simulation, study, simulate))], condition)]
+            [
+                Section(
+                    "Simulation of the worst case",
+                    [Only(Medium.PAGE, partial(_simulation, study, simulate))],
+                    condition,
+                )
+            ]
             if simulate
             else []
         ),
@@ -188,7 +195,7 @@ def parameter_table(study: WorstResult) -> Table:
 
 def _box_nodes(study: WorstResult) -> list[Node]:
     return [
-        OnPage(lambda: [Figures(partial(box_figures, study))]),
+        Only(Medium.PAGE, lambda: [Figures(partial(box_figures, study))]),
         parameter_table(study),
         Note(
             "The box spans uniform parameters between their ends and normal ones within these standard deviations; "

@@ -1,0 +1,132 @@
+"""Cells and sentences of documents as markup, with the exact SI value of each number."""
+
+from __future__ import annotations
+
+from markupsafe import Markup, escape
+
+from ....common.percent import percent
+from ...reports.chart.legend import swatch_of
+from ...reports.common.colours import Look
+from ...reports.common.page import breakable, exact, with_exact
+from ...reports.common.panels import mark_swatch, swatch
+from ...reports.common.quantities import display_unit
+from ...reports.interactive.charts import Curve, Marker
+from ..cells import (
+    Bar,
+    Cell,
+    Code,
+    CommandLine,
+    Digest,
+    Faint,
+    Interval,
+    Judged,
+    LegendEntry,
+    Lines,
+    Link,
+    Percentage,
+    Phrase,
+    Quantity,
+    Rich,
+    Strong,
+    Track,
+)
+
+BAR = 220.0  # px, of all
+
+
+def cell_markup(cell: Cell) -> Markup:
+    """Return a cell with its exact SI value in the markup; a name may continue in a new line."""
+    match cell:
+        case str():
+            return breakable(cell)
+        case Code(text):
+            return Markup("<code>{}</code>").format(text)
+        case CommandLine(text):
+            return Markup('<code class="command">{}</code>').format(text)
+        case Digest(text):
+            return escape(text)
+        case Link(text, anchor):
+            return Markup('<a href="#{}">{}</a>').format(anchor, text)
+        case Judged(verdict):
+            return escape(verdict)
+        case Strong(inner):
+            return Markup("<b>{}</b>").format(cell_markup(inner))
+        case Faint(inner):
+            return Markup('<span class="muted">{}</span>').format(cell_markup(inner))
+        case Lines(cells):
+            return Markup("<br>").join(map(cell_markup, cells))
+        case Phrase(content):
+            return rich_markup(content)
+        case LegendEntry(_, lines):
+            return legend_swatch(cell) + Markup(", ").join(map(breakable, lines))
+        case Interval(low, high):
+            return Markup("{} to {}").format(cell_markup(low), cell_markup(high))
+        case Percentage(fraction):
+            return with_exact(repr(fraction), percent(fraction))
+        case Track():
+            return _track(cell)
+        case Bar(fraction):
+            return Markup('<span class="bar" style="width: {:.1f}px"></span>').format(BAR * fraction)
+        case Quantity(value, unit, digits, is_bare, decimals):
+            number = exact(value, unit, digits, decimals)
+            return number if is_bare or not display_unit(unit) else Markup("{} {}").format(number, display_unit(unit))
+    return exact(cell)
+
+
+def rich_markup(content: Rich, *, is_sentence: bool = False) -> Markup:
+    """Return a sentence as markup; ``is_sentence``: with a capital letter and a full stop."""
+    inline = [content] if isinstance(content, str) else list(content)
+    if is_sentence and isinstance(inline[0], str):
+        inline[0] = inline[0][:1].upper() + inline[0][1:]
+    return Markup("").join(map(cell_markup, inline)) + (escape(".") if is_sentence else Markup(""))
+
+
+def is_number(cell: Cell) -> bool:
+    """True if a cell is a number, whose column is aligned to the right."""
+    match cell:
+        case Strong(inner) | Faint(inner):
+            return is_number(inner)
+        case Link(text):
+            return text.isdecimal()
+    return not isinstance(cell, str | Code | CommandLine | Digest | Judged | Lines | Phrase | LegendEntry | Track | Bar)
+
+
+def cell_class(cell: Cell, is_numeric: bool) -> str:
+    """Return the class of a cell in a column of numbers, ``is_numeric``, or of others."""
+    match cell:
+        case Code(_, is_long=True):
+            return "long"
+        case Phrase() | LegendEntry():
+            return "who"
+        case Digest():
+            return "hash"
+        case Judged(_, grade):
+            return f"verdict {grade}"
+        case Track():
+            return "interval"
+    return "n" if is_numeric else ""
+
+
+def legend_swatch(entry: LegendEntry) -> Markup:
+    """Return the look of an entry of a legend as a short line or a mark."""
+    match entry.look:
+        case Look():
+            return swatch(entry.look)
+        case Marker():
+            return mark_swatch(entry.look)
+        case Curve():
+            return swatch_of(entry.look)
+
+
+def _track(track: Track) -> Markup:
+    """Return a rate as a mark on a scale, with its interval as a bar."""
+
+    def position(value: float) -> float:
+        return 100.0 * (value - track.start) / (1.0 - track.start)
+
+    scale = Markup(
+        '<span class="track"><i style="left: {:.2f}%; right: {:.2f}%"></i><b style="left: {:.2f}%"></b></span>'
+    )
+    drawn = scale.format(position(track.low), 100.0 * (1.0 - track.high) / (1.0 - track.start), position(track.rate))
+    ends = Markup('<span class="ends"><span>{:.0f} %</span><span>100 %</span></span>').format(100.0 * track.start)
+    return drawn + ends if track.has_ends else drawn
