@@ -1,153 +1,93 @@
-"""The rooms of tests/rooms.toml: imports run down its list only, none in a circle, and no room is crowded.
+"""The order of folders is the order of imports: tests/folders.toml, read from the top down.
 
 Truth: the list, and the imports as Python's own parser reads them.
 """
 
 from __future__ import annotations
 
-import ast
 import subprocess
 import sys
-import tomllib
 from collections import defaultdict
-from collections.abc import Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
 
 from perilune.common.paths import ROOT
+from tests.folders import FILES, FOLDERS, TOPS, folder_of, importing_files, imports, module_of
 
-TOPS = ("analysis", "fmus_src", "common")
-OURS = {"perilune", *TOPS}
-EVERYWHERE = {"common"}
-KINDS = (
-    "plants",
-    "environment",
-    "sensors",
-    "navigation",
-    "guidance",
-    "control",
-    "actuators",
-    "disturbances",
-    "sequencing",
-)
 MOST = 15
+KINDS = [name for name, contents in FOLDERS.items() if contents.startswith("blocks: ")]
 LISTS = {
     "analysis/verbs",
     "ssp_systems/landing_mission",  # nine starts
-    *(f"fmus_src/{kind}{room}" for kind in KINDS for room in ("", "/checks")),
+    *(f"{kind}{room}" for kind in KINDS for room in ("", "/checks")),
 }  # of things alike, where one looks for a name
 
 
-def read_rooms() -> dict[str, set[str]]:
-    """Room -> what it may import, in the order of the file."""
-    rooms = tomllib.loads((ROOT / "tests" / "rooms.toml").read_text(encoding="utf-8"))
+@pytest.fixture(scope="module")
+def arrows() -> dict[tuple[str, str], str]:
+    """(importing folder, imported folder) of the list -> a file that does."""
     return {
-        room.replace("KIND", kind): set(entry["imports"])
-        for room, entry in rooms.items()
-        for kind in (KINDS if "KIND" in room else ("",))
+        (folder_of(module_of(ROOT / file)), folder_of(module)): f"{file}: {module}"
+        for pairs in importing_files().values()
+        for file, module in pairs
     }
 
 
-ROOMS = read_rooms()
-
-
-def room_of(module: str) -> str:
-    """The most particular room of the list that a module, ``analysis.batch.flying.flyer``, lies in."""
-    path = module.replace(".", "/")
-    inside = [room for room in (*ROOMS, *EVERYWHERE) if path == room or path.startswith(f"{room}/")]
-    return max(inside, key=len)
-
-
-def imports(file: Path) -> Iterator[str]:
-    """Modules of ours that a file imports, below perilune."""
-    relative = file.relative_to(ROOT).with_suffix("")
-    package = list(relative.parts[:-1])
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            assert not any(alias.name.split(".")[0] in OURS for alias in node.names), file
-        if isinstance(node, ast.ImportFrom):
-            assert node.level or (node.module or "").split(".")[0] not in OURS, file
-            if node.level:
-                base = [*package[: len(package) - (node.level - 1)], *(node.module or "").split(".")]
-                base = [part for part in base if part]
-                whole = ROOT.joinpath(*base)
-                for alias in node.names:
-                    inner = whole / alias.name
-                    is_module = inner.with_suffix(".py").is_file() or (inner / "__init__.py").is_file()
-                    yield ".".join([*base, alias.name] if is_module else base)
-
-
-FILES = sorted(path for top in TOPS for path in (ROOT / top).rglob("*.py") if path.name != "__init__.py")
-
-
-@pytest.fixture(scope="module")
-def arrows() -> dict[str, set[tuple[str, str]]]:
-    """Room -> (room that it imports, file that does)."""
-    actual = defaultdict(set)
-    for file in FILES:
-        here = room_of(".".join(file.relative_to(ROOT).with_suffix("").parts))
-        for module in imports(file):
-            there = room_of(module)
-            if there != here:
-                actual[here].add((there, file.relative_to(ROOT).as_posix()))
-    return actual
-
-
-def test_every_file_has_a_room():
+def test_every_file_lies_in_a_folder_of_the_list():
     assert len(FILES) > 200
-    for file in FILES:
-        assert room_of(".".join(file.relative_to(ROOT).with_suffix("").parts))
+    tops = {"/".join(file.relative_to(ROOT).parts[:2]) for file in FILES if file.parent.parent != ROOT.parent}
+    assert len(FOLDERS) < 40
+    assert {each for each in tops if (ROOT / each).is_dir() and not each.startswith("common/")} <= set(FOLDERS)
 
 
-def test_imports_are_those_of_the_list(arrows):
-    assert len(arrows) > 20
-    for room, targets in arrows.items():
-        allowed = ROOMS.get(room, set()) | EVERYWHERE
-        for target, file in targets:
-            assert target in allowed, f"{file}: {room} may not import {target}"
+def test_the_page_shows_the_list():
+    rows = "".join(f"| `{folder}` | {contents} |\n" for folder, contents in FOLDERS.items())
+    assert f"| --- | --- |\n{rows}\n" in (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 
 
-def test_the_list_runs_downwards():
-    order = list(ROOMS)
-    for room, allowed in ROOMS.items():
-        for target in allowed:
-            assert order.index(target) > order.index(room), f"{room} -> {target}"
+def test_folder_order_is_import_order(arrows):
+    order = list(FOLDERS)
+    assert len(arrows) > 100
+    for (here, there), file in arrows.items():
+        assert order.index(there) >= order.index(here), f"{file}: {there} is above {here} in tests/folders.toml"
 
 
-def test_the_list_allows_nothing_that_is_not_used(arrows):
-    for room, allowed in ROOMS.items():
-        if room.removeprefix("fmus_src/") not in KINDS:
-            assert allowed <= {target for target, _ in arrows.get(room, set())}
+def test_kinds_of_blocks_know_only_the_bases(arrows):
+    """A guidance imports no plant: they meet in systems."""
+    assert len(KINDS) == 9
+    assert not [(here, there) for here, there in arrows if here in KINDS and there in KINDS and here != there]
+
+
+def test_files_import_in_no_circle():
+    """Within a folder, too; imports within functions and for type checkers included."""
+    graph = {module_of(file): set(imports(file)) & {module_of(each) for each in FILES} for file in FILES}
+    assert sum(map(len, graph.values())) > 2000
+    TopologicalSorter(graph).prepare()  # raises CycleError
 
 
 def test_only_the_command_line_and_the_build_know_the_verbs(arrows):
-    """A request is data: only the rooms above it write command lines."""
-    importers = {
-        here
-        for here, pairs in arrows.items()
-        if any(target.split("/")[:2] == ["analysis", "verbs"] for target, _ in pairs)
-    }
-    assert {here for here in importers if here.split("/")[1] != "verbs"} == {"analysis/cli", "analysis/shipped"}
+    """A request is data: only what stands above it writes command lines."""
+    assert {here for here, there in arrows if there == "analysis/verbs"} == {"analysis", "analysis/verbs"}
 
 
 def test_options_lie_on_the_floor_above_common(arrows):
-    rooms = {"analysis/options", "analysis/options/declared"}
-    assert {target for room in rooms for target, _ in arrows[room]} == {"analysis/options", "common"}
-    assert list(ROOMS)[-1] == "analysis/options" or list(ROOMS)[-2] == "analysis/options"
+    assert {there for here, there in arrows if here == "analysis/options"} == {"analysis/options", "common"}
 
 
-def test_a_request_knows_no_command_line(arrows):
-    """Rooms of algorithms import no declaration of a verb, and not the writer of commands."""
-    rooms = ("stability", "studies", "campaigns", "design")
-    known = {
-        (here, target)
-        for here, pairs in arrows.items()
-        for target, _ in pairs
-        if here.split("/")[1:2] and here.split("/")[1] in rooms
-    }
-    assert len(known) > 30
-    assert not [pair for pair in known if pair[1] in ("analysis/options/declared", "analysis/commands")]
+def test_algorithms_know_no_command_line():
+    """They import no declaration of a verb, and not the writer of commands."""
+    above = ("analysis.options.declared", "analysis.commands")
+    rooms = tuple(f"analysis/{name}" for name in ("stability", "studies", "campaigns", "design"))
+    known = [
+        (file, module)
+        for folder, pairs in importing_files().items()
+        if folder.startswith(rooms)
+        for file, module in pairs
+    ]
+    assert len(known) > 500
+    assert not [(file, module) for file, module in known if module.startswith(above)]
 
 
 def test_no_room_is_crowded():
@@ -172,9 +112,7 @@ print(*sys.modules)
 @pytest.mark.parametrize(("room", "below"), [("fmus_src", {"common"}), ("common", set())])
 def test_a_floor_imports_what_is_below_it_only(room, below, arrows):
     """Within functions, too."""
-    targets = {
-        target.split("/")[0] for here, pairs in arrows.items() if here.split("/")[0] == room for target, _ in pairs
-    }
+    targets = {there.split("/")[0] for here, there in arrows if here.split("/")[0] == room}
     assert targets - {room} == below
 
 

@@ -30,7 +30,7 @@ from ..reports.diagram.diagram import Diagram as BlockDiagram
 from ..reports.figures.section import Section as SystemFigure
 from ..reports.interactive.charts import Chart
 from ..reports.time_histories import ComponentHistory
-from .cells import Cell, Head, LegendEntry, Rich, Row, RowHeading, RowNote
+from .cell import Cell, Head, LegendEntry, Rich, Row, RowHeading, RowNote
 
 
 class Medium(Enum):

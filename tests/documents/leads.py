@@ -4,7 +4,7 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from perilune.analysis.documents.cells import Rich
+from perilune.analysis.documents.cell import Rich
 from perilune.analysis.documents.model import Verdict
 from perilune.analysis.documents.render.words import rich_text
 from perilune.analysis.verbs.common.documented import Documented

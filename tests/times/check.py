@@ -15,7 +15,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from tests.test_architecture import ROOMS
+from tests.folders import importing_files
 from tests.times.recording import read_times
 
 ROOT = Path(__file__).parents[2]
@@ -36,9 +36,14 @@ def tests_of(rooms: Iterable[str], *, inside: bool) -> list[str]:
 
 
 def importers_of(room: str) -> list[str]:
-    """Return the rooms that import a room directly, or a room inside of it."""
-    inside = {each for each in ROOMS if each == room or each.startswith(f"{room}/")} | {room}
-    return [each for each, imported in ROOMS.items() if imported & inside and each not in inside]
+    """Return the folders with a file that imports from a folder, or from one inside of it."""
+    start = room.replace("/", ".")
+    return sorted(
+        folder
+        for folder, pairs in importing_files().items()
+        if folder != room and not folder.startswith(f"{room}/")
+        if any(module == start or module.startswith(f"{start}.") for _, module in pairs)
+    )
 
 
 def select(groups: Iterable[Iterable[str]], times: Mapping[str, float], budget: float) -> tuple[list[str], list[str]]:

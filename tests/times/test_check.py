@@ -1,6 +1,6 @@
 """`make check`: which tests a change of a room takes.
 
-Truth: tests/rooms.toml, read by hand, and the definition of what fits.
+Truth: imports read by hand, and the definition of what fits.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def test_files_fill_the_budget_and_the_dearest_is_last(times, budget):
         assert sum(times[each] for each in chosen) + min(times[each] for each in left) > budget - 1e-9
 
 
-def test_importers_are_those_of_the_list():
+def test_importers_are_folders_whose_files_import_the_room():
     assert "analysis/verbs" in importers_of("analysis/show")
     assert "analysis/show" not in importers_of("analysis/show")
 

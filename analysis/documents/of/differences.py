@@ -9,7 +9,7 @@ import numpy as np
 
 from ...differences.differences import RunDifferences, SignalDifference
 from ...reports.common.quantities import number
-from ..cells import Cell, Quantity
+from ..cell import Cell, Quantity
 from ..model import Document, Figures, Fold, Node, Note, Section, Table, Text
 from .differences_figures import difference_figures, difference_legend, plotted_signals
 

@@ -16,7 +16,7 @@ from ...reports.common.colours import COLOURS, DASHES, INK, Look
 from ...reports.common.quantities import label_with_unit
 from ...reports.common.signals import INDEXED, vector_of
 from ...reports.interactive.charts import NO_BOX, Chart, Curve
-from ..cells import LegendEntry
+from ..cell import LegendEntry
 from ..model import Figure
 
 PLOTTED = 24  # signals and vectors

@@ -8,7 +8,7 @@ from functools import partial
 
 from ...design.trajectories.landing_study import LandingStudy
 from ...design.trajectories.vehicle import limits_document
-from ..cells import Cell, Inline, Phrase, Quantity
+from ..cell import Cell, Inline, Phrase, Quantity
 from ..model import Document, Figures, KeyNumbers, Node, Note, Section, Text
 from .plan_figures import bound_figure, bound_series, time_figures
 from .transfer import burns_phrase

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ...design.laws.expression_tree import OUTPUT_NUMBERS
 from ...design.laws.formula import formula
 from ...design.laws.law import Law
-from ..cells import Code
+from ..cell import Code
 from ..model import Document, Node, Section, Table, Text
 from .law_figures import law_diagram
 

@@ -8,7 +8,7 @@ from functools import partial
 
 from ...design.transfers.adjoint import AdjointSolution
 from ...design.transfers.hover_study import HoverStudy
-from ..cells import Cell, Inline, LegendEntry, Phrase, Quantity
+from ..cell import Cell, Inline, LegendEntry, Phrase, Quantity
 from ..model import Document, Figures, KeyNumbers, Node, Note, Section, Table, Text
 from .plan_figures import NAMES, Series, curve_figures, path_figure, plan_series, time_figures
 from .programme_sketch import sketch_figure

@@ -11,7 +11,7 @@ from ...reports.common.page import breakable, exact, with_exact
 from ...reports.common.panels import mark_swatch, swatch
 from ...reports.common.quantities import display_unit
 from ...reports.interactive.charts import Curve, Marker
-from ..cells import (
+from ..cell import (
     Bar,
     Cell,
     Code,
@@ -53,8 +53,8 @@ def cell_markup(cell: Cell) -> Markup:
             return Markup("<b>{}</b>").format(cell_markup(inner))
         case Faint(inner):
             return Markup('<span class="muted">{}</span>').format(cell_markup(inner))
-        case Lines(cells):
-            return Markup("<br>").join(map(cell_markup, cells))
+        case Lines(content):
+            return Markup("<br>").join(map(cell_markup, content))
         case Phrase(content):
             return rich_markup(content)
         case LegendEntry(_, lines):
@@ -127,6 +127,6 @@ def _track(track: Track) -> Markup:
     scale = Markup(
         '<span class="track"><i style="left: {:.2f}%; right: {:.2f}%"></i><b style="left: {:.2f}%"></b></span>'
     )
-    drawn = scale.format(position(track.low), 100.0 * (1.0 - track.high) / (1.0 - track.start), position(track.rate))
+    marks = scale.format(position(track.low), 100.0 * (1.0 - track.high) / (1.0 - track.start), position(track.rate))
     ends = Markup('<span class="ends"><span>{:.0f} %</span><span>100 %</span></span>').format(100.0 * track.start)
-    return drawn + ends if track.has_ends else drawn
+    return marks + ends if track.has_ends else marks

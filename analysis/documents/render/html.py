@@ -11,7 +11,7 @@ from ...reports.chart.panel import chart_panel, stack_panel, wide_figure
 from ...reports.common.page import write_page
 from ...reports.common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, swatch
 from ...reports.interactive.bundles import MISSING
-from ..cells import Cell, Head, Row, RowHeading, RowNote
+from ..cell import Cell, Head, Row, RowHeading, RowNote
 from ..model import Document, Figure, Medium, Table, select
 from .cell_markup import cell_class, cell_markup, is_number, legend_swatch, rich_markup
 from .diagram import diagram_svg
@@ -51,7 +51,7 @@ class HeadCell(NamedTuple):
 class BodyRow(NamedTuple):
     """A row of a table's body: cells with their classes, or one text over all columns."""
 
-    cells: Sequence[tuple[str, Cell]] = ()
+    content: Sequence[tuple[str, Cell]] = ()
     anchor: str = ""
     is_first: bool = False
     heading: RowHeading | None = None
@@ -71,8 +71,8 @@ def lay_out(table: Table) -> TableLayout:
     heads = [head if isinstance(head, Head) else Head(head) for head in table.heads]
     plain = [row for row in table.rows if not isinstance(row, RowHeading | RowNote)]
     columns = sum(max(1, len(head.below)) for head in heads)
-    cells = [row.cells if isinstance(row, Row) else row for row in plain]
-    numeric = [all(is_number(row[column]) for row in cells) and bool(cells) for column in range(columns)]
+    contents = [row.content if isinstance(row, Row) else row for row in plain]
+    numeric = [all(is_number(row[column]) for row in contents) and bool(contents) for column in range(columns)]
     starts = [sum(max(1, len(each.below)) for each in heads[:index]) for index in range(len(heads))]
     has_two = any(head.below for head in heads)
     upper = [
@@ -99,12 +99,12 @@ def _body(table: Table, numeric: Sequence[bool]) -> list[BodyRow]:
             case RowNote():
                 body.append(BodyRow(note=row))
                 continue
-        cells, anchor, is_first = row if isinstance(row, Row) else Row(row)
-        first = cells[0]
+        content, anchor, is_first = row if isinstance(row, Row) else Row(row)
+        first = content[0]
         is_new = not table.is_grouped or first != above
         above = first
-        classes = [cell_class(cell, is_numeric) for cell, is_numeric in zip(cells, numeric, strict=True)]
-        displayed = [first if is_new else "", *cells[1:]]
+        classes = [cell_class(cell, is_numeric) for cell, is_numeric in zip(content, numeric, strict=True)]
+        displayed = [first if is_new else "", *content[1:]]
         starts_group = is_first or (table.is_grouped and is_new)
         body.append(BodyRow(list(zip(classes, displayed, strict=True)), anchor, starts_group))
     return body

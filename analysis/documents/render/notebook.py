@@ -10,7 +10,7 @@ from markupsafe import Markup
 
 from ...reports.common.notebook import Grid, notebook_view
 from ...reports.common.panels import HALF_WIDTH
-from ..cells import Cell, LegendEntry
+from ..cell import Cell, LegendEntry
 from ..model import (
     Diagram,
     Document,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ....common.percent import short_percent
 from ...reports.common.quantities import display_unit, in_display_unit, number
-from ..cells import (
+from ..cell import (
     Bar,
     Cell,
     Code,
@@ -41,8 +41,8 @@ def cell_text(cell: Cell) -> str:
             return rich_text(content)
         case Strong(inner) | Faint(inner):
             return cell_text(inner)
-        case Lines(cells):
-            return ", ".join(map(cell_text, cells))
+        case Lines(content):
+            return ", ".join(map(cell_text, content))
         case LegendEntry(_, lines):
             return ", ".join(lines)
         case Interval(low, high):
@@ -71,7 +71,7 @@ def heads_of(table: Table) -> list[str]:
 def rows_of(table: Table) -> list[Sequence[Cell]]:
     """Return the rows of cells of a table, without headings and notes between them."""
     rows = (row for row in table.rows if not isinstance(row, RowHeading | RowNote))
-    return [row.cells if isinstance(row, Row) else row for row in rows]
+    return [row.content if isinstance(row, Row) else row for row in rows]
 
 
 def number_line(numbers: KeyNumbers) -> str:

@@ -10,6 +10,7 @@ from lxml import etree
 from matplotlib.figure import Figure
 
 from docs.figures.concept import concept_figure
+from docs.figures.folders import folders_figure
 from docs.figures.papers.huang import draw_hover_figures
 from docs.figures.pictures import IMAGES, LARGEST, write_picture
 from docs.figures.system_figures import PICTURES, POINTS, system_figure
@@ -40,10 +41,11 @@ def shapes(path):
     return [comment.text for comment in root.iter(etree.Comment)], [group.get("id") for group in root.iter("{*}g")]
 
 
-def test_the_concept_comes_from_its_source(tmp_path):
+@pytest.mark.parametrize(("name", "figure"), [("concept", concept_figure), ("folders", folders_figure)])
+def test_a_picture_of_the_architecture_comes_from_its_source(name, figure, tmp_path):
     with house_style():
-        write_picture(concept_figure(), tmp_path / "concept.svg")
-    assert (tmp_path / "concept.svg").read_bytes() == (IMAGES / "concept.svg").read_bytes()
+        write_picture(figure(), tmp_path / f"{name}.svg")
+    assert (tmp_path / f"{name}.svg").read_bytes() == (IMAGES / f"{name}.svg").read_bytes()
 
 
 @pytest.mark.parametrize("system", ["lunar_landing", "orbital_attitude"])

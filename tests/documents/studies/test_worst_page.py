@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perilune.analysis.documents.cells import Quantity
+from perilune.analysis.documents.cell import Quantity
 from perilune.analysis.documents.of.studies.worst import metric_table, parameter_table, simulate_worst
 from perilune.analysis.documents.of.studies.worst_figures import box_chart, fresh_chart, search_chart, trials_chart
 from perilune.analysis.documents.of.studies.worst_points import box_lanes, objective_of, point_values

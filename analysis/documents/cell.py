@@ -100,7 +100,7 @@ class Faint(NamedTuple):
 class Lines(NamedTuple):
     """Cells below each other in one."""
 
-    cells: Sequence[Cell]
+    content: Sequence[Cell]
 
 
 class LegendEntry(NamedTuple):
@@ -134,7 +134,7 @@ class Head(NamedTuple):
 class Row(NamedTuple):
     """Cells that links lead to by ``anchor``, or that begin a group of rows."""
 
-    cells: Sequence[Cell]
+    content: Sequence[Cell]
     anchor: str = ""
     is_first: bool = False
 
