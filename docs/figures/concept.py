@@ -1,4 +1,4 @@
-"""Draws docs/images/concept.svg, from a block to a campaign: `python -m docs.figures.concept`."""
+"""Draws docs/images/architecture/concept.svg, from a block to a campaign: `python -m docs.figures.concept`."""
 
 from __future__ import annotations
 
@@ -90,4 +90,4 @@ def _arrow(axes: Axes, start: Point, end: Point) -> None:
 
 if __name__ == "__main__":
     with house_style():
-        print(write_picture(concept_figure(), IMAGES / "concept.svg"))
+        print(write_picture(concept_figure(), IMAGES / "architecture" / "concept.svg"))

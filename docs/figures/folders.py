@@ -1,4 +1,4 @@
-"""Draws docs/images/folders.svg, the order of folders and their imports: `python -m docs.figures.folders`."""
+"""Draws docs/images/architecture/folders.svg, the order of folders and their imports: `python -m docs.figures.folders`."""
 
 from __future__ import annotations
 
@@ -62,4 +62,4 @@ def _arc(axes: Axes, start: int, end: int) -> None:
 
 if __name__ == "__main__":
     with house_style():
-        print(write_picture(folders_figure(), IMAGES / "folders.svg"))
+        print(write_picture(folders_figure(), IMAGES / "architecture" / "folders.svg"))

@@ -45,7 +45,7 @@ def shapes(path):
 def test_a_picture_of_the_architecture_comes_from_its_source(name, figure, tmp_path):
     with house_style():
         write_picture(figure(), tmp_path / f"{name}.svg")
-    assert (tmp_path / f"{name}.svg").read_bytes() == (IMAGES / f"{name}.svg").read_bytes()
+    assert (tmp_path / f"{name}.svg").read_bytes() == (IMAGES / "architecture" / f"{name}.svg").read_bytes()
 
 
 @pytest.mark.parametrize("system", ["lunar_landing", "orbital_attitude"])

@@ -9,7 +9,7 @@ from ....reports.campaign.tables import draw_rows, fmu_rows
 from ....studies.flown import StudyResult
 from ....studies.noise import Noise
 from ...model import Commands, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text
-from ..cell import Cell, Code, Quantity, Rich
+from ...cell import Cell, Code, Quantity, Rich
 
 DEFAULT = "default"  # the name of a campaign's only variant
 UNWRITTEN: Rich = [

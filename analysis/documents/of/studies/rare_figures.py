@@ -21,7 +21,7 @@ from ....studies.rare.interpretation import Equivalent, equivalents, influence, 
 from ....studies.rare.outcome import RareResult
 from ....studies.rare.uncertainty import CONFIDENCE
 from ...model import Figure
-from ..cell import LegendEntry
+from ...cell import LegendEntry
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in
