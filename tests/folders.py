@@ -48,8 +48,8 @@ def imports(file: Path) -> Iterator[str]:
 @cache
 def importing_files() -> dict[str, list[tuple[str, str]]]:
     """Return (importing file, imported module) of every import of ours, by the file's folder on disk."""
-    found = defaultdict(list)
+    pairs = defaultdict(list)
     for file in FILES:
         name = file.relative_to(ROOT).as_posix()
-        found[file.parent.relative_to(ROOT).as_posix()] += [(name, module) for module in imports(file)]
-    return found
+        pairs[file.parent.relative_to(ROOT).as_posix()] += [(name, module) for module in imports(file)]
+    return pairs

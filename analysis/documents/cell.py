@@ -124,7 +124,7 @@ Cell = Inline | Interval | Track | Bar | Digest | Judged | Faint | Lines | float
 
 
 class Head(NamedTuple):
-    """The heading of a column, or of the columns ``below`` it, with a ``note`` in a line of its own."""
+    """The heading of a column, or of the columns ``below`` it, with a ``note`` in a separate line."""
 
     text: str
     note: str = ""

@@ -288,8 +288,8 @@ Node = (
 class Section:
     """Nodes below a ``heading``, which may be empty; ``given`` is what all its numbers are conditional on.
 
-    A page folds it if ``is_folded``; ``style`` is that of a page: only on screens, or unbroken on paper, on a sheet of
-    its own.
+    A page folds it if ``is_folded``; ``style`` is that of a page: only on screens, or unbroken on paper, on a separate
+    sheet.
     """
 
     heading: str

@@ -1,4 +1,4 @@
-"""Draws docs/images/architecture/folders.svg, the order of folders and their imports: `python -m docs.figures.folders`."""
+"""Draws the order of folders and their imports, docs/images/architecture/folders.svg."""
 
 from __future__ import annotations
 
@@ -34,27 +34,27 @@ def folders_figure() -> Figure:
 
 def _rows() -> list[str]:
     """Return the folders, with the kinds of blocks as one."""
-    return list(dict.fromkeys(_shown(name) for name in FOLDERS))
+    return list(dict.fromkeys(_row_of(name) for name in FOLDERS))
 
 
-def _shown(folder: str) -> str:
+def _row_of(folder: str) -> str:
     return "fmus_src/plants and other kinds" if FOLDERS[folder].startswith("blocks: ") else folder
 
 
 def _imports() -> set[tuple[str, str]]:
     """Return the pairs of folders with imports, without those of `common`, which all have."""
-    pairs = {
-        (_shown(folder_of(module_of(ROOT / file))), _shown(folder_of(module)))
-        for found in importing_files().values()
-        for file, module in found
+    rows = {
+        (_row_of(folder_of(module_of(ROOT / file))), _row_of(folder_of(module)))
+        for pairs in importing_files().values()
+        for file, module in pairs
     }
-    return {(here, there) for here, there in pairs if here != there and there != "common"}
+    return {(here, there) for here, there in rows if here != there and there != "common"}
 
 
 def _arc(axes: Axes, start: int, end: int) -> None:
-    """Draw an import: the farther it reaches, the farther out."""
-    reach = 36.0 + 2.6 * (end - start)
-    points = [(35.5, start), (reach, start), (reach, end), (35.5, end)]
+    """Draw an import: the longer it is, the farther out."""
+    right = 36.0 + 2.6 * (end - start)
+    points = [(35.5, start), (right, start), (right, end), (35.5, end)]
     codes = [Curve.MOVETO, Curve.CURVE4, Curve.CURVE4, Curve.CURVE4]
     patch = PathPatch(Curve(points, codes), fill=False, edgecolor=BLUE, linewidth=0.6)
     axes.add_patch(patch)

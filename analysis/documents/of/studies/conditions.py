@@ -8,8 +8,8 @@ from pathlib import PurePosixPath
 from ....reports.campaign.tables import draw_rows, fmu_rows
 from ....studies.flown import StudyResult
 from ....studies.noise import Noise
-from ...model import Commands, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text
 from ...cell import Cell, Code, Quantity, Rich
+from ...model import Commands, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text
 
 DEFAULT = "default"  # the name of a campaign's only variant
 UNWRITTEN: Rich = [

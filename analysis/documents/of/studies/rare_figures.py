@@ -20,8 +20,8 @@ from ....reports.interactive.charts import NO_BOX, Backing, Chart, Note
 from ....studies.rare.interpretation import Equivalent, equivalents, influence, level_spans
 from ....studies.rare.outcome import RareResult
 from ....studies.rare.uncertainty import CONFIDENCE
-from ...model import Figure
 from ...cell import LegendEntry
+from ...model import Figure
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in

@@ -18,8 +18,8 @@ from ....reports.figures.declared import Figure
 from ....reports.figures.reading import read_figures
 from ....runtime.flight.results import Result
 from ....studies.worst.outcome import WorstResult
-from ...model import Document, Figures, Medium, Node, Note, Only, Section, Table, Text, Verdict
 from ...cell import Cell, Code, Quantity, Rich
+from ...model import Document, Figures, Medium, Node, Note, Only, Section, Table, Text, Verdict
 from ..simulation import simulation_nodes
 from .conditions import closing_sections, condition_nodes, condition_of
 from .worst_figures import box_figures, random_figures, search_figures

@@ -18,8 +18,8 @@ from ....reports.common.colours import BLUE, FAINT, GRID, INK, VERMILION, Look
 from ....reports.common.quantities import display_factor, label_with_unit, number
 from ....reports.interactive.charts import NO_BOX, Chart, Note, Rule
 from ....studies.worst.outcome import WorstResult
-from ...model import Figure
 from ...cell import LegendEntry
+from ...model import Figure
 from .rare_figures import DASHED, DOTTED, GREY, HEIGHT, curve_legend, number_above
 from .worst_points import Lane, Objective, box_lanes, objective_of, select_values
 
