@@ -8,7 +8,7 @@ from tqdm import tqdm
 
 
 class Bars:
-    """What every bar of a module came to: (steps done, steps expected), and how often each moved."""
+    """Recorded progress of every bar of a module: (steps done, steps expected), and the number of its updates."""
 
     def __init__(self) -> None:
         self.ends: list[tuple[float, float]] = []
@@ -16,7 +16,8 @@ class Bars:
 
 
 def watched(monkeypatch: Any, module: Any, name: str = "ProgressLines") -> Bars:
-    """The bars that ``module`` makes of a class, by its name there, from now on where standard error is no terminal."""
+    """Record the bars that ``module`` creates of the class ``name`` from now on, where standard
+    error is no terminal."""
     bars = Bars()
 
     class Watched(tqdm):

@@ -213,7 +213,7 @@ NAMESPACES = """xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescripti
 
 
 def build_tiny_fmus(folder: Path) -> None:
-    """Build the FMUs above into ``folder``/FLAVOUR, with retouched ones beside them."""
+    """Build the FMUs above into ``folder``/FLAVOUR, with retouched ones next to them."""
     folder.mkdir(parents=True, exist_ok=True)
     blocks = folder / "tiny_blocks.py"
     blocks.write_text(BLOCKS)
@@ -253,7 +253,7 @@ MODES = {"idle": 1, "brake": 2, "hover": 7}
 
 
 def retouched(source: Path, target: Path, change: Any) -> Path:
-    """The FMU with another modelDescription.xml: ``change`` maps its text."""
+    """Write the FMU with another modelDescription.xml: ``change`` maps its text."""
     with zipfile.ZipFile(source) as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
     files["modelDescription.xml"] = change(files["modelDescription.xml"].decode()).encode()
@@ -281,7 +281,7 @@ def connectors(text: str) -> str:
 
 
 def component(name: str, fmu: str, declared: str = "", bindings: str = "", attributes: str = "") -> str:
-    """A component; ``bindings`` are ParameterBinding elements."""
+    """Return a component; ``bindings`` are ParameterBinding elements."""
     source = f'source="resources/{fmu}.fmu"' if "." not in fmu else f'source="resources/{fmu}"'
     return f'<ssd:Component name="{name}" {source} {attributes}>{connectors(declared)}{bound(bindings)}</ssd:Component>'
 
@@ -304,14 +304,14 @@ def connection(start: str, end: str, inner: str = "", attributes: str = "") -> s
 def system(
     *elements: str, connections: str = "", declared: str = "", bindings: str = "", name: str = "root", extra: str = ""
 ) -> str:
-    """A System element; ``extra`` goes behind its connections."""
+    """Return a System element; ``extra`` follows its connections."""
     wires = f"<ssd:Connections>{connections}</ssd:Connections>" if connections else ""
     inside = f"<ssd:Elements>{''.join(elements)}</ssd:Elements>" if elements else ""
     return f'<ssd:System name="{name}">{connectors(declared)}{bound(bindings)}{inside}{wires}{extra}</ssd:System>'
 
 
 def document(root: str, stop: float | None = 1.0, step: float | None = 0.25, more: str = "", units: str = UNITS) -> str:
-    """An SSD; ``more`` goes between system and units, for instance enumerations."""
+    """Return an SSD; ``more`` stands between system and units, for instance enumerations."""
     note = (
         '<ssd:Annotations><ssc:Annotation type="org.perilune.step">'
         f'<CommunicationStep xmlns="https://perilune.org/step" size="{step}"/></ssc:Annotation></ssd:Annotations>'
@@ -325,7 +325,7 @@ def document(root: str, stop: float | None = 1.0, step: float | None = 0.25, mor
 
 
 def inline(values: str, prefix: str = "", mapping: str = "") -> str:
-    """A ParameterBinding with values ``name=Type:value[ unit]`` separated by semicolons."""
+    """Return a ParameterBinding with values ``name=Type:value[ unit]`` separated by semicolons."""
     return (
         f'<ssd:ParameterBinding prefix="{prefix}"><ssd:ParameterValues>{parameter_set(values)}</ssd:ParameterValues>'
         f"{mapping}</ssd:ParameterBinding>"
@@ -333,12 +333,12 @@ def inline(values: str, prefix: str = "", mapping: str = "") -> str:
 
 
 def external(source: str, prefix: str = "", mapping: str = "") -> str:
-    """A ParameterBinding to a file."""
+    """Return a ParameterBinding to a file."""
     return f'<ssd:ParameterBinding source="{source}" prefix="{prefix}">{mapping}</ssd:ParameterBinding>'
 
 
 def parameter_set(values: str) -> str:
-    """An ssv:ParameterSet, complete with namespaces and units."""
+    """Return an ssv:ParameterSet, complete with namespaces and units."""
     collected = []
     for part in filter(None, (piece.strip() for piece in values.split(";"))):
         name, _, remainder = part.partition("=")
@@ -354,7 +354,7 @@ def parameter_set(values: str) -> str:
 
 
 def mapping(entries: str) -> str:
-    """An ssm:ParameterMapping around its MappingEntry elements."""
+    """Return an ssm:ParameterMapping around its MappingEntry elements."""
     return f'<ssm:ParameterMapping version="1.0" {NAMESPACES}>{entries}</ssm:ParameterMapping>'
 
 
@@ -363,7 +363,7 @@ def inline_mapping(entries: str) -> str:
 
 
 def pack(path: Path, fmus: Path, ssd: str, **files: str | bytes) -> Path:
-    """An .ssp of the description, the FMUs that it names and found in ``fmus``, and further files.
+    """Write an .ssp of the description, the FMUs of ``fmus`` that it names, and further files.
 
     Names of ``files`` are archive names with ``__`` for a dot and ``___`` for a slash.
     """

@@ -1,4 +1,4 @@
-"""Whether what lies in build/fmus, and the SSDs of systems, were made of the sources as they are."""
+"""Age of the FMUs in build/fmus and of the SSDs of systems, compared with their sources."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ def newest_source() -> float:
 
 
 def native_are_current(names: Iterable[str]) -> bool:
-    """Whether these native FMUs are there, and not older than any source."""
+    """Return True if these native FMUs exist and are not older than any source."""
     paths = [shipped_fmu(name, "native") for name in names]
     return all(path.is_file() and path.stat().st_mtime >= newest_source() for path in paths)
 
 
 def systems_are_current() -> bool:
-    """True if every shipped system has an SSD that was composed of its files as they are."""
+    """Return True if every shipped system has an SSD composed of its present files."""
     folders = [SYSTEMS / name for name in system_names()]
     return all((each / "SystemStructure.ssd").is_file() and not report_changed_source(each) for each in folders)

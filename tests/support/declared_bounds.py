@@ -1,4 +1,4 @@
-"""Systems that say what their landing's bound is made of: the lunar landing, with an annotation put in."""
+"""Systems that declare the terms of their landing's bound: the lunar landing, with an annotation put in."""
 
 import shutil
 
@@ -33,7 +33,7 @@ START = """<?xml version="1.0" encoding="UTF-8"?>
 
 
 def declared_system(folder, pieces="", **roles):
-    """A copy of the lunar landing in a folder, whose SSD declares a bound; roles that are None are left out."""
+    """Copy the lunar landing to a folder, with an SSD that declares a bound; roles that are None are left out."""
     collected = {name: value for name, value in (ROLES | roles).items() if value is not None}
     place = folder / "landing"
     shutil.copytree(SYSTEMS / "lunar_landing", place)

@@ -18,7 +18,7 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").r
 
 
 def commands_in(text: str) -> list[str]:
-    """The commands of a page, in order, each on one line and without its comment."""
+    """Return the commands of a page, in order, each on one line and without its comment."""
     collected = []
     for language, block in BLOCK.findall(text):
         for line in block.replace("\\\n", " ").splitlines():
@@ -38,7 +38,7 @@ def documented() -> dict[str, list[str]]:
 
 
 def printed_by(text: str) -> dict[str, list[str]]:
-    """What a page says that the commands of its blocks of console print, in lines; none where it leaves that out."""
+    """Return the lines that a page states for the commands of its blocks of console; none where it omits them."""
     printed: dict[str, list[str]] = {}
     for language, block in BLOCK.findall(text):
         command = ""
@@ -52,7 +52,7 @@ def printed_by(text: str) -> dict[str, list[str]]:
 
 
 def first_difference(expected: Sequence[str], output: str, errors: str) -> str | None:
-    """The first line that a command does not print as a page says; None where it prints all.
+    """Return the first line of a page that a command does not print; None where it prints all.
 
     A line of dots stands for any lines; lines of standard error may be left out; wall-clock time is any, and paths
     begin in the working folder.
@@ -81,6 +81,6 @@ def saved_files(text: str) -> Iterator[tuple[str, str]]:
 
 
 def page_text(place: str) -> str:
-    """The page itself; nothing for the examples of a verb."""
+    """Return the text of a page; nothing for the examples of a verb."""
     path = Path(ROOT / place)
     return path.read_text(encoding="utf-8") if path.is_file() else ""

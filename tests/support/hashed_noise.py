@@ -7,7 +7,8 @@ GOLDEN = 0x9E3779B97F4A7C15  # of SplitMix64 (Steele, Lea and Flood 2014), as th
 
 
 def hashed_normals(streams: np.ndarray, seed: int) -> np.ndarray:
-    """Standard normal numbers (points, sources) of stream numbers (points, sources), others for every ``seed``."""
+    """Return standard normal numbers (points, sources) of stream numbers (points, sources),
+    others for every ``seed``."""
     columns = np.arange(1, streams.shape[1] + 1, dtype=np.uint64)
     offsets = np.uint64(seed * 1_000_003 % 2**64) + columns
     with np.errstate(over="ignore"):

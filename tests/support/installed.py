@@ -52,7 +52,7 @@ def copy_of_checkout(folder: Path) -> Path:
 
 
 def build_wheel(folder: Path, source: Path = ROOT, **process: Any) -> Path:
-    """The wheel of a checkout, as `pip wheel` makes it; ``process`` are options of `subprocess.run`."""
+    """Build the wheel of a checkout by `pip wheel`; ``process`` are options of `subprocess.run`."""
     command = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", folder, source]
     subprocess.run(command, check=True, capture_output=True, **process)
     (wheel,) = folder.glob("*.whl")
@@ -60,7 +60,7 @@ def build_wheel(folder: Path, source: Path = ROOT, **process: Any) -> Path:
 
 
 def install(wheel: Path, folder: Path) -> None:
-    """Make a virtual environment with the wheel and, by links, what it depends on; site-packages are read-only.
+    """Create a virtual environment with the wheel and, by links, what it depends on; site-packages are read-only.
 
     (Not for the superuser, who may write everywhere: compare `Installed.files` before and after.)
     """
@@ -80,7 +80,7 @@ def install(wheel: Path, folder: Path) -> None:
 
 
 def installed_in(folder: Path) -> Installed:
-    """What `install` made in a folder."""
+    """Return the installation of `install` in a folder."""
     (site,) = (folder / "venv" / "lib").glob("python*/site-packages")
     (wheel,) = (folder / "wheel").glob("*.whl")
     return Installed(wheel, folder / "venv" / "bin" / "python", site, folder / "home")

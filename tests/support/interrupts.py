@@ -19,7 +19,7 @@ PATIENCE = 60.0  # s, in which a command has started what it needs
 
 @contextmanager
 def interrupted_when(condition):
-    """A KeyboardInterrupt in the main thread as soon as ``condition()`` is true in another."""
+    """Raise KeyboardInterrupt in the main thread as soon as ``condition()`` is true in another."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     over = threading.Event()
 
@@ -43,7 +43,7 @@ def interrupted_when(condition):
 def started(
     words: Sequence[str], folder: Path, environment: Mapping[str, str] | None = None, module: str = "perilune"
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """A command that runs in a folder, and is killed in the end."""
+    """Yield a command that runs in a folder, and kill it in the end."""
     with (folder / "errors").open("wb") as errors:
         command = subprocess.Popen(
             [sys.executable, "-m", module, *words],
@@ -68,14 +68,14 @@ def _heed_signals() -> None:
 
 
 def descendants(command: subprocess.Popen[bytes]) -> list[psutil.Process]:
-    """The processes that a command has started, and those that these have."""
+    """Return the processes that a command has started, and those that these have."""
     with suppress(psutil.NoSuchProcess):
         return psutil.Process(command.pid).children(recursive=True)
     return []
 
 
 def wait_for(command: subprocess.Popen[bytes], is_enough: Callable[[list[str]], bool]) -> list[psutil.Process]:
-    """The descendants of a command, once their command lines are enough."""
+    """Return the descendants of a command, once their command lines are enough."""
     deadline = time.monotonic() + PATIENCE
     while time.monotonic() < deadline and command.poll() is None:
         family = descendants(command)
@@ -98,7 +98,7 @@ def seconds_until_gone(family: Sequence[psutil.Process], limit: float) -> tuple[
 
 
 def _line(process: psutil.Process) -> str:
-    """The command line of a process; empty where it has ended, though its new parent may not have asked how."""
+    """Return the command line of a process; empty where it has ended, though its new parent may not have asked how."""
     with suppress(psutil.Error):
         return "" if process.status() == psutil.STATUS_ZOMBIE else " ".join(process.cmdline())
     return ""

@@ -1,4 +1,4 @@
-"""How many flights of a noisy landing missed by more than a limit: the truth beside which rare failures are set.
+"""Numbers of flights of a noisy landing that missed by more than a limit: the truth for rare failures.
 
 Of `perilune batch lunar_landing --campaign compare --compare guidance=analytic_exact_guidance --trials 200000 --output
 results`, counted by `perilune.open_results("results")`: noisy parameters, which are the default, the campaign's seed.

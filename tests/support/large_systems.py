@@ -31,7 +31,7 @@ class Mixer{kind}(Block):
 
 
 def build_mixers(folder: Path) -> list[Path]:
-    """The ten FMUs, native: five of which answer at once, five a step later."""
+    """Build ten native FMUs: five that answer at once, five a step later."""
     text = "from perilune import Block, Input, Output, Parameter\n"
     for kind in range(KINDS):
         direct, words = (", direct=True", ", at once") if kind % 2 else ("", "")
@@ -42,13 +42,13 @@ def build_mixers(folder: Path) -> list[Path]:
 
 
 def foreign_mixer(fmus: Path, folder: Path) -> Path:
-    """A folder with the first of the FMUs, changed so that Perilune has not built it."""
+    """Return a folder with the first of the FMUs, changed so that Perilune has not built it."""
     folder.mkdir()
     return retouched(fmus / "mixer0.fmu", folder / "mixer0.fmu", lambda text: f"{text}<!-- foreign -->").parent
 
 
 def wide_fmu(fmus: Path, path: Path, count: int) -> Path:
-    """A foreign FMU with ``count`` more local variables than the first of the FMUs has, all of its first output."""
+    """Write a foreign FMU with ``count`` more local variables than the first of the FMUs, all of its first output."""
 
     def widen(text: str) -> str:
         output = re.search(r'<ScalarVariable name="y\[1\]" valueReference="(\d+)"', text)

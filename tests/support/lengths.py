@@ -1,4 +1,4 @@
-"""How much the long checks do: all of it under `make long`, a part of it under `make test`.
+"""Size of the long checks: all under `make long`, a fraction under `make test`.
 
 Sample size and seed of randomised tests are from the environment.
 """
@@ -22,10 +22,10 @@ SEED = int(os.environ.get("PERILUNE_TEST_SEED", "20240607"))
 
 
 def size(usual: int) -> int:
-    """How many samples to take where ``usual`` is the number without a factor."""
+    """Return the number of samples where ``usual`` is the number without a factor."""
     return max(1, int(FACTOR * usual))
 
 
 def generator(name: str) -> random.Random:
-    """A generator of its own per test."""
+    """Return a separate generator per test."""
     return random.Random(f"{SEED} {name}")

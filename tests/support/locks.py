@@ -1,4 +1,4 @@
-"""Workers of pytest-xdist take turns, and share what one of them made."""
+"""Locks by which workers of pytest-xdist take turns and share results."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import pytest
 
 @contextmanager
 def one_process_at_a_time(lock: Path) -> Iterator[None]:
-    """Hold the file ``lock``; its folder is made."""
+    """Hold the file ``lock``; its folder is created."""
     lock.parent.mkdir(parents=True, exist_ok=True)
     with lock.open("w") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
@@ -22,7 +22,7 @@ def one_process_at_a_time(lock: Path) -> Iterator[None]:
 
 
 def made_once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], object]) -> Path:
-    """The folder ``name`` of this test run, which ``make`` has filled for the first worker that asked for it."""
+    """Return the folder ``name`` of this test run, which ``make`` has filled for the first worker that asked for it."""
     base = factory.getbasetemp()
     folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / name
     made = folder.with_name(f"{name}.made")

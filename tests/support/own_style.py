@@ -1,4 +1,4 @@
-"""Whether the Python in a folder is as ruff writes it with the product's settings."""
+"""Style of the Python in a folder, compared with ruff's under the product's settings."""
 
 from __future__ import annotations
 

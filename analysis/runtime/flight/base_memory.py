@@ -32,7 +32,7 @@ class BaseMemory(ABC, Generic[Snapshot]):
 
     @abstractmethod
     def read(self) -> np.ndarray:
-        """The values of all cells now."""
+        """Read the values of all cells now."""
 
     @abstractmethod
     def take(self, point: int) -> Snapshot:

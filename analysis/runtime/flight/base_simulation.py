@@ -24,12 +24,11 @@ NOTHING = np.zeros((0, 0))  # no excitation
 
 
 class Choices(TypedDict, total=False):
-    """``varied`` names the parameters (``component.variable``) that flights may be given anew; ``wanted`` the signals
-    to record (None: all outputs, connected inputs and system connectors), ``more`` other variables to record;
-    ``faults`` those that fly unless `set_faults` says otherwise; ``excited`` the connectors that `advance` may add
-    signals to; ``open_end`` whether it may pass the stop time, of which FMUs are then given none; ``log`` receives the
-    FMUs' messages.
-    """
+    """``varied`` names the parameters (``component.variable``) that simulations may change; ``wanted`` the signals to
+    record (None: all outputs, connected inputs and system connectors), ``more`` other variables to record; ``faults``
+    those that act unless `set_faults` says otherwise; ``excited`` the connectors that `advance` may add signals to;
+    ``open_end``: `advance` may pass the stop time, of which FMUs then receive none; ``log`` receives the FMUs'
+    messages."""
 
     varied: Collection[str]
     wanted: Collection[str] | None
@@ -81,19 +80,19 @@ class BaseSimulation(ABC):
         )
 
     def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
-        """The flight alone, for batches; see `fly`."""
+        """Simulate and return the flight alone, for batches; see `fly`."""
         self.set(values)
         return self.advance(-1, self.prepared.steps, every=every)
 
     @property
     def group_size(self) -> int:
-        """How many flights `fly_group` may be given, which takes less time for each than `run`; 0: none."""
+        """Maximum number of flights for `fly_group`, which takes less time for each than `run`; 0: none."""
         return 0
 
     def fly_group(self, table: FlightTable) -> FlightGroup:
         """Fly the first flights of a table, each from its start, at least one of them.
 
-        None flies behind one that has not come to its end. Arrays as in `fly`.
+        A flight that does not reach its end is the last. Arrays as in `fly`.
         """
         raise NotImplementedError(f"{type(self).__name__} has flights one at a time")
 
@@ -115,20 +114,19 @@ class BaseSimulation(ABC):
 
     @abstractmethod
     def set_faults(self, faults: Sequence[Fault | None]) -> None:
-        """Give faults other values and windows, from the next start on.
+        """Set other values and windows of faults, from the next start on.
 
-        There is one for each that the simulation was made with, on its connector and of its kind, or None
-        where that one does not fly.
+        There is one for each that the simulation was made with, on its connector and of its kind, or None where that
+        one does not fly.
         """
 
     @abstractmethod
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
-        """Fly on from communication point ``first`` to ``last``, as FMUs and buffers are; rows first + 1 to last.
+        """Simulate from communication point ``first`` to ``last``, as FMUs and buffers are; rows first + 1 to last.
 
-        -1 starts anew, which adds row 0. ``excitation`` [r, e] is added to the excited connectors at the r
-        communication points behind ``first``. ``last`` may lie behind the stop time where the simulation has an open
-        end; every n-th row is kept. Arrays as
-        in `fly`.
+        -1 restarts, which adds row 0. ``excitation`` [r, e] is added to the excited connectors at the r
+        communication points after ``first``. ``last`` may be after the stop time where the simulation has an
+        open end; every n-th row is kept. Arrays as in `fly`.
         """
 
     def interrupt(self, halt: bool = True) -> None:
@@ -141,7 +139,7 @@ class BaseSimulation(ABC):
 
     @abstractmethod
     def memory(self) -> BaseMemory[Any]:
-        """What the FMUs remember. Raises InputError where one does not tell how it serialises it."""
+        """Return the memory of the FMUs. Raises InputError where one does not describe its serialisation."""
 
     def provenance(self) -> Provenance:
         """Parameter values, hashes, options and version: what the result depends on."""

@@ -50,7 +50,7 @@ class Outcome(NamedTuple):
 
     @property
     def is_well(self) -> bool:
-        """Whether nothing has gone wrong."""
+        """True if nothing has gone wrong."""
         return self.code in (codes.STOP_TIME, codes.FINISHED, codes.INTERRUPTED)
 
     @property
@@ -59,27 +59,27 @@ class Outcome(NamedTuple):
 
     @property
     def is_ended(self) -> bool:
-        """Whether an FMU has ended the simulation (FMI 3.0, terminateSimulation)."""
+        """True if an FMU has ended the simulation (FMI 3.0, terminateSimulation)."""
         return self.code == codes.ENDED
 
     @property
     def is_fatal(self) -> bool:
-        """Whether no instance of the FMU may be used again (FMI 2.0, fmi2Fatal), or its status is none of FMI's."""
+        """True if no instance of the FMU may be used again (FMI 2.0, fmi2Fatal), or its status is none of FMI's."""
         return self.code == codes.FAILED and not 0 <= self.fmi_status < fmi2.fmi2Fatal
 
     @property
     def is_error(self) -> bool:
-        """Whether the instance may only be reset or freed (FMI 2.0, fmi2Error)."""
+        """True if the instance may only be reset or freed (FMI 2.0, fmi2Error)."""
         return self._failure(fmi2.fmi2Error)
 
     def is_unreadable(self, program: arrays.Program) -> bool:
-        """Whether an FMU did not give a parameter back."""
+        """Return True if an FMU did not return a parameter."""
         if not (self.is_error or self._failure(fmi2.fmi2Discard)):
             return False
         return int(program.instructions[self.instruction, codes.CODE]) in READ_BACKS
 
     def is_refused_again(self, program: arrays.Program) -> bool:
-        """Whether an FMU refused to be given parameters in initialisation mode."""
+        """Return True if an FMU refused parameters in initialisation mode."""
         if not (self.is_error or self._failure(fmi2.fmi2Discard)):
             return False
         row = program.instructions[self.instruction]
@@ -188,14 +188,14 @@ def _outside_words(
 
 
 def _limits(name: str, instances: Mapping[str, Instance]) -> str:
-    """What the number of a component's connector does not fit into."""
+    """Return the limits that the number of a component's connector exceeds."""
     component, variable = split_name(name, instances)
     stored = instances[component].fmu.variables[variable].representation
     return "the 32 bits of an Integer" if stored.name == "Int32" else f"the limits of {stored.name}"
 
 
 def check_initialisation(outcome: Outcome, program: arrays.Program, count: int) -> list[bool]:
-    """Which of ``count`` components a flight that began anew has brought through initialisation."""
+    """Return for each of ``count`` components if a restarted flight has brought it through initialisation."""
     reached = [True] * count
     if outcome.is_well or outcome.instruction >= program.phases[0]:
         return reached

@@ -1,4 +1,4 @@
-"""Flights one behind another: what the loop is given for them, and what they leave."""
+"""Consecutive flights: inputs and records of the loop for them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ RECORD_BYTES = 2**23  # of a group: dozens of long flights, thousands of short o
 
 
 def group_of(table: FlightTable, keys: Mapping[str, Key], parameters: Parameters, margin: float) -> arrays.Group:
-    """A table as arrays for the loop, whose times may lack ``margin`` (s)."""
+    """Return a table as arrays for the loop, whose times may lack ``margin`` (s)."""
     real = [name for name in table.values if parameters.types[keys[name]] == "Real"]
     whole = [name for name in table.values if name not in real]
     window = np.empty((table.flights, len(table.faults), 2))
@@ -47,7 +47,7 @@ def _columns(table: FlightTable, names: Sequence[str], dtype: type) -> np.ndarra
 
 
 def flights_in_group(signals: int, rows: int) -> int:
-    """How many flights of so many rows have room in the record of a group, one at least."""
+    """Return the number of flights of ``rows`` rows that the record of a group holds, one at least."""
     return max(1, RECORD_BYTES // (8 * rows * (signals + 1)))
 
 
@@ -78,11 +78,11 @@ class FlightGroup:
         return np.concatenate([[0], self.ends[:-1]])
 
     def last(self, values: np.ndarray) -> np.ndarray:
-        """The last entry of each flight of a column of rows, NaN of a flight without rows."""
+        """Return the last entry of each flight of a column of rows, NaN of a flight without rows."""
         if not values.size:
             return np.full(self.ends.size, np.nan)
         return np.where(self.ends > self.starts, values[self.ends - 1], np.nan)
 
     def rows(self, flight: int) -> slice:
-        """The rows of a flight, by its place in the group."""
+        """Return the rows of a flight, by its number in the group."""
         return slice(int(self.starts[flight]), int(self.ends[flight]))

@@ -67,7 +67,7 @@ class InstructionList(Rows):
                 self.rows.append(run)
 
     def drive(self, group: int, *, started: bool) -> None:
-        """The values over time of a component's driven inputs; group -1: of system connectors.
+        """Write the values over time of a component's driven inputs; group -1: of system connectors.
 
         Before all has ``started`` they are the initialisation's, then those of the communication point.
         """
@@ -76,7 +76,8 @@ class InstructionList(Rows):
             self.rows.append([codes.DRIVE, int(started), 0, first, count, 0, 0])
 
     def set(self, component: int, known: Collection[int] | None = None) -> None:
-        """Inputs of a component; in the initialisation those whose source is not ``known`` keep their start values."""
+        """Write inputs of a component; in the initialisation those whose source is not
+        ``known`` keep their start values."""
         for code, texts in self.texts:
             for start, source, target in texts.connections[component]:
                 if known is None or start in known:
@@ -88,22 +89,22 @@ class InstructionList(Rows):
         self.orders[component].set(begun, started=known is None)
 
     def carry(self, component: int) -> None:
-        """Values and faults to the inputs of a component, which is not given them."""
+        """Carry values and faults to the inputs of a component without setting them."""
         self.orders[component].take_bases()
         self.connect(component)
         self.orders[component].carry()
 
     def get(self, component: int) -> None:
-        """Outputs of a component, at the end of the step."""
+        """Get outputs of a component, at the end of the step."""
         self.orders[component].get()
 
     def read(self, component: int) -> None:
-        """Outputs of a component, and what else of it is recorded, whose values may be anything."""
+        """Get outputs of a component, and its other recorded variables, whose values may be anything."""
         self.orders[component].get()
         self.orders[component].read()
 
     def step(self, component: int, period: int = 1) -> None:
-        """A step that ends with this communication step and begins ``period`` of them earlier."""
+        """Write a step that ends with this communication step and begins ``period`` of them earlier."""
         self.orders[component].step(0 if period == 1 else period)
 
     def reset(self) -> None:
@@ -112,10 +113,10 @@ class InstructionList(Rows):
             orders.reset()
 
     def initialise(self, order: Sequence[int]) -> None:
-        """Parameters, initialisation mode, one exchange in ``order`` that settles the start.
+        """Write parameters, initialisation mode, one exchange in ``order`` that settles the start.
 
-        Who comes before its sources is given the declared start values, on which what it sends on
-        does not depend.
+        A component before its sources has the declared start values as inputs, on which the outputs that it passes on
+        do not depend.
         """
         for orders in self.orders:
             orders.enter_initialization()
@@ -147,7 +148,8 @@ class InstructionList(Rows):
             self.read(component)
 
     def hand_over(self, components: Sequence[int]) -> None:
-        """The end of every communication point, the first one too: inputs for the next step, system connectors."""
+        """Write the end of every communication point, the first one too: inputs for the next step, system
+        connectors."""
         for component in components:
             self.set(component)
         self.connect(-1)
@@ -156,10 +158,10 @@ class InstructionList(Rows):
 def write_instructions(
     instructions: InstructionList, names: Sequence[str], schedule: Schedule, algorithm: str, periods: Mapping[str, int]
 ) -> tuple[np.ndarray, int, np.ndarray]:
-    """The instruction array, where resetting ends in it, and where the initialisation and each part end.
+    """Return the instruction array, the end of resetting in it, and the ends of the initialisation and of each part.
 
-    Step n works off part n modulo the parts' number: there is one for each communication step until all ``periods``
-    (of components, in communication steps, where longer than 1) have come round together.
+    Step n works off part n modulo the parts' number: there is one for each communication step until all ``periods`` (of
+    components, in communication steps, where longer than 1) have come round together.
     """
     instructions.begin()
     index = {name: position for position, name in enumerate(names)}
@@ -192,9 +194,9 @@ def write_renewal(
     periods: Mapping[str, int],
     part: int,
 ) -> dict[int, np.ndarray]:
-    """Instructions that pass on a system's inputs, and parameters with faults, changed between two steps.
+    """Write instructions that pass on a system's inputs, and parameters with faults, changed between two steps.
 
-    It is by component, of those that step in the ``part`` that follows with the inputs of its start. Arguments as of
+    They are by component, of those that step in the next ``part`` with the inputs of its start. Arguments as of
     `write_instructions`.
     """
     renewed = {}
@@ -209,12 +211,13 @@ def write_renewal(
 
 
 def _ahead(names: Sequence[str], schedule: Schedule, algorithm: str) -> Sequence[int]:
-    """The components that step with the inputs of the step's start."""
+    """Return the components that step with the inputs of the step's start."""
     return range(len(names)) if algorithm == "jacobi" else [names.index(name) for name in schedule.sources_first]
 
 
 def write_ending(instructions: InstructionList, component: int) -> np.ndarray:
-    """The instructions of a last row: the outputs of the FMU that asks for the end, carried on to all connectors."""
+    """Write the instructions of a last row: the outputs of the FMU that ends the simulation, carried to all
+    connectors."""
     instructions.begin()
     instructions.read(component)
     for other in range(len(instructions.orders)):

@@ -37,12 +37,12 @@ def fly(simulation: BaseSimulation, timeout: float | None = None) -> Result:
 
 
 def run(simulation: BaseSimulation, values: Mapping[str, ParameterValue], timeout: float | None = None) -> Flight:
-    """A flight of a batch, likewise, in a thread in which Ctrl-C is not heard."""
+    """Simulate a trial likewise, in a thread that does not receive Ctrl-C."""
     return _within(simulation, timeout, partial(simulation.run, values))
 
 
 def nothing_flown(simulation: BaseSimulation, message: str) -> Flight:
-    """The flight of a step that did not return: its rows are lost with it."""
+    """Return the flight of a step that did not return: its rows are lost with it."""
     nothing = np.empty(0)
     types = {name: simulation.layout.types[name] for name in simulation.signal_names}
     return Flight(nothing, dict.fromkeys(types, nothing), types, HUNG, message)
@@ -73,12 +73,13 @@ def _within(simulation: BaseSimulation, timeout: float | None, work: Callable[[]
 
 
 def _point(simulation: BaseSimulation) -> float:
-    """The time (s) of the communication point that is being computed, or of the last one."""
+    """Return the time (s) of the communication point under way, or of the last one."""
     return simulation.prepared.start + simulation.recorder.point * simulation.prepared.step
 
 
 def progress_text(prepared: PreparedSystem, recorder: FlightRecorder) -> str:
-    """Where a flight is, in words: the communication point under way, and who was the last to step."""
+    """Return the progress of a flight in words: the communication point under way, and the last component that
+    stepped."""
     if not recorder.point:
         return "in the initialisation"
     time = prepared.start + recorder.point * prepared.step
@@ -86,7 +87,8 @@ def progress_text(prepared: PreparedSystem, recorder: FlightRecorder) -> str:
 
 
 def wait(work: Callable[[], T], interrupt: Callable[[], None], give_up: Callable[[], object]) -> T:
-    """What ``work`` gives, done in a thread; Ctrl-C calls ``interrupt``, waits a while for the rest, and gives up.
+    """Return the result of ``work``, run in a thread; Ctrl-C calls ``interrupt``, waits a while for the rest, and gives
+    up.
 
     Elsewhere than in the main thread, which alone hears of it, the work is done at once.
     """

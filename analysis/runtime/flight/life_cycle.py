@@ -1,4 +1,4 @@
-"""The instances of a simulation from flight to flight: terminated, then reset or made anew."""
+"""The instances of a simulation from flight to flight: terminated, then reset or instantiated again."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from .instructions import InstructionList
 
 
 class LifeCycle:
-    """What each instance may be asked next, by the state machine of FMI 2.0 (co-simulation).
+    """Permitted next calls of each instance, by the state machine of FMI 2.0 (co-simulation).
 
-    Our own FMUs that flew well are terminated and reset by the loop itself. Others are here: those whose reset cannot
-    be trusted, and those that returned an error or discarded a step, which the trial of a reset need not have come
-    to, are instantiated anew. A flight is ended when the next one begins, since until then it can go on.
-    ``note_subject`` is called with the number of each component before one of its functions is.
+    Our own FMUs are terminated and reset by the loop itself after a flight without errors. Others are handled here:
+    those whose reset cannot be trusted, and those that returned an error or discarded a step, which the trial of a
+    reset need not have reached, are instantiated again. A flight is ended when the next one begins, since until then it
+    can continue. ``note_subject`` is called with the number of each component before one of its functions is.
     """
 
     def __init__(
@@ -62,7 +62,7 @@ class LifeCycle:
     def make_ready(self) -> bool:
         """Get the instances ready for a start; returns whether the loop is to terminate and reset them.
 
-        Raises InputError where one cannot be instantiated anew.
+        Raises InputError where one cannot be instantiated again.
         """
         if self._fresh:
             return False
@@ -86,7 +86,7 @@ class LifeCycle:
         return False
 
     def _is_reset(self, name: str, instance: Instance) -> bool:
-        """Whether an instance has been reset, and is as good as a new one for it."""
+        """Return True if an instance has been reset, and is thereby as good as a new one."""
         sound = instance.fmu.is_self_contained or name not in self._broken | self._discarded
         if not instance.is_there or not self._terminate(name, instance) or not sound:
             return False

@@ -27,7 +27,7 @@ REMEMBERED = ("local", "output", "input")
 
 @dataclass
 class Snapshot:
-    """What `Memory.take` saved."""
+    """State saved by `Memory.take`."""
 
     point: int  # communication point
     states: dict[str, object]  # fmi2FMUstate by component
@@ -102,7 +102,7 @@ class Memory(BaseMemory[Snapshot]):
                 self._slots.append(slot)
 
     def read(self) -> np.ndarray:
-        """The values of all cells now."""
+        """Read the values of all cells now."""
         parts = [piece.read() for piece in self._pieces]
         return np.concatenate([*parts, self._buffers.values[self._slots]])
 
@@ -146,7 +146,7 @@ class Memory(BaseMemory[Snapshot]):
 
 
 def _remembered(fmu: Fmu, frozen: set[int]) -> dict[int, Variable]:
-    """The variables that are cells, by their index in the serialised state.
+    """Return the variables that are cells, by their index in the serialised state.
 
     That is the value reference; the elements of an array follow on that of their array.
     """
@@ -159,7 +159,7 @@ def _remembered(fmu: Fmu, frozen: set[int]) -> dict[int, Variable]:
 
 
 def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
-    """Encoding of an FMU's serialised state, and the value references that are no cells."""
+    """Return the encoding of an FMU's serialised state, and the value references that are no cells."""
     if fmu.external_state:
         names = ", ".join(fmu.external_state)
         problem = f"{names} is external state, which cannot be saved or perturbed"

@@ -1,4 +1,4 @@
-"""The parameters that a flight is given: where they lie in the loop's arrays."""
+"""Parameters of a flight in the loop's arrays."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class Parameters:
                 self[key] = self._start(*key)
 
     def _place_transfers(self, component: str, fmu: Fmu, given: list[str]) -> ComponentTransfers:
-        """Places of what a component of FMI 3.0 is given, which takes whole arrays."""
+        """Return the transfers of a component of FMI 3.0, which takes whole arrays."""
         transfers = ComponentTransfers()
         arrays_of: dict[str, list[Variable]] = {}
         for variable in whole(fmu.variables.values(), set(given)):
@@ -115,10 +115,11 @@ class Parameters:
         return transfers
 
     def _grade(self, component: str, variable: Variable, *, driven: bool) -> int:
-        """0: set in initialisation mode too, and read back; 1: not read back; 2: set before initialisation mode only.
+        """Return 0: set in initialisation mode too, and read back; 1: not read back; 2: set before initialisation mode
+        only.
 
-        FMI 2.0 lets inputs and what has initial="exact" be set in that mode; other values the FMU calculates itself
-        from then on, and an input that is connected is given again.
+        FMI 2.0 permits setting inputs and variables with initial="exact" in that mode; the FMU calculates others itself
+        from then on, and a connected input is set again.
         """
         settable = variable.causality in ("input", "parameter") or variable.initial == "exact"
         if not settable or (driven and variable.causality == "input"):
@@ -127,7 +128,7 @@ class Parameters:
         return int(f"{component}.{variable.name}" in self._tuned or (variable.array or variable.name) in unreadable)
 
     def _start(self, component: str, name: str) -> ParameterValue:
-        """The start of an element whose array is given, though it is not."""
+        """Return the start of an element that has no value, but whose array is set."""
         variable = self._network.fmus[component].variables[name]
         if variable.start is None:
             problem = f"{name} has neither a value nor a start, and its array is set as a whole"
@@ -139,7 +140,7 @@ class Parameters:
         return key in self.positions
 
     def __getitem__(self, key: Key) -> ParameterValue:
-        """A parameter's value, of its own type."""
+        """Return a parameter's value, in its type."""
         return self.value_in(self.values, self.words, self.positions[key])
 
     def __setitem__(self, key: Key, value: ParameterValue) -> None:
@@ -159,7 +160,8 @@ class Parameters:
             self[key] = value
 
     def value_in(self, values: arrays.Settings, words: np.ndarray, position: int) -> ParameterValue:
-        """What arrays of the same layout, those read back, have at a position; ``words`` are those of FMI 3.0."""
+        """Return the value at a position of arrays of the same layout, those read back; ``words`` are those of FMI
+        3.0."""
         kind = self.types[self.keys[position]]
         if kind == "String":
             address = int(values.text[position])
@@ -171,12 +173,12 @@ class Parameters:
         return bool(values.whole[position]) if kind == "Boolean" else int(values.whole[position])
 
     def _view(self, words: np.ndarray, position: int) -> np.ndarray:
-        """The one value of FMI 3.0 that is stored for a position, as a view."""
+        """Return the one value of FMI 3.0 that is stored for a position, as a view."""
         dtype, first = self._layout[position]
         return words.view(np.uint8)[first : first + np.dtype(dtype).itemsize].view(dtype)
 
     def is_one_by_one(self, component: str) -> bool:
-        """Whether a component's parameters are read back one by one, since it does not give all of them."""
+        """Return True if a component's parameters are read back one by one, since it does not return all of them."""
         return self._network.fmus[component].digest in _one_by_one
 
     def learn_unreadable(self, first: int, count: int) -> None:
@@ -192,7 +194,7 @@ class Parameters:
             warnings.warn(text, stacklevel=2)
 
     def is_set_once(self, component: str) -> bool:
-        """True if a component refuses parameters in initialisation mode."""
+        """Return True if a component refuses parameters in initialisation mode."""
         return self._network.fmus[component].digest in _set_once
 
     def learn_set_once(self, component: str) -> None:

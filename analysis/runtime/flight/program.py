@@ -36,7 +36,7 @@ from .parameters import Key, Parameters
 
 @dataclass
 class Layout:
-    """Where everything lies: slots by name, the parameters, the Strings and Binaries that are exchanged.
+    """Layout of the arrays: slots by name, the parameters, the Strings and Binaries that are exchanged.
 
     ``unfed`` are slots of array elements that nothing is connected to, whose array is given as a whole; ``bases`` those
     of what parameters that change in flight have without the change.
@@ -60,7 +60,7 @@ def build_program(
     injections: Sequence[Injection],
     more: Collection[str] = (),
 ) -> tuple[arrays.Program, arrays.Fmi3 | None, InstructionList, Layout]:
-    """Arrays for the loop, those of FMI 3.0 if there is any, and what writes instructions.
+    """Build arrays for the loop, those of FMI 3.0 if there is any, and the writer of instructions.
 
     ``wanted`` names what is recorded (None: all that is exchanged), ``more`` what else is. Only outputs that are
     connected or recorded are fetched, and of other variables those that are named.
@@ -77,7 +77,7 @@ def layout_of(
     injections: Sequence[Injection] = (),
     more: Collection[str] = (),
 ) -> Layout:
-    """Where everything of a flight will lie, before one flies; arguments as of `build_program`."""
+    """Return the layout of a simulation before it starts; arguments as of `build_program`."""
     return _Builder(network, settings, wanted, injections, more).layout()
 
 
@@ -120,12 +120,13 @@ class _Builder:
                 self.signals.add(node.name, 0, start, node.type_name or "Real", unit)
 
     def _texts(self, index: int) -> list[list[tuple[Sequence[Variable], int]]]:
-        """The Strings and Binaries of a component with their first rows: inputs, outputs."""
+        """Return the Strings and Binaries of a component with their first rows: inputs, outputs."""
         kinds = (self.texts, self.binaries)
         return [[(each.variables[index][way], int(each.ranges[index, way, 0])) for each in kinds] for way in (0, 1)]
 
     def _drives(self) -> tuple[list[str], list[tuple[int, int]]]:
-        """The inputs driven over time by component, those of system connectors last; first and count of each group."""
+        """Return the inputs driven over time by component, those of system connectors last;
+        first and count of each group."""
         groups: dict[str, list[str]] = {name: [] for name in (*self.names, "")}
         for name in self.network.driven:
             groups[split_name(name, self.network.fmus)[0]].append(name)
@@ -194,7 +195,7 @@ class _Builder:
         )
 
     def fmi3(self, instances: Mapping[str, Callee]) -> arrays.Fmi3 | None:
-        """What the loop has in addition of a system with FMUs of FMI 3.0."""
+        """Return the additional arrays of a system with FMUs of FMI 3.0."""
         if not self.transfers:
             return None
         start = np.zeros(len(self.slots), dtype=np.uint64)
@@ -231,13 +232,13 @@ class _Builder:
 
 
 def _tolerance(fmu: Fmu) -> float:
-    """The relative tolerance that an FMU proposes for its own solver, NaN where it proposes none."""
+    """Return the relative tolerance that an FMU proposes for its solver, NaN where it proposes none."""
     experiment = fmu.description.defaultExperiment
     return float(experiment.tolerance) if experiment is not None and experiment.tolerance is not None else np.nan
 
 
 def _columns(drive: Drive | None, names: Sequence[str]) -> np.ndarray:
-    """The table of inputs over time with its columns in the order of ``names``."""
+    """Return the table of inputs over time with its columns in the order of ``names``."""
     if drive is None:
         return np.zeros((0, 0))
     places = {name: index for index, name in enumerate(drive.names)}

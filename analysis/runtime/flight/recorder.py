@@ -1,4 +1,4 @@
-"""What can be seen of a flight while it flies, and after its process has crashed: rows, and how far it has come."""
+"""Rows and progress of a simulation, readable while it runs and after its process has crashed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ OUTCOME_WORDS = codes.INSTRUCTION + 1
 
 
 class Phase(IntEnum):
-    """What a simulation does with its FMUs."""
+    """Activity of a simulation's FMUs."""
 
     IDLE = 0
     INSTANTIATION = 1

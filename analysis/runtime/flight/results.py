@@ -1,4 +1,4 @@
-"""What a run leaves: a table of signals over time, how it ended, how its components fared, where it came from."""
+"""Result of a simulation: signals over time, termination, component status, provenance."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ ENDINGS = {
 
 
 def require_pandas() -> None:
-    """Raises ImportError, with what to install, where pandas is not."""
+    """Raise ImportError, with what to install, where pandas is missing."""
     if find_spec("pandas") is None:
         raise ImportError("to_pandas needs pandas, which is not here; pip install 'perilune[notebook]'")
 
@@ -54,11 +54,11 @@ def require_pandas() -> None:
 class Flight:
     """One flight in memory. Row n of every signal is its value at ``time[n]`` (s).
 
-    ``status`` is ``finished`` (the system's own end), ``stop_time``, ``terminated`` (an FMU asked for the end, at a
-    time of its own), ``nonfinite`` (a component gave NaN or infinity), ``failed`` (an FMU reported an error, or did
-    not take a parameter), ``interrupted`` (by Ctrl-C), ``timed_out`` (it took longer than it may), ``crashed`` (an FMU
-    ended its process), ``hung`` (a call of an FMU did not return) or ``out_of_memory``; ``message`` explains the last
-    eight. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
+    ``status`` is ``finished`` (the system's own end), ``stop_time``, ``terminated`` (an FMU ended it, at any time),
+    ``nonfinite`` (a component gave NaN or infinity), ``failed`` (an FMU reported an error, or did not take a
+    parameter), ``interrupted`` (by Ctrl-C), ``timed_out`` (it took longer than it may), ``crashed`` (an FMU ended its
+    process), ``hung`` (a call of an FMU did not return) or ``out_of_memory``; ``message`` explains the last eight.
+    ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
     """
 
     time: np.ndarray
@@ -68,7 +68,7 @@ class Flight:
     message: str
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """A signal by name, ``component.variable``: [n], or [n, k] for a vector of k elements by its own name.
+        """Return a signal by name, ``component.variable``: [n], or [n, k] for a vector of k elements by its name.
 
         Raises KeyError with the nearest names.
         """
@@ -84,7 +84,7 @@ class Flight:
 
     @property
     def ending(self) -> str:
-        """How and when it ended, in words, with its number of samples."""
+        """Cause and time of the end, in words, with the number of samples."""
         end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
         return f"{ENDINGS.get(self.status, self.status)}{end}, {self.time.size} samples"
 
@@ -101,7 +101,7 @@ class Flight:
 
 
 class Provenance(TypedDict):
-    """What a flight depends on, as plain values. Times in s."""
+    """Inputs that determine a simulation, as plain values. Times in s."""
 
     system: str
     system_sha256: str
@@ -123,7 +123,7 @@ class Provenance(TypedDict):
 
 
 def _column_type(type_name: str, values: np.ndarray) -> pyarrow.DataType:
-    """The Arrow type of a signal: whole numbers have 32 bits, and more where these do not do (FMI 3.0)."""
+    """Return the Arrow type of a signal: whole numbers have 32 bits, or more where these are too few (FMI 3.0)."""
     import pyarrow
 
     if type_name == "Boolean":
@@ -143,11 +143,11 @@ class Result(Flight):
 
     @classmethod
     def extending(cls, flight: Result, **more: Any) -> Self:
-        """A flight with what a subclass has in addition."""
+        """Return a flight with the further fields of a subclass."""
         return cls(**vars(flight), **more)
 
     def table(self) -> pyarrow.Table:
-        """The flight as an Arrow table: time first, units and provenance in the metadata."""
+        """Return the flight as an Arrow table: time first, units and provenance in the metadata."""
         import pyarrow
 
         from ....common.machine.arrow import numbers_of
@@ -169,7 +169,8 @@ class Result(Flight):
         return {**ending, **self.provenance}
 
     def to_pandas(self) -> Any:
-        """The flight as a pandas.DataFrame, a column for each signal, with time (s) as its index; needs pandas."""
+        """Return the flight as a pandas.DataFrame, a column for each signal, with time (s) as its index; needs
+        pandas."""
         require_pandas()
         return self.table().to_pandas().set_index("time")
 
@@ -199,7 +200,7 @@ MEANING = re.compile(r"(?:^|[,:] )(-?\d+):? (.+?)(?=, -?\d+:? |$)")  # "0 good, 
 
 
 def status_lines(network: Network, flight: Flight) -> list[str]:
-    """A line for every component that reported a status other than 0: the worst, for how long, and the last."""
+    """Return a line for every component that reported a status other than 0: the worst, its duration, and the last."""
     lines = []
     for name, values in flight.signals.items():
         component, variable = split_name(name, network.fmus)
@@ -220,7 +221,8 @@ def _percent(share: float) -> str:
 
 
 def status_meaning(network: Network, name: str, value: int) -> str:
-    """What ``value`` of the connector ``component.status`` means, as its description lists it; else nothing."""
+    """Return the meaning of ``value`` of the connector ``component.status``, as its description lists it; else
+    nothing."""
     component, variable = split_name(name, network.fmus)
     fmu = network.fmus.get(component)
     declared = fmu.variables.get(variable) if fmu is not None else None

@@ -1,4 +1,4 @@
-"""What of a system may change from flight to flight, and what is recorded, wherever it flies."""
+"""Changeable parameters and recorded signals of a system, for all executors."""
 
 from __future__ import annotations
 
@@ -25,10 +25,9 @@ TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry roundi
 
 @dataclass(frozen=True)
 class Selection:
-    """Parameters that flights may be given anew (``varied``, by ``component.variable``), signals to record (``wanted``,
-    None: all outputs, connected inputs and system connectors), other variables to record (``more``), ``faults``, and
-    connectors that `advance` may add signals to (``excited``), and whether it may pass the stop time (``open_end``).
-    """
+    """Parameters that flights may change (``varied``, by ``component.variable``), signals to record (``wanted``, None:
+    all outputs, connected inputs and system connectors), other variables to record (``more``), ``faults``, and
+    connectors that `advance` may add signals to (``excited``), and ``open_end``: it may pass the stop time."""
 
     varied: tuple[str, ...] = ()
     wanted: tuple[str, ...] | None = None
@@ -38,7 +37,7 @@ class Selection:
     open_end: bool = False
 
     def check_faults(self, network: Network) -> None:
-        """Raises InputError for a fault on what is no connector."""
+        """Raise InputError for a fault on anything but a connector."""
         for fault in self.faults:
             check_fault(network, fault)
 
@@ -47,8 +46,8 @@ class Selection:
         return {name: _key(network, name) for name in self.varied}
 
     def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> Settings:
-        """The system's settings, in which every varied parameter, and each that changes in flight, has a place, at its
-        start value if need be."""
+        """Return the system's settings with a place for every varied parameter, and each that
+        changes in flight, at its start value if need be."""
         variables = dict(prepared.settings.variables)
         tuned = find_tuned(prepared.network, {fault.name for fault in self.faults})
         changed = {name: _key(prepared.network, name) for name in sorted(tuned)}
@@ -66,7 +65,7 @@ class Selection:
         return [*(of_fault(fault, TIME_MARGIN * step) for fault in self.faults), *excitations]
 
     def signal_names(self, layout: Layout, file: str) -> list[str]:
-        """What is recorded, in the order of the slots. Raises InputError for a wanted signal that is none."""
+        """Return the recorded signals, in the order of the slots. Raises InputError for an unknown one."""
         named = {*(self.wanted or ()), *self.more}
         for name in named:
             if name not in layout.slots:
@@ -100,7 +99,7 @@ def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) ->
 
 
 def check_replaced(declared: Sequence[Fault], faults: Sequence[Fault | None]) -> None:
-    """Faults of a flight are on the connectors, and of the kinds, that the simulation was made with, or None."""
+    """Assert that faults of a flight have the connectors and kinds of the simulation's, or are None."""
     for known, fault in zip(declared, faults, strict=True):
         assert fault is None or (fault.name, fault.kind) == (known.name, known.kind)
 

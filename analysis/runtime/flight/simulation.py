@@ -83,7 +83,7 @@ class Simulation(BaseSimulation):
         self.recorder.enter(Phase.IDLE)
 
     def _fuse(self, prepared: PreparedSystem) -> int:
-        """The address of the steps compiled for the system, 0 where its options do not ask for them."""
+        """Return the address of the steps compiled for the system, 0 where its options do not request them."""
         if prepared.options.chosen["flavour"] != FUSED:
             return 0
         check_fused(prepared)
@@ -106,15 +106,15 @@ class Simulation(BaseSimulation):
         self.fused_steps = self._fuse(self.prepared)
 
     def announce(self, _values: Mapping[str, ParameterValue], _faults: Sequence[Fault | None]) -> None:
-        """Nothing: a flight here takes the thread that looks at the last one."""
+        """No-op: in-process simulations use the calling thread."""
 
     def give_up(self, _why: str) -> bool:
-        """False: a thread cannot be ended."""
+        """Return False: a thread cannot be ended."""
         return False
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
-        """See `BaseSimulation.set`; an element of an array that is partly connected is given with each step, too, and
-        so are parameters that change in flight."""
+        """See `BaseSimulation.set`; elements of partly connected arrays, and parameters that
+        change in flight, are set at each step, too."""
         super().set(values)
         self._give_unfed()
 
@@ -141,7 +141,7 @@ class Simulation(BaseSimulation):
         self._faults = faults
 
     def _time(self) -> float:
-        """Of the communication point under way (s)."""
+        """Return the time of the communication point under way (s)."""
         return self.prepared.start + self.recorder.point * self.prepared.step
 
     def _note_subject(self, component: int) -> None:
@@ -208,7 +208,7 @@ class Simulation(BaseSimulation):
         )
 
     def _conclude(self, outcome: Outcome, start: int, end: int) -> Flight:
-        """The flight whose rows of the record these are, as the loop has left it."""
+        """Return the flight of these rows of the record, as the loop has left it."""
         prepared, recorder = self.prepared, self.recorder
         recorder.enter(Phase.IDLE)
         self.life_cycle.note(outcome, self.program)
@@ -264,7 +264,7 @@ class Simulation(BaseSimulation):
         )
 
     def _has_learned(self, outcome: Outcome) -> bool:
-        """Whether an FMU has shown what not to ask of it, so that the flight is to begin anew."""
+        """Return True if an FMU has shown a call to avoid, so that the flight has to restart."""
         parameters = self.layout.parameters
         if outcome.is_unreadable(self.program):
             code, first, count = self.program.instructions[
@@ -294,7 +294,7 @@ class Simulation(BaseSimulation):
         self.recorder.record[:, row] = record[:, 0]
 
     def _replace_instances(self, fatal: str | None = None) -> None:
-        """Everything instantiated anew, with the values that parameters have; ``fatal`` as in `LifeCycle.close`."""
+        """Instantiate everything again, with the values that parameters have; ``fatal`` as in `LifeCycle.close`."""
         retained = self.layout.parameters
         self.life_cycle.close(fatal)
         self.instances = {}
@@ -303,11 +303,11 @@ class Simulation(BaseSimulation):
         self._give_unfed()
 
     def memory(self) -> Memory:
-        """What the FMUs remember. Raises InputError where one does not tell how it serialises it."""
+        """Return the memory of the FMUs. Raises InputError where one does not describe its serialisation."""
         return Memory(self.prepared, self.layout, self.instances, self.buffers, self.fmi3)
 
     def close(self) -> None:
-        """Free the instances; those of a flight that still goes on in a thread, given up, end with the process."""
+        """Free the instances; those of an abandoned flight that still runs in a thread end with the process."""
         if self.loop.under_way.acquire(blocking=False):
             self.recorder.enter(Phase.END)
             if self._log is not None:

@@ -1,1 +1,1 @@
-"""What an FMU declares of its variables, in one vocabulary for FMI 2.0 and FMI 3.0."""
+"""Declarations of an FMU's variables, in one vocabulary for FMI 2.0 and FMI 3.0."""

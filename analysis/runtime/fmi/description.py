@@ -1,4 +1,5 @@
-"""What an FMI 3.0 modelDescription.xml must have for its FMU to be simulated, and what FMPy leaves unread of it."""
+"""Conditions on an FMI 3.0 modelDescription.xml for its FMU to be simulated, and elements of it
+that FMPy does not read."""
 
 from __future__ import annotations
 
@@ -22,7 +23,7 @@ NUMBERS = ("start", "min", "max", "nominal")
 
 
 def is_fmi3(version: str | None) -> bool:
-    """Whether a fmiVersion is a released one of FMI 3."""
+    """Return True if a fmiVersion is a released one of FMI 3."""
     return version is not None and RELEASED.fullmatch(version) is not None
 
 
@@ -106,7 +107,7 @@ def _check_variable(variable: etree._Element, label: str) -> None:
 
 
 def _starts(variable: etree._Element) -> list[str]:
-    """The declared starts, one or one for each element; those of texts are elements of their own.
+    """Return the declared starts, one or one for each element; those of texts are child elements.
 
     The FMU Manipulation Toolbox declares those of all arrays so.
     """

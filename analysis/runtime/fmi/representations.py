@@ -1,4 +1,4 @@
-"""How variables are stored: the types of FMI 3.0, with the kind of type that each is and the numbers that it has."""
+"""Storage of variables: the types of FMI 3.0, with the kind of type that each is and its range."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ class Representation(NamedTuple):
 
     @property
     def is_wide(self) -> bool:
-        """Whether it has whole numbers that a float64 has not."""
+        """True if it has whole numbers that a float64 has not."""
         return self.dtype in ("int64", "uint64")
 
     def complaint(self) -> str:
-        """What is wrong with a number beyond its limits, as a predicate."""
+        """Return the error of a number beyond its limits, as a predicate."""
         return "has more than 32 bits" if self.name == "Int32" else f"is no {self.name}"
 
     def demand(self) -> str:
-        """The numbers that a whole one may be, as an object."""
+        """Return the permitted whole numbers, as an object."""
         low, high = self.limits
         return "a whole number of 32 bits" if self.name == "Int32" else f"a whole number from {low} to {high}"
 

@@ -17,7 +17,7 @@ def structural_sizes(
     names: Collection[str],
     chosen: Sequence[Assignment],
 ) -> dict[str, int]:
-    """The values that a component, by its flat name, is given for these parameters.
+    """Return the values of these parameters of a component, by its flat name.
 
     They come from its bindings, those of the systems around it, then ``chosen``; later ones win. Raises InputError for
     one that is no whole number.
@@ -43,7 +43,7 @@ def _bindings(system: System, component: str) -> Iterator[tuple[str, list[Bindin
 
 
 def _element(system: System, name: str) -> tuple[Element | None, str]:
-    """The element of a system that a flat name leads through, and what is left of the name."""
+    """Return the element of a system that a flat name leads through, and the rest of the name."""
     for short, element in system.elements.items():
         if name == short or (isinstance(element, System) and name.startswith(f"{short}.")):
             return element, name[len(short) + 1 :]

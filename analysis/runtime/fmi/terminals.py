@@ -11,7 +11,8 @@ TERMINALS = "terminalsAndIcons/terminalsAndIcons.xml"
 
 
 def read_terminals(content: bytes, label: str) -> dict[str, list[str]]:
-    """The variables of each terminal by its name, those within another with that one's before it. Raises InputError."""
+    """Read the variables of each terminal by its name, those within another with that one's
+    before it. Raises InputError."""
     archive = open_zip(content, label)
     if TERMINALS not in archive.namelist():
         return {}

@@ -51,18 +51,18 @@ class Variable:
 
 
 def variables_of(description: ModelDescription) -> dict[str, Variable]:
-    """The variables of an FMU by name, with the sizes that it declares."""
+    """Return the variables of an FMU by name, with the sizes that it declares."""
     declared = description.modelVariables
     return elements_of(declared, {}) if description.fmiMajorVersion == 3 else scalars(declared)
 
 
 def scalars(declared: Sequence[ModelVariable]) -> dict[str, Variable]:
-    """The variables of an FMU of FMI 2.0 by name."""
+    """Return the variables of an FMU of FMI 2.0 by name."""
     return {each.name: _scalar(each, each.type, OF_FMI2[each.type]) for each in declared}
 
 
 def elements_of(declared: Sequence[ModelVariable], sizes: Mapping[int, int]) -> dict[str, Variable]:
-    """The variables of an FMU of FMI 3.0 by name, those of arrays one by one.
+    """Return the variables of an FMU of FMI 3.0 by name, those of arrays one by one.
 
     ``sizes`` are the structural parameters by value reference.
     """
@@ -75,7 +75,7 @@ def elements_of(declared: Sequence[ModelVariable], sizes: Mapping[int, int]) -> 
 
 
 def shape(declared: ModelVariable, sizes: Mapping[int, int] | None = None) -> tuple[int, ...]:
-    """The dimensions of a variable, () of one without: as declared, or with these structural parameters."""
+    """Return the dimensions of a variable, () of one without: as declared, or with these structural parameters."""
     return tuple(
         int(each.start) if each.start is not None else (sizes or {}).get(each.valueReference, int(each.variable.start))
         for each in declared.dimensions
@@ -93,7 +93,7 @@ def _elements(whole: Variable, declared: ModelVariable, sizes: Mapping[int, int]
 
 
 def _starts(declared: ModelVariable) -> dict[tuple[int, ...], str]:
-    """The declared starts by position, counted from 1; one for all elements where one is declared."""
+    """Return the declared starts by position, counted from 1; one for all elements where one is declared."""
     if declared.start is None:
         return {}
     positions = list(itertools.product(*(range(1, size + 1) for size in shape(declared))))

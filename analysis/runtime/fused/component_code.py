@@ -1,4 +1,4 @@
-"""The C of a component's FMU as part of a larger unit: its headers included, its names with a prefix."""
+"""The C of a component's FMU within a larger unit: its headers included, its names with a prefix."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class ComponentCode:
 
 
 def component_code(sources: Mapping[str, str], model: str, prefix: str, label: str) -> ComponentCode:
-    """The C of one of our native FMUs, whose ``sources`` are given by file name, without the functions of FMI.
+    """Return the C of one of our native FMUs, whose ``sources`` are by file name, without the functions of FMI.
 
     ``model`` is the FMU's model identifier. Raises InputError, which names ``label``, for C of another build than this
     Perilune's.
@@ -76,7 +76,7 @@ def component_code(sources: Mapping[str, str], model: str, prefix: str, label: s
 
 
 def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str], seen: set[str]) -> str:
-    """The text with its headers where they are included first, without the standard ones."""
+    """Return the text with its headers where they are included first, without the standard ones."""
 
     def put(include: re.Match[str]) -> str:
         file = INSTEAD.get(include[2], include[2])
@@ -94,7 +94,7 @@ def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str
 
 
 def _rename(text: str, prefix: str) -> str:
-    """The text between lines that give all of its names a prefix and take it from them again.
+    """Return the text between lines that give all of its names a prefix and take it from them again.
 
     The preprocessor does it, since it joins names itself (``py_##name``). Names of macros are those of the text alone.
     """

@@ -32,7 +32,7 @@ MOST_INSTRUCTIONS = 20_000  # a minute of compilation
 
 
 def is_compilable(program: arrays.Program) -> bool:
-    """Whether its steps compile in a minute."""
+    """Return True if the steps of a program compile in a minute."""
     return int(program.phases[-1] - program.phases[0]) <= MOST_INSTRUCTIONS
 
 
@@ -42,12 +42,12 @@ def fuse(
     recorded: Iterable[int],
     is_wanted: Callable[[], bool] = lambda: True,
 ) -> int:
-    """The address of the steps of a ``program`` of which these slots are recorded, compiled as one function.
+    """Return the address of the steps of a ``program`` of which these slots are recorded, compiled as one function.
 
-    The C is that inside the native FMUs of the ``instances``; other FMUs are called as ever. The library is kept in
-    the cache folder by its content. The compiler is ended as soon as the function is not ``is_wanted`` any more. Raises
-    InputError where there is no compiler, or one that does not work or changes results, where no library can
-    be written, and for FMUs whose C is of another build, or whose periods come round together too late.
+    The C is that inside the native FMUs of the ``instances``; other FMUs are called as ever. The library is kept in the
+    cache folder by its content. The compiler is ended as soon as the function is not ``is_wanted`` any more. Raises
+    InputError where there is no compiler, or one that does not work or changes results, where no library can be
+    written, and for FMUs whose C is of another build, or whose periods come round together too late.
     """
     components = _component_codes(instances)
     if not is_compilable(program):
@@ -64,7 +64,7 @@ def fuse(
 
 
 def _component_codes(instances: Mapping[str, Instance]) -> dict[int, ComponentCode]:
-    """The code of components by their number; once of an FMU that several have."""
+    """Return the code of components by their number; once of an FMU that several have."""
     prefixes: dict[str, str] = {}
     components = {}
     for number, instance in enumerate(instances.values()):

@@ -1,4 +1,4 @@
-"""Which systems' steps can be compiled, and what is said of the others before anything is simulated."""
+"""Conditions on systems for their steps to be compiled, and refusals before anything is simulated."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ INSTALL = "install cc, or pip install ziglang; or fly it `native`"
 
 
 def has_code(fmu: Fmu) -> bool:
-    """Whether the C of an FMU can be part of the steps."""
+    """Return True if the C of an FMU can join the steps."""
     return fmu.is_own and fmu.is_native and fmu.version == 2
 
 
 def can_fuse(prepared: PreparedSystem) -> bool:
-    """Whether all FMUs have their C, and a compiler is here."""
+    """Return True if all FMUs have their C, and a compiler is available."""
     return all(map(has_code, prepared.network.fmus.values())) and local_platform() in available_platforms()
 
 

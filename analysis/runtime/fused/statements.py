@@ -40,11 +40,11 @@ class Statements:
     prefixes: Mapping[int, str]
 
     def of(self, instruction: Instruction) -> list[str]:
-        """The lines of one instruction; those of FMI 3.0 have none."""
+        """Return the lines of one instruction; those of FMI 3.0 have none."""
         return WRITERS[instruction.code](self, instruction)
 
     def variable(self, row: Instruction, kind: str, index: int) -> str:
-        """A value in the memory of a component."""
+        """Return a value in the memory of a component."""
         offset = row.address - row.instance + index * (1 if kind == "bool" else 8)
         return f"*({kind} *)({self.memory(row.component)} + {offset})"
 
@@ -52,7 +52,7 @@ class Statements:
         return f"(char *){INSTANCE_POINTER.format(component)}"
 
     def call(self, row: Instruction, kind: str, array: str) -> str:
-        """The call of an FMI function on a stretch of slots."""
+        """Return the call of an FMI function on a stretch of slots."""
         function = _function(row, f"void *, const uint32_t *, size_t, {kind} *")
         instance = INSTANCE_POINTER.format(row.component)
         return f"status = {function}({instance}, reference + {row.first}, {row.size}, {array} + {row.first});"
@@ -68,7 +68,7 @@ class Statements:
 
 
 def _function(row: Instruction, parameters: str) -> str:
-    """The FMI function of an instruction, by its address."""
+    """Return the FMI function of an instruction, by its address."""
     address = f"instructions[{row.number * codes.COLUMNS + codes.ADDRESS}]"
     return f"((int (*)({parameters}))(uintptr_t){address})"
 
@@ -96,7 +96,7 @@ def _take_boolean(to: Statements, row: Instruction) -> list[str]:
 
 
 def _take_whole(to: Statements, row: Instruction) -> list[str]:
-    """The instruction behind it, which calls the FMU, is for numbers beyond 32 bits, which the FMU refuses."""
+    """Check the range for the next instruction, which calls the FMU: it refuses numbers beyond 32 bits."""
     reads = [f"values[{row.first + i}] = (double){to.variable(row, 'int64_t', i)};" for i in range(row.size)]
     fits = " && ".join(
         f"{variable} >= INT32_MIN && {variable} <= INT32_MAX"
@@ -150,7 +150,7 @@ def _add(to: Statements, row: Instruction) -> list[str]:
 
 
 def table_entries(program: arrays.Program, number: int) -> list[tuple[float, float]]:
-    """The mapping of a connection, from and to; an entry from NaN leaves other values as they are."""
+    """Return the mapping of a connection, from and to; an entry from NaN leaves other values as they are."""
     first, count = program.table[number].tolist()
     entries = slice(first, first + count)
     return list(zip(program.table_from[entries].tolist(), program.table_to[entries].tolist(), strict=True))

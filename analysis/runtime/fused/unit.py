@@ -63,7 +63,8 @@ _UNIT_EXPORT int64_t {entry}(const Run *run, int64_t point, int64_t rows, int64_
 
 
 def write_unit(program: arrays.Program, recorded: Iterable[int], components: Mapping[int, ComponentCode]) -> str:
-    """The unit of a ``program`` of which these slots are recorded, with the code of components by their number."""
+    """Write the unit of a ``program`` of which these slots are recorded, with the code of components by their
+    number."""
     kinds = {code.prefix: code for code in components.values()}
     headers = {"<math.h>", "<stdint.h>", "<string.h>", *(header for kind in kinds.values() for header in kind.headers)}
     statements = Statements(program, {component: code.prefix for component, code in components.items()})
@@ -100,7 +101,7 @@ def write_unit(program: arrays.Program, recorded: Iterable[int], components: Map
 
 
 def _instances(program: arrays.Program, components: Mapping[int, ComponentCode]) -> list[str]:
-    """The instances that instructions name: of a component whose code is here with its type."""
+    """Declare the instances that instructions name: of a component whose code is present with its type."""
     first: dict[int, int] = {}
     for number, row in enumerate(program.instructions.tolist()):
         if row[codes.INSTANCE]:

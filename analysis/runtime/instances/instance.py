@@ -26,14 +26,14 @@ STATUSES = ("OK", "warning", "discard", "error", "fatal", "pending")
 
 
 def status_word(status: int) -> str:
-    """An fmi2Status as text, also one that FMI does not have."""
+    """Return an fmi2Status as text, also one that FMI does not have."""
     return STATUSES[status] if 0 <= status < len(STATUSES) else f"{status}, a status that FMI does not have"
 
 
 class Log:
     """Writes the messages of a simulation's FMUs as they come, those of a ``level`` of `LOG_LEVELS` and graver.
 
-    At most MOST_MESSAGES of each component. ``place`` is put before each line: in a batch the trial. ``emit`` is given
+    At most MOST_MESSAGES of each component. ``place`` is put before each line: in a batch the trial. ``emit`` receives
     the lines instead of standard error.
     """
 
@@ -46,7 +46,7 @@ class Log:
 
     @property
     def everything(self) -> bool:
-        """Whether FMUs are asked for all of their categories."""
+        """True if FMUs log all of their categories."""
         return self.level == LOG_LEVELS[-1]
 
     def follow(self, clock: Callable[[], float]) -> None:
@@ -72,7 +72,7 @@ class Log:
         self._counts = {}
 
     def write_line(self, line: str) -> None:
-        """A message in words, to standard error."""
+        """Write a message in words to standard error."""
         sys.stderr.write(f"log: {self.place}{line}\n")
         sys.stderr.flush()
 
@@ -105,7 +105,7 @@ class Instance:
 
     @property
     def messages(self) -> list[str]:
-        """What the FMU has said since the flight began."""
+        """Messages of the FMU since the flight began."""
         return [_text(message) for message in self.said]
 
     def function_addresses(self) -> list[int]:
@@ -113,7 +113,7 @@ class Instance:
         return self.library.addresses
 
     def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
-        """The address of values that lie side by side in this instance's memory, in order.
+        """Return the address of values that are contiguous in this instance's memory, in order.
 
         ``references`` are uint32 value references, ``kind`` their type, one of PLACED. They may be read or, if they are
         ``to_set``, written there between steps. 0 where they lie otherwise, or the FMU does not say.
@@ -123,7 +123,7 @@ class Instance:
         return self.library.place(self.address, references.ctypes.data, references.size, PLACED[kind], to_set) or 0
 
     def state(self) -> object:
-        """The FMU's state, to be freed with `free_state`."""
+        """Return the FMU's state, to be freed with `free_state`."""
         slave = self.slave
         return slave.getFMUState() if isinstance(slave, Fmi3Slave) else slave.getFMUstate()
 
@@ -141,7 +141,7 @@ class Instance:
         return bytes(call(state))
 
     def deserialize(self, serialized: bytes) -> object:
-        """A state of its own, to be freed too."""
+        """Return a separate state, to be freed too."""
         slave = self.slave
         return (slave.deserializeFMUState if isinstance(slave, Fmi3Slave) else slave.deSerializeFMUstate)(serialized)
 
@@ -172,7 +172,7 @@ Listener = Callable[[int, str, str], None]  # fmi2Status, category, message
 
 
 class _Heard(list[bytes]):
-    """Messages as they come from an FMU, and who else is to have them."""
+    """Messages as they arrive from an FMU, with a further listener."""
 
     listener: Listener | None = None
 
@@ -213,10 +213,10 @@ def _make_callbacks() -> fmi2.fmi2CallbackFunctions:
 
 
 def _make_formatting_callbacks() -> fmi2.fmi2CallbackFunctions:
-    """Messages are formats of printf (FMI 2.0), whose arguments may be missing.
+    """Return callbacks for messages that are formats of printf (FMI 2.0), whose arguments may be missing.
 
-    FMPy's library that fills them in has one logger in a process, the last one that it was given: FMPy's own is given
-    to it wherever FMPy simulates.
+    FMPy's library that fills them in has one logger in a process, the last one set: FMPy sets its own wherever it
+    simulates.
     """
     callbacks = _make_callbacks()
     addLoggerProxy(ctypes.byref(callbacks))
@@ -236,9 +236,9 @@ def leave_messages_unformatted() -> None:
 
 
 def instantiate(fmu: Fmu, name: str, log: Log | None = None, *, uses_events: bool = False) -> Instance:
-    """Instantiate an FMU; ``name`` is the component's, made unique in the process. ``log`` has all that it says.
+    """Instantiate an FMU; ``name`` is the component's, made unique in the process. ``log`` receives its messages.
 
-    ``uses_events``: it is flown with FMI 3.0's event mode, which it has.
+    ``uses_events``: FMI 3.0's event mode is used, which it has.
     """
     if fmu.is_alone:
         with LOADING:

@@ -49,7 +49,7 @@ LOADING = threading.RLock()
 
 
 class Library:
-    """What the instances of one unpacked FMU share, since fmpy takes milliseconds to load it for each."""
+    """Library shared by the instances of one unpacked FMU, since fmpy takes milliseconds to load it for each."""
 
     def __init__(self, fmu: Fmu) -> None:
         self._restore = _nothing if fmu.is_self_contained else load_library().perilune_restore_floats
@@ -88,7 +88,7 @@ def _nothing() -> None:
 
 
 def _place(dll: ctypes.CDLL) -> Callable[..., int | None] | None:
-    """The function of our own native FMUs that says where variables lie; None where there is none."""
+    """Return the function of our own native FMUs that locates variables; None where there is none."""
     try:
         function = dll.perilune_place
     except AttributeError:
@@ -102,7 +102,7 @@ _libraries: dict[Path, Library] = {}  # by the folder that the FMU is unpacked i
 
 
 def acquire(fmu: Fmu) -> Library:
-    """The library of an FMU, loaded if need be; give it back with `release`. fmpy raises bare Exception."""
+    """Return the library of an FMU, loaded if need be; give it back with `release`. fmpy raises bare Exception."""
     with LOADING:
         if fmu.folder not in _libraries:
             _libraries[fmu.folder] = Library(fmu)

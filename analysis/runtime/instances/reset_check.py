@@ -135,7 +135,7 @@ def _words(error: FMICallException) -> str:
 
 
 def _is_fatal(error: FMICallException) -> bool:
-    """True if no instance of the FMU may be used any more (FMI 2.0, fmi2Fatal)."""
+    """Return True if no instance of the FMU may be used any more (FMI 2.0, fmi2Fatal)."""
     return not 0 <= error.status < fmi2.fmi2Fatal
 
 
@@ -169,7 +169,7 @@ def _changes(fmu: Fmu) -> list[dict[str, Number]]:
 
 
 def _other(variable: Variable) -> Number | None:
-    """A value near the start, within the declared bounds; None where there is no other."""
+    """Return a value near the start, within the declared bounds; None where there is no other."""
     start = declared(variable)
     if start is None:
         return None

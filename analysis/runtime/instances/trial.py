@@ -47,7 +47,7 @@ def step(instance: Instance, time: float, size: float) -> bool:
 
 
 def read(instance: Instance, causality: str) -> bytes:
-    """The values of variables, type by type; of those that cannot be read, that they cannot."""
+    """Read the values of variables, type by type; of unreadable ones the failure."""
     groups: dict[str, list[Variable]] = {}
     for variable in instance.fmu.variables.values():
         if variable.causality == causality and variable.type in KINDS:
@@ -71,7 +71,7 @@ def _read(instance: Instance, call: str, group: list[Variable]) -> bytes:
 
 
 def _names(group: list[Variable]) -> set[int]:
-    """The elements of one variable, which an alias may name a second time."""
+    """Return the elements of one variable, which an alias may name a second time."""
     return {each.index for each in group}
 
 
@@ -91,7 +91,7 @@ def _set(instance: Instance, changes: Mapping[str, Number]) -> None:
 
 
 def declared(variable: Variable) -> Number | None:
-    """A variable's start; None where there is none."""
+    """Return a variable's start; None where there is none."""
     if variable.start is None:
         return None
     if variable.type == "Boolean":

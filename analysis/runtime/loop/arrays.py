@@ -45,7 +45,7 @@ class Settings(NamedTuple):
 
 
 class Span(NamedTuple):
-    """Part of a run that is simulated. Times in s."""
+    """Simulated range of a run. Times in s."""
 
     reset: bool  # whether the FMUs have flown before
     start: float
@@ -79,7 +79,7 @@ class Group(NamedTuple):
 
 
 class Texts(NamedTuple):
-    """Strings that are exchanged: t places of so many bytes."""
+    """Exchanged Strings: t texts with their sizes in bytes."""
 
     reference: np.ndarray  # uint32 [t], value references
     initial: np.ndarray  # uint8 [t, bytes], before anything is exchanged
@@ -131,7 +131,7 @@ class Buffers(NamedTuple):
 
 
 def stored(slots: int) -> StoredValues:
-    """Room for so many slots."""
+    """Allocate ``slots`` slots."""
     whole = np.zeros((2, slots), dtype=np.uint64)
     return StoredValues(whole[0], whole[1], np.zeros(8, dtype=np.uint8), np.zeros(2))
 

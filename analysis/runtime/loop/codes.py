@@ -1,6 +1,7 @@
-"""Instructions of the loop and endings of a run: the numbers of `c/codes.h` and `c/run.h`, compared at load.
+"""Codes of the loop's instructions and of the endings of a run: the numbers of `c/codes.h` and `c/run.h`, compared at
+load.
 
-A system becomes a list of instructions (`instructions.py`): one part that initialises, one part that is repeated every
+A system becomes a list of instructions (`instructions.py`): one section that initialises, one that is repeated every
 communication step. The loop knows nothing of algorithms; their order is in the list.
 """
 

@@ -22,7 +22,7 @@ class Elementary:
         self._name = name
 
     def __call__(self, *arguments: Any) -> Any:
-        """The values, an array or a double."""
+        """Return the values, an array or a double."""
         doubles = np.broadcast_arrays(*(np.asarray(argument, dtype=float) for argument in arguments))
         columns = [np.ascontiguousarray(column) for column in doubles]
         values = np.empty(doubles[0].shape)
@@ -34,5 +34,5 @@ class Elementary:
 
 @cache
 def elementary(name: str) -> Elementary:
-    """The function of that name."""
+    """Return the function of that name."""
     return Elementary(name)

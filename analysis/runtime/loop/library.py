@@ -34,7 +34,7 @@ FOLDER = "loop"  # of a build, a folder for each platform
 
 @cache
 def load_library() -> ctypes.CDLL:
-    """The library; it is compiled where none was built of this C. Functions release the interpreter lock.
+    """Load the library; it is compiled where none was built of this C. Functions release the interpreter lock.
 
     Raises InputError where none was built and there is no compiler, or one that does not work.
     """
@@ -73,7 +73,7 @@ def built_file(build: Path, platform: str) -> Path:
 
 
 def sources() -> dict[str, bytes]:
-    """The C of the library by the names of files."""
+    """Return the C of the library by the names of files."""
     from .write_elementary import write_elementary  # imports the translator
 
     written = (file for file in _files() if not file.name.endswith(".py"))
@@ -81,7 +81,7 @@ def sources() -> dict[str, bytes]:
 
 
 def _files() -> list[Traversable]:
-    """The files that the library is made of: C, and Python that is translated."""
+    """List the sources of the library: C, and Python that is translated."""
     written = (file for file in files(__package__).joinpath("c").iterdir() if file.name.endswith((".c", ".h")))
     translated = (file for file in files(elementary.__name__).iterdir() if file.name.endswith(".py"))
     return sorted([*written, *translated, KERNEL_MATH], key=lambda file: file.name)

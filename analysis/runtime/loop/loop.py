@@ -11,7 +11,7 @@ from .structures import Filled
 
 
 class Loop:
-    """The loop of a simulation; ``under_way`` is locked while a run goes on, also one that has been given up.
+    """The loop of a simulation; ``under_way`` is locked during a run, also one that has been given up.
 
     Where FMUs are not ``self_contained`` the floating-point environment is the default after each call, whatever ended
     it.
@@ -33,7 +33,7 @@ class Loop:
             return rows
 
     def fly_group(self, run: arrays.Run, flights: arrays.Group) -> int:
-        """A group of runs from their start; returns how many have been simulated."""
+        """Simulate a group of runs from their start; return the number of simulated ones."""
         with self.under_way:
             self._run.fill(run)
             group = Filled("Group")

@@ -80,7 +80,7 @@ def _address(array: np.ndarray, dtype: Any, path: str) -> int:
 
 @cache
 def structures() -> dict[str, Any]:
-    """The ctypes.Structure of each structure of the header; ``members`` describes its members in order."""
+    """Return the ctypes.Structure of each structure of the header; ``members`` describes its members in order."""
     known: dict[str, Any] = {}
     for body, name in STRUCTURE.findall(read_header("run.h")):
         rows = list(_members(body, known))
@@ -91,7 +91,7 @@ def structures() -> dict[str, Any]:
 
 
 def _members(body: str, known: dict[str, Any]) -> Iterator[tuple[Member, Any]]:
-    """The members of a structure, with their ctypes."""
+    """Yield the members of a structure, with their ctypes."""
     arrays: set[str] = set()
     for kind, pointer, name in MEMBER.findall(body):
         if pointer:
@@ -106,10 +106,10 @@ def _members(body: str, known: dict[str, Any]) -> Iterator[tuple[Member, Any]]:
 
 
 def enumerators(header: str) -> dict[str, int]:
-    """The constants of a header's enumerations by name."""
+    """Return the constants of a header's enumerations by name."""
     return {name: int(number) for name, number in ENUMERATOR.findall(read_header(header))}
 
 
 def read_header(name: str) -> str:
-    """The text of a header."""
+    """Return the text of a header."""
     return files(__package__).joinpath("c", name).read_text(encoding="utf-8")

@@ -45,7 +45,7 @@ class Watchdog:
         self.start()
 
     def start(self) -> None:
-        """Begin the time anew."""
+        """Restart the timer."""
         self._state, self._since = self._measure(), time.monotonic()
 
     def has_expired(self) -> bool:
@@ -154,7 +154,7 @@ class Connection:
             self._write(content.decode(errors="replace"))
 
     def _next_frame(self) -> tuple[bytes, bytes]:
-        """Wait for a frame. Raises EOFError if the child has ended or is given up."""
+        """Wait for a frame. Raises EOFError if the child has ended or has been given up."""
         channel = self._child.channel
         while True:
             is_ready = bool(select.select([channel], [], [], POLL_PERIOD)[0])

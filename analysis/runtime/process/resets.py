@@ -48,8 +48,8 @@ class TrialWatch:
 def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, ResetVerdict]:
     """Return the verdicts on FMUs that are not self-contained, by their SHA-256.
 
-    An FMU that cannot be tried has a process for each simulation; where the ``watch`` is given up, that is no verdict
-    for other simulations.
+    An FMU that cannot be tried has a process for each simulation; an abandoned ``watch`` yields no verdict for other
+    simulations.
     """
     verdicts = {}
     for fmu in prepared.network.fmus.values():

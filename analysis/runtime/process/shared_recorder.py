@@ -94,7 +94,7 @@ def make_recorder(signals: int, rows: int) -> SharedRecorder:
 
 
 def open_recorder(signals: int, rows: int, files: Sequence[int], name: str = "") -> SharedRecorder:
-    """Return the recorder that another process has made."""
+    """Open the recorder of another process."""
     size = _size_of(signals, rows)
     if sys.platform == "win32":
         memory = mmap.mmap(-1, size, tagname=name)

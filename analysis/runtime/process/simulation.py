@@ -196,7 +196,7 @@ class ProcessSimulation(BaseSimulation):
         return ProcessMemory(self)
 
     def close(self) -> None:
-        """Free the instances, and end the child; at once, where it is simulating for a thread that has given up."""
+        """Free the instances and end the child; at once, where it still simulates for an abandoned thread."""
         if self.recorder.phase[0] == Phase.IDLE and not self._announced:
             self._free()
         else:

@@ -118,7 +118,7 @@ class SystemProcess:
         self.connection.send(messages.StoreVerdicts(dict(verdicts)))
 
     def send(self, scenario: Scenario, after: int, *, is_halted: bool) -> int:
-        """Send a scenario to be simulated after that of recorder ``after``; return the number of its own recorder.
+        """Send a scenario to be simulated after that of recorder ``after``; return the number of its recorder.
 
         The child is sent values and faults only where they differ from those that it has.
         """

@@ -31,13 +31,14 @@ REFUSALS = (FailedError, NonFiniteError, FMICallException)
 
 
 class Component(ABC):
-    """One instance of an FMU, whose modes are its own affair: a loop calls these methods in the order of this file.
+    """One instance of an FMU, which manages its modes: a loop calls these methods in the order of this file.
 
     Other masters have such an interface, too: libcosim's `algorithm` calls a `slave` by it, Ecos a `model_instance`.
 
     `initialise` once; `set` and `get` in initialisation mode; `settle` once; then `set`, `step` and `get` of every
     step. Mappings are the caller's: a component keeps none, and returns a new one. A call that the FMU refuses raises
-    FMPy's FMICallException, behind which no method is called. Who makes a component terminates and frees its instance.
+    FMPy's FMICallException, after which no method is called. The creator of a component terminates and frees its
+    instance.
     """
 
     @abstractmethod

@@ -17,7 +17,7 @@ from ..system.schedule import origin
 class Roles:
     """Uses of the variables of a component; arrays of FMI 3.0 have all elements in one of these.
 
-    ``given`` are inputs, and parameters that change in flight; ``outputs`` also what is connected like one;
+    Fields: ``given`` are inputs, and parameters that change in flight; ``outputs`` also what is connected like one;
     ``recorded`` what else is read. ``uses_events``: FMI 3.0's event mode, of an FMU that has it and a discrete input.
     """
 
@@ -88,7 +88,8 @@ class Exchange:
         return Roles(given, outputs, recorded, has_events and discrete)
 
     def _is_changing(self, component: str, variable: Variable) -> bool:
-        """True of what changes by itself, and not as an element of an array that is given as a whole."""
+        """Return True for a variable that changes by itself, and not as an element of an array that is set as a
+        whole."""
         return f"{component}.{variable.name}" in (self._tuned if variable.is_tunable else self._changing)
 
     def _is_fetched(self, variable: Variable, names: Collection[str]) -> bool:

@@ -21,7 +21,7 @@ class Start:
     """A variable, with all elements of an array, and the values that it is set to before initialisation mode.
 
     ``is_structural``: in configuration mode; ``is_repeated``: in initialisation mode again, since there are FMUs that
-    lose what they were given before; ``is_read_back``: compared behind it.
+    lose values set before; ``is_read_back``: compared after it.
     """
 
     variables: Sequence[Variable]
@@ -38,7 +38,7 @@ class Start:
 
 
 def agrees(requested: Sample, stored: Sample) -> bool:
-    """True of equal values, and of Reals that differ by `LOSS` at most or are NaN both."""
+    """Return True for equal values, and for Reals that differ by `LOSS` at most or are NaN both."""
     if not isinstance(requested, float) or not isinstance(stored, float):
         return stored == requested
     both_nan = math.isnan(requested) and math.isnan(stored)
@@ -57,10 +57,10 @@ def start_of(settings: Settings, component: str, variable: Variable) -> Sample:
 
 
 def find_starts(network: Network, settings: Settings, component: str, tuned: Collection[str]) -> list[Start]:
-    """Return what a component is set to before a flight; ``tuned`` names parameters that change in it.
+    """Return the values that a component is set to before a flight; ``tuned`` names parameters that change in it.
 
-    FMI lets inputs and what has initial="exact" be set in initialisation mode; other variables the FMU computes from
-    then on, and an input that is connected is given again.
+    FMI permits setting inputs and variables with initial="exact" in initialisation mode; the FMU computes others from
+    then on, and a connected input is set again.
     """
     fmu = network.fmus[component]
     starts = []

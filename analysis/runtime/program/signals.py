@@ -1,4 +1,4 @@
-"""Values between components, by name: what each is given, what was taken of it, and what is recorded."""
+"""Values between components, by name: inputs and outputs of each, and recorded ones."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Signals:
         self._drive_row = point + 1
 
     def inputs(self, component: str, known: Collection[str] | None = None) -> Samples:
-        """Return what a component is given; where only some are ``known``, other inputs have their start values."""
+        """Return the inputs of a component; where only some are ``known``, others have their start values."""
         return {each.name: self._input(component, each, known) for each in self._exchange.roles[component].given}
 
     def outputs(self, component: str, *, settled: bool) -> list[str]:
@@ -68,7 +68,7 @@ class Signals:
             self.values[name] = self._faults.apply(name, sample, self.time)
 
     def record(self, *, carries: bool = False) -> None:
-        """Add a row, where it ``carries`` with connected inputs of this time, which are not given."""
+        """Add a row; one that ``carries`` has connected inputs of this time, which are not set."""
         for component, roles in self._exchange.roles.items() if carries else ():
             for each in roles.given:
                 if f"{component}.{each.name}" in self._network.driver:
@@ -92,7 +92,7 @@ class Signals:
         return self.values[name]
 
     def _all_known(self, links: Iterable[Link], known: Collection[str] | None) -> bool:
-        """True if the values of connections come from known components, or from outside."""
+        """Return True if the values of connections come from known components, or from outside."""
         if known is None:
             return True
         origins = [origin(self._network, link).component for link in links]

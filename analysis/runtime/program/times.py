@@ -12,5 +12,5 @@ def tolerance_of(begin: float, end: float) -> float:
 
 
 def is_within(time: float, begin: float, end: float) -> bool:
-    """True of a time (s) in a step, up to rounding; not of NaN."""
+    """Return True for a time (s) in a step, up to rounding; not for NaN."""
     return begin - tolerance_of(begin, end) <= time <= end + tolerance_of(begin, end)

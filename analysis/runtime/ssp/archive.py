@@ -52,7 +52,7 @@ class SystemArchive:
 
     @property
     def is_fmu(self) -> bool:
-        """Whether it is an FMU alone, which no SSD describes."""
+        """True if it is an FMU alone, which no SSD describes."""
         return names_fmu(self.path) and self.path.is_file()
 
     def label_of(self, name: str) -> str:
@@ -71,16 +71,17 @@ class SystemArchive:
         return self._content(self._place(name), element)
 
     def _place(self, source: str) -> str:
-        """The archive name that a source means: a URI, so that %20 is a space unless a file has it in its name."""
+        """Return the archive name of a source: a URI, so that %20 is a space unless a file has it in its name."""
         name = posixpath.normpath(source)
         return name if self.has(name) else posixpath.normpath(unquote(source))
 
     def has(self, name: str) -> bool:
-        """Whether there is a file of this archive name."""
+        """Return True if there is a file of this archive name."""
         return name in self.files or (self._inside(name) and names_file(self.path / name))
 
     def _inside(self, name: str) -> bool:
-        """Whether a name may be that of a file in the system's folder, or near it, beyond those of `system_files`."""
+        """Return True if a name may be that of a file in the system's folder, or near it,
+        beyond those of `system_files`."""
         return self.path.is_dir() and (not _leaves(name) or (self.known_digest is None and _goes_up(name)))
 
     def note(self) -> str | None:
@@ -105,10 +106,10 @@ class SystemArchive:
         return content if isinstance(content, bytes) else read_input(content, OTHER, bound_of(name))
 
     def fmu(self, source: str, element: str, flavour: str | None) -> tuple[Callable[[], bytes], str]:
-        """Return what reads an FMU's content, and its name in messages.
+        """Return a reader of an FMU's content, and its name in messages.
 
-        A folder that lacks the FMU takes one of this repository, of the working folder, or of the one that it lies in,
-        in the order of `find_fmu`; without a ``flavour`` one of either.
+        A folder that lacks the FMU takes one of this repository, of the working folder, or of its parent folder, in the
+        order of `find_fmu`; without a ``flavour`` one of either.
         """
         if self.is_fmu:
             return read_fmu(self.path), self.label
@@ -139,7 +140,7 @@ class SystemArchive:
             raise InputError(self.label, element, problem, "prepare the campaign again, with all of its files")
 
     def is_own_file(self, source: str) -> bool:
-        """Whether a source is a file of the system, not one of those that `fmu` finds elsewhere."""
+        """Return True if a source is a file of the system, not one of those that `fmu` finds elsewhere."""
         return self.is_fmu or self.has(self._place(source))
 
     def variants(self) -> list[str]:
@@ -159,21 +160,21 @@ class SystemArchive:
         return name
 
     def parameter_set(self, name: str) -> tuple[bytes, str]:
-        """A parameter set by name: the system's own, else a path."""
+        """Return a parameter set by name: the system's own, else a path."""
         return self._find_named(name, (f"resources/{name}", name, f"resources/{name}.ssv"), "`parameters`", ".ssv")
 
     def campaign(self, name: str) -> tuple[bytes, str]:
-        """A campaign by name: the system's own, else a path."""
+        """Return a campaign by name: the system's own, else a path."""
         places = (self.campaign_path(name), self.campaign_path(f"{name}.toml"))
         return self._find_named(name, places, "`campaign`", ".toml")
 
     @staticmethod
     def campaign_path(name: str) -> str:
-        """The path inside an archive of a campaign's file."""
+        """Return the path inside an archive of a campaign's file."""
         return f"{CAMPAIGN_FOLDER}/{name}"
 
     def campaign_names(self) -> list[str]:
-        """The system's own campaigns; files in folders below theirs are parts that campaigns extend."""
+        """Return the system's own campaigns; files in folders below theirs are fragments that campaigns extend."""
         files = (PurePosixPath(name) for name in self.files)
         return [file.stem for file in files if file.suffix == ".toml" and str(file.parent) == CAMPAIGN_FOLDER]
 
@@ -220,27 +221,27 @@ def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix:
 
 
 def read_fmu(path: Path) -> Callable[[], bytes]:
-    """What reads an FMU's file. It raises InputError."""
+    """Return a reader of an FMU's file. It raises InputError."""
     return partial(read_input, path, OTHER, ARCHIVE_BYTES)
 
 
 def fmu_asked(source: str) -> str:
-    """How `SystemArchive.elsewhere` names the FMU of a component's source."""
+    """Return the key of `SystemArchive.elsewhere` for the FMU of a component's source."""
     return f"source:{source}"
 
 
 def use_asked(name: str) -> str:
-    """How it names an FMU that options put into a slot."""
+    """Return its key for an FMU that options put into a slot."""
     return f"use:{name}"
 
 
 def parameters_asked(name: str) -> str:
-    """How it names a parameter set."""
+    """Return its key for a parameter set."""
     return f"parameters:{name}"
 
 
 def open_system(system: str | Path) -> SystemArchive:
-    """A system by name under ssp_systems, by folder or by .ssp file; an .fmu is one of a single component."""
+    """Open a system by name under ssp_systems, by folder or by .ssp file; an .fmu is one of a single component."""
     text = str(system)
     if (SYSTEMS / text).is_dir() and "/" not in text and text not in ("", ".", ".."):
         return _folder(SYSTEMS / text)
@@ -273,12 +274,12 @@ def system_names() -> list[str]:
 
 
 def _leaves(name: str) -> bool:
-    """Whether a normalised name leads out of the folder that it starts from."""
+    """Return True if a normalised name leads out of the folder that it starts from."""
     return name.startswith(("/", "..")) or ":" in name.partition("/")[0]
 
 
 def _goes_up(name: str) -> bool:
-    """True if a normalised name leads by .. to a file of another folder, from the folder that it starts from."""
+    """Return True if a normalised name leads by .. to a file of another folder, from the folder that it starts from."""
     inside = list(itertools.dropwhile("..".__eq__, name.split("/")))
     return name.startswith("../") and bool(inside) and ":" not in inside[0]
 

@@ -1,4 +1,4 @@
-"""What happens to a value on its way: conversion between units, as FMI and SSP define them; SSP's transformations."""
+"""Changes of a value on its way: conversion between units, as FMI and SSP define them; SSP's transformations."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Unit:
     is_relative: bool = False
 
     def differs_from(self, other: Unit) -> str:
-        """The name, and what the unit is made of where the other has the same: ``N.m (kg m2 s-2)``."""
+        """Return the name, with the base units where the other has the same name: ``N.m (kg m2 s-2)``."""
         if self.name != other.name:
             return self.name
         if self.exponents is None:
@@ -40,13 +40,13 @@ class Unit:
         return f"{self.name} ({' '.join([*factor, *parts])}{offset})"
 
     def fits(self, other: Unit) -> bool:
-        """Whether values can be converted; rad counts as dimensionless where the other has none (FMI 2.0)."""
+        """Return True if values can be converted; rad counts as dimensionless where the other has none (FMI 2.0)."""
         if self.exponents is None or other.exponents is None:
             return self.name == other.name
         return self.exponents[:-1] == other.exponents[:-1]
 
     def is_same(self, other: Unit) -> bool:
-        """Whether both mean one unit, by what they are made of; by their names where nobody says that of one."""
+        """Return True if both are one unit, by their base units; by their names where these are unknown."""
         if self.exponents is None or other.exponents is None:
             return self.name == other.name
         return self.exponents == other.exponents and self.conversion_to(other) == (1.0, 0.0)
@@ -116,7 +116,7 @@ class Transformation:
     is_partial: bool = False
 
     def after_units(self, conversion: tuple[float, float]) -> Transformation:
-        """The same with a unit conversion before it, as SSP orders them."""
+        """Return the same with a unit conversion before it, as SSP orders them."""
         factor, offset = conversion
         return replace(self, factor=self.factor * factor, offset=self.factor * offset + self.offset)
 
@@ -131,7 +131,7 @@ VALUE_TYPES = {
 
 
 def read_transformation(element: etree._Element) -> Transformation:
-    """The transformation inside a Connection or MappingEntry; the identity if there is none."""
+    """Read the transformation inside a Connection or MappingEntry; the identity if there is none."""
     for item in element:
         name = tag(item)
         if name == "LinearTransformation":

@@ -1,4 +1,4 @@
-"""What a SystemStructureDescription says, as plain values: elements, connectors, connections, bindings."""
+"""Content of a SystemStructureDescription, as plain values: elements, connectors, connections, bindings."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Connector:
     array: str = ""
 
     def at(self, name: str) -> str:
-        """Where it is declared, by the name that it has in the flat network."""
+        """Return its name in the flat network, with the line of its declaration."""
         return f"{name} (line {self.line})" if self.line else name
 
 
@@ -41,7 +41,7 @@ Point = tuple[str | None, str]  # element, None for the system itself, and conne
 class Connection:
     """``added`` are further sources, whose values are added to that of ``start``: outputs of components, as that is.
 
-    ``start_indices`` and ``end_indices`` name one element of an array, or the part of it that they begin; without any
+    ``start_indices`` and ``end_indices`` name one element of an array, or the sub-array that they begin; without any
     the whole is meant.
     """
 
@@ -77,7 +77,7 @@ class Binding:
 
 @dataclass
 class Element:
-    """What all elements of a system have."""
+    """Fields of all elements of a system."""
 
     name: str
     connectors: dict[str, Connector]
@@ -137,9 +137,9 @@ HERE = ("localhost", "127.0.0.1")
 
 
 def source_file(source: str) -> str:
-    """The file that a component's source names.
+    """Return the file that a component's source names.
 
-    libcosim, Ecos and Vico fly ``proxyfmu://localhost?file=x.fmu`` in a process of its own, which is x.fmu with the
+    libcosim, Ecos and Vico simulate ``proxyfmu://localhost?file=x.fmu`` in another process, which is x.fmu with the
     same values; on another machine it is none of the system's files, and stays as it is.
     """
     if source.startswith(PROXY):
@@ -150,5 +150,5 @@ def source_file(source: str) -> str:
 
 
 def is_elsewhere(source: str) -> bool:
-    """Whether a source is none of the system's files but an address, as of fmu-proxy://."""
+    """Return True if a source is none of the system's files but an address, as of fmu-proxy://."""
     return "://" in source and not source.startswith("file://")

@@ -28,7 +28,8 @@ class Dimension:
 
 
 def read_dimensions(element: etree._Element, file: str, name: str, *, fixed: bool = False) -> tuple[Dimension, ...]:
-    """The dimensions of a connector or parameter, none of a scalar; ``fixed``: each needs a size. Raises InputError."""
+    """Read the dimensions of a connector or parameter, none of a scalar; ``fixed``: each needs
+    a size. Raises InputError."""
     dimensions = []
     for dimension in children(element, "ssc:Dimension"):
         size, connector = dimension.get("size"), dimension.get("sizeConnector")
@@ -44,22 +45,23 @@ def read_dimensions(element: etree._Element, file: str, name: str, *, fixed: boo
 
 
 def indices(shape: Shape) -> list[Shape]:
-    """The indices of all elements, row by row; of a scalar the empty one."""
+    """Return the indices of all elements, row by row; of a scalar the empty one."""
     return list(itertools.product(*(range(1, size + 1) for size in shape)))
 
 
 def element_name(array: str, index: Shape) -> str:
-    """The name of an element; of a scalar its own name."""
+    """Return the name of an element; of a scalar its own name."""
     return f"{array}[{','.join(map(str, index))}]" if index else array
 
 
 def element_names(array: str, shape: Shape) -> list[str]:
-    """The names of all elements of an array, row by row."""
+    """Return the names of all elements of an array, row by row."""
     return [element_name(array, index) for index in indices(shape)]
 
 
 def array_shapes(names: Iterable[str]) -> dict[str, Shape]:
-    """The arrays among names of elements: those of which every element is there, in the order of their first ones."""
+    """Return the arrays among names of elements: those of which every element is there, in the
+    order of their first ones."""
     known = dict.fromkeys(names)
     arrays: dict[str, list[Shape]] = {}
     for name in known:
@@ -76,7 +78,7 @@ def array_shapes(names: Iterable[str]) -> dict[str, Shape]:
 
 
 def text_of(shape: Shape) -> str:
-    """A shape as messages have it: `a scalar`, `3 elements`, `2 x 3 elements`."""
+    """Return a shape as messages have it: `a scalar`, `3 elements`, `2 x 3 elements`."""
     if not shape:
         return "a scalar"
     return f"{' x '.join(map(str, shape))} element{'' if shape == (1,) else 's'}"

@@ -22,7 +22,7 @@ STANDARD = "http://ssp-standard.org/"
 
 @cache
 def schema_folder(version: str) -> Path:
-    """The folder of the schemas of an SSP version."""
+    """Return the folder of the schemas of an SSP version."""
     if version == "1.0":
         return Path(fmpy.__file__).parent / "ssp" / "schema"
     package = importlib.util.find_spec("pyssp_standard")
@@ -32,7 +32,7 @@ def schema_folder(version: str) -> Path:
 
 
 def version_of(root: etree._Element, file: str) -> str:
-    """The SSP version of a document, or of one inside another; raises InputError for one that is not read."""
+    """Return the SSP version of a document, or of one inside another; raises InputError for one that is not read."""
     version = root.get("version", "")
     if not root.tag.startswith(f"{{{STANDARD}"):
         return VERSIONS[0]  # what is no SSP at all is the schema's to say
@@ -87,7 +87,8 @@ MOST_VIOLATIONS = 100  # of which lxml looks for the place, each time among all 
 
 
 def check_violations(schema: etree.XMLSchema, document: bytes, file: str) -> bool:
-    """Whether a document, which is well-formed, violates a schema; raises InputError for very many violations."""
+    """Return True if a document, which is well-formed, violates a schema; raises InputError for very many
+    violations."""
     parser = _parser(schema)
     try:
         etree.fromstring(document, parser)
@@ -118,14 +119,14 @@ def check_schema(element: etree._Element, kind: str, file: str) -> None:
 
 
 def read_document(data: bytes, kind: str, file: str) -> etree._Element:
-    """Root element of a valid SSP document of the given kind."""
+    """Return the root element of a valid SSP document of a kind."""
     root = parse_xml(data, file)
     check_schema(root, kind, file)
     return root
 
 
 def signatures(root: etree._Element) -> list[str]:
-    """A note on each signature in a document (SSP 2.0): nobody here verifies what it vouches for."""
+    """Return a note on each signature in a document (SSP 2.0): no signature is verified."""
     return [
         f"Signature (line {element.sourceline}): {element.get('role')}, {element.get('type')}: not verified"
         for element in root.iter(f"{{{NAMESPACES['ssc']}}}Signature")
@@ -133,7 +134,7 @@ def signatures(root: etree._Element) -> list[str]:
 
 
 def child(element: etree._Element, name: str) -> etree._Element | None:
-    """The first child with a prefixed name such as ``ssd:Connectors``."""
+    """Return the first child with a prefixed name such as ``ssd:Connectors``."""
     return element.find(name, NAMESPACES)
 
 

@@ -30,7 +30,7 @@ class Pace:
 
 
 def pace_of_experiment(experiment: etree._Element | None, file: str) -> Pace:
-    """What the default experiment says; raises InputError."""
+    """Read the pace of the default experiment; raises InputError."""
     for kind, item in _read_annotation(experiment):
         if kind == OURS and tag(item) == "CommunicationStep":
             return Pace(_seconds(item, ("size",), file))
@@ -40,7 +40,7 @@ def pace_of_experiment(experiment: etree._Element | None, file: str) -> Pace:
 
 
 def pace_of_system(system: etree._Element, file: str) -> Pace:
-    """What a system says of itself, inner systems apart; raises InputError."""
+    """Read the pace of a system, inner systems apart; raises InputError."""
     for kind, item in _read_annotation(system):
         if kind == OMSIMULATOR or kind in OSP:
             if tag(item) == "FixedStepMaster":
@@ -51,7 +51,7 @@ def pace_of_system(system: etree._Element, file: str) -> Pace:
 
 
 def step_of_component(component: etree._Element, file: str) -> float | None:
-    """The step (s) that a component is to be made with, where it is not the system's; raises InputError."""
+    """Return the step (s) that a component requests, where it is not the system's; raises InputError."""
     for kind, item in _read_annotation(component):
         if kind in OSP and tag(item) == "StepSizeHint":
             return step_hint(item, "value", f"{tag(item)} (line {item.sourceline})", file)

@@ -1,4 +1,4 @@
-"""What a modelDescription.xml must have for its FMU to be simulated; other rules of FMI that it breaks are flaws."""
+"""Conditions on a modelDescription.xml for its FMU to be simulated; other violations of FMI are flaws."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ INDICES = {"ModelStructure/*/Unknown": ("index", "dependencies"), f"{VARIABLE}/R
 
 
 def check_description(root: etree._Element, label: str) -> None:
-    """Refuse another version than 2.0, names that are missing or given twice, numbers that are none.
+    """Refuse another version than 2.0, missing and duplicate names, malformed numbers.
 
     Raises InputError, with the FMU's ``label``.
     """
@@ -85,7 +85,7 @@ def check_rules(xml: bytes, version: int, label: str) -> None:
 
 
 def external_state_of(xml: bytes) -> tuple[str, ...]:
-    """The names of a block's external state, which its FMU can neither save nor restore."""
+    """Return the names of a block's external state, which its FMU can neither save nor restore."""
     if b"ExternalState" not in xml:
         return ()
     declared = find_annotation(parse_xml(xml, DESCRIPTION), "ExternalState")
@@ -93,7 +93,7 @@ def external_state_of(xml: bytes) -> tuple[str, ...]:
 
 
 def find_annotation(root: etree._Element, name: str) -> etree._Element | None:
-    """An element of our annotation on an FMU's memory, as FMI 2.0 and FMI 3.0 have them; None without it."""
+    """Return an element of our annotation on an FMU's memory, as FMI 2.0 and FMI 3.0 have them; None without it."""
     if root.get("fmiVersion") == "2.0":
         return root.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/{name}")
     return root.find(f"Annotations/Annotation[@type='{STATE_ANNOTATION}']/{{*}}{name}")

@@ -1,4 +1,4 @@
-"""What a Parameter of a parameter set gives: one value, or in SSP 2.0 those of an array, row by row."""
+"""Values of a Parameter of a parameter set: one value, or in SSP 2.0 those of an array, row by row."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 
 def parse_value(text: str, type_name: str, file: str, element: str) -> ParameterValue:
-    """A value's text as the type says, one of SSP 1.0 or 2.0; raises InputError."""
+    """Parse a value's text by its type, one of SSP 1.0 or 2.0; raises InputError."""
     kind = runtime_type(type_name)
     try:
         if kind == "Real":
@@ -37,7 +37,7 @@ def parse_value(text: str, type_name: str, file: str, element: str) -> Parameter
 
 
 def read_values(parameter: etree._Element, typed: etree._Element, file: str) -> tuple[Shape, list[ParameterValue]]:
-    """The shape of a Parameter, empty for a scalar, and its values; ``typed`` is the element of its type.
+    """Read the shape of a Parameter, empty for a scalar, and its values; ``typed`` is the element of its type.
 
     Lists stand in the attribute ``value`` with spaces between, those of Strings and Enumerations in elements Value.
     Raises InputError.

@@ -24,5 +24,6 @@ ALLOWED: dict[tuple[bool, str], dict[bool, tuple[str, ...]]] = {
 
 
 def leads(kind: str, is_system: bool, target: str, is_target_system: bool) -> bool:
-    """Whether values go from a connector of one kind to one of another, each of the system itself or of an element."""
+    """Return True if values pass from a connector of one kind to one of another, each of the
+    system itself or of an element."""
     return target in ALLOWED.get((is_system, kind), {}).get(is_target_system, ())

@@ -21,18 +21,18 @@ def split_name(name: str, components: Mapping[str, object] | Set[str]) -> tuple[
 
 
 def vectors(names: Iterable[str]) -> list[str]:
-    """The names of vectors among those of elements: ``plant.position`` for ``plant.position[1]``."""
+    """Return the names of vectors among those of elements: ``plant.position`` for ``plant.position[1]``."""
     return list(dict.fromkeys(name.removesuffix("[1]") for name in names if name.endswith("[1]")))
 
 
 def elements(name: str, known: Container[str]) -> list[str]:
-    """The known names that one stands for: its own, or name[1], name[2] ... of a vector, name[1,1], name[1,2] ... of a
-    matrix, row by row; none where it is unknown."""
+    """Return the known names that one stands for: its own, or name[1], name[2] ... of a vector, name[1,1], name[1,2]
+    ... of a matrix, row by row; none where it is unknown."""
     return [name] if name in known else _indexed(f"{name}[", known, MOST_DIMENSIONS)
 
 
 def _indexed(start: str, known: Container[str], dimensions: int) -> list[str]:
-    """The known names that begin so and go on with as many indices, counted from 1, the last one first."""
+    """Return the known names that begin so and continue with as many indices, counted from 1, the last one first."""
     names: list[str] = []
     for index in itertools.count(1):
         if f"{start}{index}]" in known:

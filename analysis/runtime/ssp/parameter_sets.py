@@ -65,7 +65,7 @@ def _flaw(notes: Notes, file: str, where: str, problem: str, effect: str, remedy
 def read_parameter_set(
     root: etree._Element, file: str, notes: Notes = None, units: Mapping[str, Unit] | None = None
 ) -> list[Assignment]:
-    """The values of a ParameterSet element, valid already or not; ``units`` are those of a document around it.
+    """Read the values of a ParameterSet element, valid already or not; ``units`` are those of a document around it.
 
     Raises InputError.
     """
@@ -97,7 +97,7 @@ def read_parameter_set(
 def apply_mapping(
     assignments: list[Assignment], root: etree._Element, file: str, notes: Notes = None
 ) -> list[Assignment]:
-    """The assignments that a ParameterMapping passes on, under their target names. Raises InputError."""
+    """Return the assignments that a ParameterMapping passes on, under their target names. Raises InputError."""
     check_schema(root, "ssm", file)
     by_name: dict[str, list[Assignment]] = {}
     for assignment in assignments:
@@ -129,7 +129,7 @@ def apply_mapping(
 def read_parameter_file(
     data: bytes, file: str, notes: Notes = None, remarks: list[str] | None = None
 ) -> list[Assignment]:
-    """The values of an .ssv document; ``remarks`` gets a line for each signature in it. Raises InputError."""
+    """Read the values of an .ssv document; ``remarks`` gets a line for each signature in it. Raises InputError."""
     root = read_document(data, "ssv", file)
     _remark(remarks, root, file)
     return read_parameter_set(root, file, notes)
@@ -148,10 +148,11 @@ def read_binding(
     notes: Notes = None,
     remarks: list[str] | None = None,
 ) -> tuple[list[Assignment], Sequence[Assignment]]:
-    """The values of a binding of the document ``file`` with ``units``, the prefix put before their names, then mapped.
+    """Read the values of a binding of the document ``file`` with ``units``, the prefix put before their names, then
+    mapped.
 
-    With those that its mapping has no entry for, which are not applied (SSP 1.0, ParameterBindings). ``remarks`` gets
-    a line for each signature in its files. Raises InputError.
+    Return them with those that its mapping has no entry for, which are not applied (SSP 1.0, ParameterBindings).
+    ``remarks`` gets a line for each signature in its files. Raises InputError.
     """
     element = f"ParameterBinding (line {binding.line})"
     if binding.source is not None:

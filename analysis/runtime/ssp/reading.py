@@ -33,14 +33,14 @@ FMU_TYPE = "application/x-fmu-sharedlibrary"
 
 
 def read_description(archive: SystemArchive, variant: str | None = None) -> Description:
-    """The SSD of an archive, the default one or a variant's; raises InputError."""
+    """Read the SSD of an archive, the default one or a variant's; raises InputError."""
     name = archive.description_name(variant)
     data, file = archive.read(name, "SSD"), f"{archive.label}/{name}"
     return read_osp(data, file, archive) if name.endswith(OSP_SUFFIX) else read_ssd(data, file, archive.read)
 
 
 def read_ssd(data: bytes, file: str, load: Load) -> Description:
-    """An SSD; ``load(name, element)`` returns the bytes of a file that it refers to. Raises InputError."""
+    """Read an SSD; ``load(name, element)`` returns the bytes of a file that it refers to. Raises InputError."""
     return Reader(file, load).read(data)
 
 
@@ -57,7 +57,7 @@ class Reader:
         return InputError(self.file, f"{what} (line {element.sourceline})", problem, remedy)
 
     def read(self, data: bytes) -> Description:
-        """The whole document; raises InputError."""
+        """Read the whole document; raises InputError."""
         root = read_document(data, "ssd", self.file)
         check_annotations(root, self.file)
         self.notes += signatures(root)
@@ -155,7 +155,8 @@ class Reader:
         return DictionaryReference(**self.common(element, signals=True), dictionary=element.get("dictionary", ""))
 
     def common(self, element: etree._Element, *, signals: bool = False) -> dict:
-        """What all elements have; ``signals``: the connectors are a dictionary's, which have both directions."""
+        """Read the fields of all elements; ``signals``: the connectors are a dictionary's, which have both
+        directions."""
         connectors: dict[str, Connector] = {}
         for item in children(child(element, "ssd:Connectors"), "ssd:Connector"):
             connector = self.connector(item, signals)

@@ -18,12 +18,12 @@ GENERAL = ("Real", "Integer")  # the only ones of SSP 1.0, whatever an FMU of FM
 
 
 def runtime_type(name: str) -> str:
-    """The type that the runtime computes with, by the name that a document or an FMU has for it."""
+    """Return the type that the runtime computes with, by the name that a document or an FMU has for it."""
     return RUNTIME_TYPES.get(name, name)
 
 
 def is_of_type(stored: str, declared: str) -> bool:
-    """Whether a variable's type is the one that is declared: Real and Integer are said of all of their kind.
+    """Return True if a variable's type is the declared one: Real and Integer stand for all of their kind.
 
     An Enumeration may be declared as Integer, too: its items are numbers, as older FMUs have them.
     """
@@ -32,7 +32,7 @@ def is_of_type(stored: str, declared: str) -> bool:
 
 
 def integer_range(name: str) -> tuple[int, int]:
-    """The smallest and the largest value of an integer type."""
+    """Return the smallest and the largest value of an integer type."""
     exact = "Int32" if name == "Integer" else name
     bits = int(exact.removeprefix("U").removeprefix("Int"))
     return (0, 2**bits - 1) if exact.startswith("U") else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)

@@ -1,1 +1,1 @@
-"""What a system is: its files read, checked and made ready to fly."""
+"""Systems: files read, checked and prepared for simulation."""

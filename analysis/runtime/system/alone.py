@@ -19,7 +19,7 @@ DURATION = 1.0  # s, where the FMU proposes no end; FMPy's, too
 
 
 def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[str]]:
-    """The description of a system of one FMU, and remarks on what was taken where the FMU proposes nothing.
+    """Describe a system of one FMU; return the description and remarks on defaults where the FMU proposes nothing.
 
     Its inputs, outputs and parameters are the component's connectors, start, end and step those of its default
     experiment. Without them the start is 0, the end 1 s later, the step the FMU's internal one or FMPy's

@@ -1,4 +1,4 @@
-"""Which value reaches which parameter or input: bindings, parameter sets, single settings."""
+"""Assignment of values to parameters and inputs: bindings, parameter sets, single settings."""
 
 from __future__ import annotations
 
@@ -61,13 +61,14 @@ def collect_settings(
 
 
 def single_value(name: str, value: SetValue, place: tuple[str, int] | None = None) -> Assignment:
-    """A value that is set by itself, by the command line or at a ``place`` (file, line); of a vector all elements."""
+    """Return a value that is set by itself, by the command line or at a ``place`` (file, line);
+    of a vector all elements."""
     file, line = place or (SINGLE, 0)
     return Assignment(name.strip(), ELEMENTS.join(_texts(value)), TEXT, None, file, line)
 
 
 def _texts(value: object) -> list[str]:
-    """The elements of a value as text: of [1, 2, 3], of 1,2,3 as a text, of one number."""
+    """Return the elements of a value as text: of [1, 2, 3], of 1,2,3 as a text, of one number."""
     if isinstance(value, str):
         return [part.strip() for part in value.strip().removeprefix("[").removesuffix("]").split(ELEMENTS)]
     if isinstance(value, Iterable):
@@ -76,7 +77,7 @@ def _texts(value: object) -> list[str]:
 
 
 def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
-    """A value for a whole vector as one for each of its elements; others as they are. Raises InputError."""
+    """Return a value for a whole vector as one for each of its elements; others as they are. Raises InputError."""
     if assignment.type_name != TEXT:
         return [assignment]
     names = _element_names(network, "", assignment.name)
@@ -91,7 +92,7 @@ def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
 
 
 def _element_names(network: Network, path: str, name: str) -> list[str]:
-    """The elements of an array of a component or of a system, by their names in the flat network; none of a scalar."""
+    """Return the elements of an array of a component or system, by names in the flat network; none of a scalar."""
     system = network.systems[path]
     owner, remainder = split_name(name, system.elements)
     element = system.elements.get(owner)
@@ -117,7 +118,7 @@ def _check_shape(network: Network, path: str, prefix: str, assignment: Assignmen
 def _bound(
     network: Network, settings: Settings, archive: SystemArchive, bindings: list[Binding], place: str, notes: Notes
 ) -> list[Assignment]:
-    """Assignments of parameter bindings in order; ``place`` stands before their names in the flat network."""
+    """Return assignments of parameter bindings in order; ``place`` stands before their names in the flat network."""
     assignments: list[Assignment] = []
     for binding in bindings:
         values, without = read_binding(archive, network.file, binding, network.description.units, notes, network.notes)
@@ -131,7 +132,7 @@ def _bound(
 
 
 def _resolve(network: Network, path: str, name: str) -> Node | tuple[str, str] | None:
-    """What a name means inside a system: a system connector, or (component, variable)."""
+    """Return the target of a name inside a system: a system connector, or (component, variable)."""
     system: System = network.systems[path]
     if name in system.connectors:
         return network.nodes[path + name]
@@ -200,7 +201,7 @@ def _check_driven(network: Network, assignment: Assignment) -> None:
 
 
 def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
-    """The assignment's value as its target needs it: type, unit, transformation."""
+    """Convert the assignment's value as its target needs it: type, unit, transformation."""
     value, given = assignment.value, assignment.type_name
     if type_name == "Binary":
         raise InputError(assignment.file, assignment.where, "a Binary is not set", "connect it with a Binary output")
@@ -244,7 +245,8 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
 
 
 def _mapped(assignment: Assignment, transformation: Transformation, type_name: str, node: Node) -> ParameterValue:
-    """The assignment's value behind a mapping; of an enumeration by its items' numbers where the mapping has these."""
+    """Return the assignment's value after a mapping; of an enumeration by its items' numbers
+    where the mapping has these."""
     given, where = assignment.value, (assignment.file, assignment.where)
     if transformation.kind == "IntegerMappingTransformation" and type_name == "Enumeration":
         type_name, given = "Integer", node.enumeration.get(str(given), given)
@@ -256,7 +258,7 @@ def _mapped(assignment: Assignment, transformation: Transformation, type_name: s
 
 
 def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
-    """A single value, which is a bare number in the variable's unit."""
+    """Parse a single value, which is a bare number in the variable's unit."""
     if type_name in ("Real", "Boolean", *WHOLE) and RANGE in str(assignment.value):
         unit = f", in {node.unit.name}" if node.unit is not None else ""
         remedy = f"give one{unit}; low:high:step, a sweep, is for perilune batch"

@@ -22,7 +22,8 @@ MOST = 6  # FMUs that are named
 
 
 def unfit(slot: str, fmu: str, component: Component, error: InputError) -> InputError:
-    """That an FMU does not fit the slot that the user puts it in; ``error`` is what the description says of it."""
+    """Return the error of an FMU that does not fit the slot that the user puts it in; ``error`` is the
+    description's."""
     fits = list(_fitting(component))
     more = f" and {len(fits) - MOST} more" if len(fits) > MOST else ""
     remedy = f"these do: {', '.join(fits[:MOST])}{more}" if fits else "no FMU here does; build one with its connectors"
@@ -31,13 +32,13 @@ def unfit(slot: str, fmu: str, component: Component, error: InputError) -> Input
 
 
 def missing_fmu(slot: str, fmu: str, component: Component) -> InputError:
-    """That there is no FMU of this name for a slot, with the nearest of those that fit it."""
+    """Return the error of a missing FMU for a slot, with the nearest of those that fit it."""
     remedy = f"of those that fit {slot} {suggestion(fmu, _fitting(component))}; or build your own"
     return InputError("`use`", f"{slot}={fmu}", "no such FMU is built", remedy)
 
 
 def _fitting(component: Component) -> Iterator[str]:
-    """The FMUs that have all connectors of a component, by name."""
+    """Yield the FMUs that have all connectors of a component, by name."""
     wanted = {(connector.name, connector.kind) for connector in component.connectors.values()}
     for name, flavours in fmu_flavours().items():
         path = next((path for path in flavours.values() if path is not None), None)
@@ -64,7 +65,7 @@ def check_shared(network: Network, settings: Settings) -> None:
 
 
 def check_aliases(network: Network) -> None:
-    """Refuse an input of FMI 3.0 that is given by two of its names. Raises InputError."""
+    """Refuse an input of FMI 3.0 that is set by two of its names. Raises InputError."""
     for component, fmu in network.fmus.items():
         given: dict[tuple[int, int], str] = {}
         for name, variable in fmu.variables.items() if fmu.version == 3 else ():
@@ -104,7 +105,7 @@ def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:
 
 
 def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: bool = False) -> Variable:
-    """The variable of a component's connector, ``component.connector``, whose value can be changed on its way.
+    """Return the variable of a component's connector, ``component.connector``, that can be changed in flight.
 
     These are outputs, and inputs that something is connected to or a series drives; with ``tunable`` such parameters,
     too. ``where`` (file, element) is what errors point to. Raises InputError.

@@ -15,7 +15,7 @@ OPTIONS = ("`feedthrough`", "`no_feedthrough`")
 
 
 class Origin(StrEnum):
-    """Where a component's direct dependencies come from."""
+    """Source of a component's direct dependencies."""
 
     FMU = "declared by the FMU"
     SSD = "as the SSD says"
@@ -42,7 +42,7 @@ class Feedthrough:
     cuts: tuple[str, ...] = ()
 
     def notes(self, network: Network, algorithm: str) -> list[str]:
-        """What is assumed, a line for each component, and where loops through them are cut."""
+        """Return the assumptions, a line for each component, and where loops through them are cut."""
         assumed = self.undeclared if algorithm == "sequential" else ()
         return [
             *(f"{name}: FMU {network.fmus[name].name}{ASSUMED}" for name in assumed),
@@ -57,7 +57,7 @@ ASSUMED = (
 
 
 def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *, is_alone: bool) -> Feedthrough:
-    """The direct dependencies of every component, and which of them are assumed.
+    """Find the direct dependencies of every component, and which of them are assumed.
 
     A user's option overrides the SSD's annotation, which applies to the FMU that the SSD names and not to one that
     replaces it (``use``); both override the FMU. An FMU alone (``is_alone``) is given the inputs of t_n for the step to
@@ -102,7 +102,7 @@ def _read_locals(network: Network, component: str) -> set[str]:
 
 
 def _is_driven(network: Network, component: str) -> bool:
-    """Whether an input of a component is given values during the flight."""
+    """Return True if an input of a component is driven during the flight."""
     prefix = f"{component}."
     return any(link.target.component == component and not link.is_parameter for link in network.driver.values()) or any(
         name.startswith(prefix) and not network.fmus[component].variables[name.removeprefix(prefix)].is_tunable
@@ -124,7 +124,7 @@ def _check(components: Collection[str], options: SystemOptions, *, is_alone: boo
 
 
 def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, set[str]]:
-    """The same without the loops through undeclared dependencies at the start, and the inputs that lost theirs.
+    """Cut the loops through undeclared dependencies at the start; return the inputs that lost theirs, too.
 
     A loop is cut at the first of its undeclared components in the order of the SSD: the input there keeps its start
     value, and what it drives directly is settled without it.
@@ -146,7 +146,7 @@ def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, 
 
 
 def _reaches_itself(network: Network, name: str, direct: Dependencies, readers: dict[str, list[str]]) -> bool:
-    """Whether the value of an input comes back to it in the same communication point."""
+    """Return True if the value of an input returns to it in the same communication point."""
     seen: set[str] = set()
     queue = [name]
     while queue:

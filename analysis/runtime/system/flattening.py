@@ -70,7 +70,7 @@ def _add(network: Network, node: Node) -> None:
 
 
 def _unit(network: Network, name: str, fmu: Fmu | None, connector: Connector) -> Unit | None:
-    """The unit that a connector, by its flat name, declares: one of the SSD, or of the FMU behind it."""
+    """Return the unit that a connector, by its flat name, declares: one of the SSD, or of its FMU."""
     unit = connector.unit
     if unit is None:
         return None
@@ -87,7 +87,7 @@ def _plain_node(network: Network, name: str, connector: Connector) -> Node:
 
 
 def _component_node(network: Network, component: str, connector: Connector) -> Node:
-    """A component's connector, checked against the variable of its FMU."""
+    """Return the node of a component's connector, checked against the variable of its FMU."""
     fmu = network.fmus[component]
     name = f"{component}.{connector.name}"
     variable = fmu.variables.get(connector.name)
@@ -127,7 +127,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
 
 
 def _end(network: Network, path: str, system: System, point: Point, connection: Connection) -> Node:
-    """The node that one end of a connection names."""
+    """Return the node that one end of a connection names."""
     element_name, connector_name = point
     owner: Element = system
     prefix = path
@@ -150,7 +150,7 @@ def _end(network: Network, path: str, system: System, point: Point, connection: 
 
 
 def _signal(network: Network, path: str, reference: DictionaryReference, signal: str, where: str) -> Node:
-    """The node of a dictionary's signal; the dictionary is the nearest of its name above the reference."""
+    """Return the node of a dictionary's signal; the dictionary is the nearest of its name above the reference."""
     level = path
     while True:
         system = network.systems[level]
@@ -209,7 +209,7 @@ def orient(
 
 
 def _link(network: Network, path: str, system: System, connection: Connection) -> Link:
-    """The link from the start of a connection, or from its end, if that is where values come from."""
+    """Return the link from the start of a connection, or from its end, if that is where values come from."""
     (_, start), (_, end) = orient(network, path, system, connection)
     if start.kind == "calculatedParameter" and end.kind == "parameter":
         raise network.refuse(

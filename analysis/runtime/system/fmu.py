@@ -64,7 +64,7 @@ class Fmu:
 
     @property
     def version(self) -> int:
-        """Of FMI, 2 or 3."""
+        """Version of FMI, 2 or 3."""
         return int(self.description.fmiMajorVersion)
 
     @property
@@ -74,17 +74,17 @@ class Fmu:
 
     @property
     def is_alone(self) -> bool:
-        """Whether a process can hold one instance of it only."""
+        """True if a process can hold one instance of it only."""
         return bool(self.description.coSimulation.canBeInstantiatedOnlyOncePerProcess)
 
     @property
     def is_self_contained(self) -> bool:
-        """Whether its reset and its errors leave nothing behind, so that it may fly in this process."""
+        """True if its reset and its errors leave no trace, so that it may be simulated in this process."""
         return self.is_own and not self.external_state
 
     @property
     def is_native(self) -> bool:
-        """Whether it runs without an execution tool such as a Python interpreter."""
+        """True if it runs without an execution tool such as a Python interpreter."""
         return not self.description.coSimulation.needsExecutionTool
 
     @property
@@ -98,7 +98,7 @@ class Fmu:
         return unit if unit is None else replace(unit, is_relative=variable.is_relative)
 
     def with_sizes(self, sizes: Mapping[str, int]) -> Fmu:
-        """The same with other structural parameters, by name: arrays have the elements that follow from them."""
+        """Return the FMU with other structural parameters, by name: arrays have the elements that follow from them."""
         loaded = self.origin or self
         if sizes == self.sizes:
             return self
@@ -108,7 +108,7 @@ class Fmu:
         return replace(loaded, variables=variables, sizes=dict(sizes), origin=loaded)
 
     def read_sources(self) -> dict[str, str]:
-        """The C of one built by Perilune, by file name. Raises InputError where it is damaged."""
+        """Return the C of an FMU built by Perilune, by file name. Raises InputError where it is damaged."""
         archive = open_zip(self.content, self.label)
         files = [name for name in archive.namelist() if name.startswith(SOURCES) and name.endswith((".c", ".h"))]
         return {name.removeprefix(SOURCES): read_entry(archive, name, self.label).decode() for name in files}
@@ -187,7 +187,7 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
 
 @lru_cache(maxsize=MOST_DESCRIPTIONS)
 def _read_description(xml: bytes) -> tuple[ModelDescription | None, tuple[str, ...]]:
-    """What an FMU's modelDescription.xml says, None if unreadable, and the rules that it breaks in saying so.
+    """Read an FMU's modelDescription.xml, None if unreadable, and the rules that it breaks.
 
     It is the most of loading an FMU, and nobody changes what it gives: a system that is prepared again shares it.
     """
@@ -214,20 +214,20 @@ def _completed(description: ModelDescription, xml: bytes) -> ModelDescription:
 
 @lru_cache(maxsize=MOST_DESCRIPTIONS)
 def _read_variables(xml: bytes) -> Mapping[str, Variable]:
-    """The variables of a readable description by name, with the sizes that it declares."""
+    """Return the variables of a readable description by name, with the sizes that it declares."""
     description, _ = _read_description(xml)
     assert description is not None
     return variables_of(description)
 
 
 def _binary(description: ModelDescription) -> str:
-    """The path of its library for this platform, in the FMU."""
+    """Return the path of its library for this platform, in the FMU."""
     platform = fmpy.platform_tuple if description.fmiMajorVersion == 3 else fmpy.platform
     return f"binaries/{platform}/{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
 
 
 def _with_fixed_parameters(xml: bytes) -> bytes:
-    """The description with parameters that vary, as stock pythonfmu writes them, declared fixed.
+    """Return the description with parameters that vary, as stock pythonfmu writes them, declared fixed.
 
     fmpy does not read them otherwise, and they are set before a flight begins only.
     """
@@ -239,7 +239,7 @@ def _with_fixed_parameters(xml: bytes) -> bytes:
 
 
 def _open_zip(xml: bytes) -> io.BytesIO:
-    """A description as fmpy reads it: in an FMU."""
+    """Return a description as fmpy reads it: in an FMU."""
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
         archive.writestr(DESCRIPTION, xml)

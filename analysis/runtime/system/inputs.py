@@ -70,7 +70,7 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
 
 
 def _whole(network: Network, inputs: Sequence[Node], open_inputs: Sequence[Node]) -> list[Node]:
-    """Open inputs without those of array connectors of which another element is connected or given a value.
+    """Return open inputs without those of array connectors of which another element is connected or has a value.
 
     SSP 2.0 cannot declare part of an array: what is left of it keeps the start of its FMU, which is noted.
     """
@@ -84,7 +84,7 @@ def _whole(network: Network, inputs: Sequence[Node], open_inputs: Sequence[Node]
 
 
 def missing_outputs(network: Network) -> list[str]:
-    """A note on a system of whose FMUs none has an output, so that nothing is recorded unless it is named."""
+    """Return a note on a system whose FMUs have no output, so that nothing is recorded unless it is named."""
     if any(variable.causality == "output" for fmu in network.fmus.values() for variable in fmu.variables.values()):
         return []
     return [f"{network.file}: no FMU has an output: name what `run` is to record with `record`"]
@@ -125,7 +125,7 @@ class DrivenInput(TypedDict):
 
 
 class InputFacts(TypedDict, total=False):
-    """What a result depends on of inputs over time, for its provenance."""
+    """Inputs over time in the provenance of a result."""
 
     input: DrivenInput
 
@@ -134,7 +134,7 @@ class InputFacts(TypedDict, total=False):
 class Drive:
     """The inputs that a series drives, by name, and their values: ``table`` [points + 1, inputs].
 
-    Row 0 is what initialisation is given, row n + 1 what communication point n is given.
+    Row 0 is for initialisation, row n + 1 for communication point n.
     """
 
     series: InputSeries
@@ -142,12 +142,12 @@ class Drive:
     table: np.ndarray
 
     def facts(self) -> InputFacts:
-        """What a result depends on here, for its provenance."""
+        """Return the inputs that a result depends on, for its provenance."""
         return {"input": {"file": self.series.file, "sha256": self.series.sha256, "signals": list(self.names)}}
 
 
 def find_driven(network: Network, series: InputSeries, alone: str | None) -> dict[str, str]:
-    """The columns of a series by the inputs that they drive: connectors of the root, ``component.variable``.
+    """Return the columns of a series by the inputs that they drive: connectors of the root, ``component.variable``.
 
     These are inputs that nothing is connected to, and tunable parameters; those of a component that flies ``alone`` go
     by their own names, too. Raises InputError for any other column, and for numbers that its type cannot have.
@@ -211,7 +211,7 @@ def _check_bounds(network: Network, series: InputSeries, column: str, name: str)
 def drive_inputs(
     network: Network, series: InputSeries, driven: dict[str, str], start: float, step: float, steps: int
 ) -> Drive:
-    """The values of ``driven`` inputs, as `find_driven` gives them, at all communication points.
+    """Return the values of ``driven`` inputs, as `find_driven` returns them, at all communication points.
 
     Raises ExcessError where the free memory does not do for them.
     """
@@ -229,7 +229,8 @@ def drive_inputs(
 
 
 def _is_continuous(network: Network, name: str) -> bool:
-    """Whether an input is interpolated: a Real, of an FMU a continuous one; of a system if all are that it leads to."""
+    """Return True if an input is interpolated: a Real, of an FMU a continuous one; of a system
+    if all are that it leads to."""
     for component, fmu in network.fmus.items():
         if name.startswith(f"{component}."):
             variable = fmu.variables.get(name.removeprefix(f"{component}."))
@@ -240,7 +241,8 @@ def _is_continuous(network: Network, name: str) -> bool:
 
 
 def interpolate(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
-    """A continuous input at ``points`` (s), from ``values`` at ``time``, as FMPy's `Input.interpolate` has it.
+    """Interpolate a continuous input at ``points`` (s), from ``values`` at ``time``, as FMPy's `Input.interpolate`
+    does.
 
     Linear in between, the first and the last value outside. Times given twice are an event: ``after_event`` says which
     of its values counts at that time, the last or the first; an event at the first time of all has its first.
@@ -265,9 +267,9 @@ def interpolate(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, aft
 
 
 def hold(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
-    """A discrete input at ``points`` (s), each value held from its time on, as FMPy's `Input.interpolate` has it.
+    """Hold a discrete input at ``points`` (s), each value from its time on, as FMPy's `Input.interpolate` does.
 
-    ``after_event``: whether a value counts at its own time already. At the first time of all the first value does.
+    ``after_event``: a value counts at its own time already. At the first time of all the first value does.
     """
     last = time.size - 1
     right = np.searchsorted(time, points)

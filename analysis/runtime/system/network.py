@@ -57,7 +57,7 @@ class Link:
 
     @property
     def is_parameter(self) -> bool:
-        """Whether its value is passed on before the flight."""
+        """True if its value is passed on before the flight."""
         return self.target.kind in PARAMETERS
 
 
@@ -85,7 +85,7 @@ class Network:
         return self.description.file
 
     def refuse(self, where: str, problem: str, remedy: str) -> InputError:
-        """The error of an element of the description."""
+        """Return the error of an element of the description."""
         return InputError(self.file, where, problem, remedy)
 
     def unit_of(self, signal: str) -> Unit | None:

@@ -25,11 +25,10 @@ LAYERS = ("operating_point", "campaign", "draws", "command_line", "study")
 
 @dataclass(frozen=True)
 class Layer:
-    """What one source asks: ``use`` maps a component to the FMU that takes its place, by block name or path;
+    """Options of one source: ``use`` maps a component to the FMU that takes its place, by block name or path;
     ``parameters`` lists parameter sets; ``set`` maps ``component.variable`` to a value, in SI units, or
     ``component.vector`` to as many as it has elements. ``places`` maps a name of ``set`` to file and line where it is
-    written, if it is.
-    """
+    written, if it is."""
 
     use: Mapping[str, str] = field(default_factory=dict)
     parameters: tuple[str, ...] = ()
@@ -130,7 +129,7 @@ class SystemOptions(Trust, Layer):
         return SystemOptions(**cast(_Keywords, {**vars(self), **changes}))
 
     def among(self, **layers: Layer) -> SystemOptions:
-        """These options, the command line's, with what others ask, by the names of `LAYERS`."""
+        """Merge these options, the command line's, with those of other sources, by the names of `LAYERS`."""
         remaining: dict[str, Layer] = {"command_line": self, **layers}
         ordered = [remaining.pop(name) for name in LAYERS if name in remaining]
         if remaining:
@@ -164,7 +163,7 @@ def trust_of(options: Mapping[str, Any]) -> Trust:
 
 
 def _places(layers: Sequence[Layer]) -> dict[str, tuple[str, int]]:
-    """Where each value comes from that is set last, as far as its layer says."""
+    """Return the origin of each value that is set last, as far as its layer says."""
     last = {name: layer for layer in layers for name in layer.set}
     return {name: layer.places[name] for name, layer in last.items() if name in layer.places}
 

@@ -1,4 +1,4 @@
-"""A system made ready: its files read, its FMUs loaded, everything checked before the first step."""
+"""Prepared systems: files read, FMUs loaded, everything checked before the first step."""
 
 from __future__ import annotations
 
@@ -58,12 +58,12 @@ class PreparedSystem:
 
     @property
     def assumptions(self) -> list[str]:
-        """What was assumed since an FMU does not declare it, each in a line that names the component and its FMU."""
+        """Assumptions where an FMU declares nothing, each in a line that names the component and its FMU."""
         return self.schedule.feedthrough.notes(self.network, self.algorithm)
 
     @property
     def is_self_contained(self) -> bool:
-        """Whether all of its FMUs are; see `Fmu`."""
+        """True if all of its FMUs are self-contained; see `Fmu`."""
         return all(fmu.is_self_contained for fmu in self.network.fmus.values())
 
     @property
@@ -73,7 +73,7 @@ class PreparedSystem:
         return [name for name, fmu in fmus.items() if not fmu.is_self_contained] or list(fmus)
 
     def of_flights(self) -> PreparedSystem:
-        """What flights take of it, and another process can be sent: without documents, and readers of files."""
+        """Return its data for flights, which another process can be sent: without documents, and readers of files."""
         description = self.network.description
         root = System(description.system.name, {}, [], description.system.line)
         network = replace(self.network, description=replace(description, system=root, annotations={}), systems={})
@@ -85,17 +85,17 @@ class PreparedSystem:
 
     @property
     def has_fmi3(self) -> bool:
-        """Whether one of its FMUs is of FMI 3.0."""
+        """True if one of its FMUs is of FMI 3.0."""
         return any(fmu.version == 3 for fmu in self.network.fmus.values())
 
     @property
     def is_alone(self) -> bool:
-        """Whether a process can fly it once at a time only, since an FMU of it allows no second instance."""
+        """True if a process can simulate it once at a time only, since an FMU of it allows no second instance."""
         return any(fmu.is_alone for fmu in self.network.fmus.values())
 
     @property
     def flies_in_threads(self) -> bool:
-        """Whether several threads of a process can fly it side by side, and gain by it."""
+        """True if several threads of a process can simulate it in parallel, and gain by it."""
         return self.is_native and not self.is_alone
 
 

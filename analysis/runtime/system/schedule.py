@@ -62,7 +62,7 @@ def make_schedule(network: Network, feedthrough: Feedthrough, algorithm: str = "
 
 
 def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettled: Collection[str] = ()) -> _Order:
-    """The order that dependencies ask for; inputs in ``unsettled`` wait for nothing.
+    """Return the order that dependencies require; inputs in ``unsettled`` wait for nothing.
 
     ``cuts_any``: where FMUs wait for each other and no connection can be late without a loss, one is late all the same.
     """
@@ -103,7 +103,7 @@ def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettle
 
 
 def _order(followers: Collection[str], edges: Collection[Edge]) -> list[str]:
-    """The followers, each behind those it reads; raises CycleError."""
+    """Return the followers, each after those it reads; raises CycleError."""
     graph: dict[str, set[str]] = {name: set() for name in followers}
     for start, end in edges:
         graph[end.component or ""].add(start.component or "")
@@ -111,7 +111,7 @@ def _order(followers: Collection[str], edges: Collection[Edge]) -> list[str]:
 
 
 def origin(network: Network, link: Link) -> Node:
-    """The component's output, or the undriven connector, that a link's value comes from."""
+    """Return the component's output, or the undriven connector, that a link's value comes from."""
     start = link.source
     while start.component is None and start.name in network.driver:
         start = network.driver[start.name].source
@@ -144,7 +144,7 @@ def _check_loops(network: Network, direct: Dependencies) -> None:
 
 
 def _breakable(cycle: list[str], edges: Collection[Edge], direct: Dependencies) -> Edge | None:
-    """A connection into a component of the cycle on which nothing it sends along the cycle depends."""
+    """Return a connection into a component of the cycle on which none of its outputs along the cycle depends."""
     for position in range(len(cycle) - 1):
         before, here = cycle[position], cycle[position + 1]
         after = cycle[position + 2] if position + 2 < len(cycle) else cycle[1]
@@ -157,5 +157,5 @@ def _breakable(cycle: list[str], edges: Collection[Edge], direct: Dependencies) 
 
 
 def _first(cycle: list[str], edges: Collection[Edge]) -> Edge:
-    """A connection along a cycle."""
+    """Return a connection along a cycle."""
     return next((start, end) for start, end in edges if (start.component, end.component) == (cycle[0], cycle[1]))

@@ -1,4 +1,4 @@
-"""Inputs over time as they are given: a CSV file, a structured array, columns by name."""
+"""Inputs over time: a CSV file, a structured array, columns by name."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class InputSeries:
     lines: Sequence[int] = ()
 
     def place(self, row: int, name: str) -> str:
-        """A number's place, as messages name it."""
+        """Return a number's position, as messages name it."""
         return f"{f'line {self.lines[row]}' if self.lines else f'sample {row}'}, column {name}"
 
 
@@ -49,7 +49,7 @@ Given = str | os.PathLike[str] | npt.NDArray[Any] | Mapping[str, npt.ArrayLike] 
 
 
 def read_series(given: Given) -> InputSeries:
-    """Inputs over time from a CSV file by its path, or from a structured array or columns by name, ``time`` among them.
+    """Read inputs over time from a CSV file by its path, or from a structured array or columns by name with ``time``.
 
     Raises InputError, naming line and column, for what is no table of numbers with a time that never falls.
     """
@@ -110,7 +110,7 @@ def _check_names(file: str, place: str, names: Sequence[str]) -> None:
 
 
 def _number(file: str, line: int, name: str, text: str) -> float:
-    """A cell's number, or what FMPy writes for a Boolean: True is 1, False 0."""
+    """Return a cell's number, or what FMPy writes for a Boolean: True is 1, False 0."""
     try:
         return TRUTHS.get(text.strip().lower(), math.nan) if text.strip().lower() in TRUTHS else float(text)
     except ValueError as error:

@@ -30,7 +30,7 @@ class Retired:
     parameter_set: str | None = None
 
     def assignments(self, component: str) -> Iterator[Assignment]:
-        """The values, for a component that flew the retired FMU."""
+        """Yield the values for a component that used the retired FMU."""
         for name, value in self.values.items():
             yield single_value(f"{component}.{name}", value)
         if self.parameter_set is not None:
@@ -39,7 +39,7 @@ class Retired:
                 yield replace(each, name=f"{component}.{each.name.partition('.')[2]}")
 
     def note(self, component: str, name: str) -> str:
-        """What to write instead."""
+        """Return the replacement to write."""
         values = [f"{component}.{each} = {str(value).lower()}" for each, value in self.values.items()]
         instead = " and ".join([self.block, *values, *filter(None, [self.parameter_set])])
         return f"{component}: {name} is retired and accepted in this release only: use {instead}"
@@ -57,7 +57,8 @@ RETIRED = {
 
 
 def find_retired(name: str, system: Path) -> Retired | None:
-    """What replaces an FMU given by its block's name; None where it is not retired, or the user has one so called."""
+    """Return the replacement of an FMU by its block's name; None where it is not retired, or
+    the user has one so called."""
     retired = RETIRED.get(name)
     if retired is None or find_fmu(name, system=system) is not None:
         return None
@@ -65,10 +66,10 @@ def find_retired(name: str, system: Path) -> Retired | None:
 
 
 def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str, Iterable[str]]) -> list[str]:
-    """A line for each source file that is newer than the FMUs built of it, and for each retired name.
+    """Return a line for each source file that is newer than the FMUs built of it, and for each retired name.
 
-    ``compare`` has for some components the FMUs that take their place in turn. Raises InputError as
-    reading the system does.
+    ``compare`` has for some components the FMUs that take their place in turn. Raises InputError as reading the system
+    does.
     """
     archive = open_system(system)
     if archive.is_fmu:
@@ -90,7 +91,7 @@ def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str
 
 
 def _file(name: str, flavour: str | None, system: Path) -> Path | None:
-    """The FMU that a name means where one is flown."""
+    """Return the FMU file that a name means in a simulation."""
     if names_fmu(name) or Path(name).name != name:
         return Path(name) if Path(name).is_file() else None
     return find_fmu(name, FLAVOURS if flavour is None else (flavour,), system)

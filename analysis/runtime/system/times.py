@@ -96,7 +96,7 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
 
 
 def _read_step(network: Network) -> float | None:
-    """The step (s) that the description gives: the shortest where inner systems have steps of their own."""
+    """Return the step (s) of the description: the shortest where inner systems have steps."""
     inner = [system.step for path, system in network.systems.items() if path and system.step is not None]
     return None if network.description.step is None else min([network.description.step, *inner])
 
@@ -109,7 +109,7 @@ def _shortest_proposal(network: Network) -> float | None:
 
 
 def _step_of_system(network: Network, component: str) -> float | None:
-    """The step (s) of the innermost system around a component that says one."""
+    """Return the step (s) of the innermost system around a component that states one."""
     path = component
     while "." in path:
         path = path[: path.rindex(".")]

@@ -8,7 +8,7 @@ ARRAY = re.compile(r'name="(?P<name>[^"(]*)\((?P<size>[^"]*)\)"(?P<rest>[^>]*>)(
 
 
 def in_version_2(text: str) -> str:
-    """A document of `builders` as SSP 2.0: a connector or parameter ``x(2,3)`` has dimensions of these sizes.
+    """Return a document of `builders` as SSP 2.0: a connector or parameter ``x(2,3)`` has dimensions of these sizes.
 
     A size that is no number names the connector that gives it, `?` leaves it open; parameters have their values with
     commas between.

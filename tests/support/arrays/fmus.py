@@ -103,7 +103,7 @@ def _as_matrix(text: str) -> str:
 
 
 def _with_kind(text: str, causality: str) -> str:
-    """The one output as a calculated parameter, or as a constant of 7."""
+    """Declare the one output as a calculated parameter, or as a constant of 7."""
     text = re.sub(r"<ModelStructure>.*</ModelStructure>", "<ModelStructure/>", text, flags=re.DOTALL)
     if causality == "output":
         text = text.replace('variability="discrete" initial="calculated"', 'variability="constant" initial="exact"')

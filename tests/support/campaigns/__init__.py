@@ -1,1 +1,1 @@
-"""Campaigns in folders: what they leave, who flies them, long ones."""
+"""Campaigns in folders: their files, the processes that simulate them, long ones."""

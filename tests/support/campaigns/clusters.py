@@ -1,4 +1,4 @@
-"""A dask scheduler and workers on this machine, each a process of its own, as on others."""
+"""A dask scheduler and workers on this machine, each a separate process, as on others."""
 
 import json
 import os
@@ -14,14 +14,14 @@ WAIT = 60.0  # s for what has to come
 
 
 def can_hide():
-    """Whether a folder can be hidden from a process: a file system of its own mounted over it."""
+    """Return True if a folder can be hidden from a process: another file system mounted over it."""
     if sys.platform != "linux":
         return False
     return subprocess.run(["unshare", "-rm", "true"], capture_output=True, check=False).returncode == 0
 
 
 class DaskCluster:
-    """A scheduler and workers, each with a folder of its own in ``place``; ``hidden`` is one that they cannot see."""
+    """A scheduler and workers, each with its folder in ``place``; ``hidden`` is one that they cannot see."""
 
     def __init__(self, place, hidden=None):
         self.place = place
@@ -47,7 +47,7 @@ class DaskCluster:
         return process
 
     def worker(self, environment=None, threads=1):
-        """One more worker, watched by dask's nanny, which starts it anew when it is killed."""
+        """Add a worker, watched by dask's nanny, which restarts it when it is killed."""
         options = [self.address, "--nthreads", str(threads), "--local-directory", "."]
         return self._start("worker", options, environment, self._hidden)
 
@@ -75,14 +75,14 @@ class DaskCluster:
 
 
 def with_group(process, number):
-    """A signal for a process and all that it has started."""
+    """Send a signal to a process and all that it has started."""
     with suppress(ProcessLookupError):
         os.killpg(process.pid, number)
 
 
 @contextmanager
 def dask_cluster(place, workers=2, hidden=None):
-    """A `DaskCluster`, whose every process is gone in the end."""
+    """Yield a `DaskCluster` whose every process is gone in the end."""
     cluster = DaskCluster(place, hidden)
     try:
         for _ in range(workers):

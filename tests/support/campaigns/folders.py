@@ -23,13 +23,13 @@ def bytes_of(folder):
 
 
 def started(*words):
-    """A command of perilune in a process of its own."""
+    """Start a command of perilune in another process."""
     line = [sys.executable, "-m", "perilune", *map(str, words)]
     return subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
 def workers_of(process):
-    """The process ids of a command's worker processes."""
+    """Return the process ids of a command's worker processes."""
     collected = []
     for child in psutil.Process(process.pid).children(recursive=True):
         try:
@@ -42,7 +42,7 @@ def workers_of(process):
 
 
 def shards_in(folder):
-    """How many shards lie in a folder."""
+    """Count the shards in a folder."""
     return len(list((Path(folder) / "trials").glob("[0-9]*.parquet")))
 
 

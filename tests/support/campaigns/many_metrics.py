@@ -1,4 +1,4 @@
-"""Folders of campaigns with many metrics, written as a batch writes them and without flying: what `show` is given."""
+"""Folders of campaigns with many metrics for `show`, written as a batch writes them, without simulating."""
 
 import json
 import tomllib
@@ -36,7 +36,8 @@ UNITS = ("m", "rad", "kg", "1")
 
 
 def metric_columns(source: np.random.Generator, trials: int, metrics: int) -> dict[str, np.ndarray]:
-    """Of every kind: normal, over decades, whole numbers, related to the first, with nan and infinite ones."""
+    """Draw metrics of every kind: normal, over decades, whole numbers, related to the first,
+    with nan and infinite ones."""
     first = source.normal(size=trials)
     columns = {}
     for number in range(metrics):

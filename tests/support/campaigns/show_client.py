@@ -18,7 +18,7 @@ PAGE = "the page"
 
 
 def request(service: Service, method: str, path: str, **options: Any) -> Response:
-    """What the guarded application answers; redirects are not followed."""
+    """Return the answer of the guarded application; redirects are not followed."""
 
     async def send() -> Response:
         transport = ASGITransport(make_app(service, AUTHORITY, TOKEN))
@@ -43,5 +43,5 @@ class ShowClient:
         return self.get(f"/campaigns/0/{path}", params={"query": json.dumps(query)})
 
     def numbers(self, *names: str) -> list[int]:
-        """The numbers by which queries call columns."""
+        """Return the numbers by which queries call columns."""
         return [self.names.index(name) for name in names]

@@ -1,4 +1,4 @@
-"""`perilune show` as a process of its own, as a user starts it."""
+"""`perilune show` in another process, as a user starts it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PATIENCE = 60.0  # s
 
 @contextmanager
 def showing(folders: Sequence[Path], *options: str, before: str = "") -> Iterator[tuple[str, subprocess.Popen[str]]]:
-    """The address that it prints, and its process, which is ended by Ctrl-C where it has not ended already.
+    """Yield the printed address and the process, which is ended by Ctrl-C unless it has ended already.
 
     ``before`` are statements that the process begins with.
     """

@@ -12,10 +12,10 @@ HEAD = 'system = "s"\ntrials = {trials}\nseed = {seed}\n[success]\nexpression = 
 
 
 def parse_text(text: str) -> Campaign:
-    """A campaign from the whole text of its file, which errors call test.toml."""
+    """Parse a campaign from the whole text of its file, which errors call test.toml."""
     return parse_campaign(Table(tomllib.loads(text), "test.toml"))
 
 
 def make_campaign(text: str, trials: int = 8, seed: int = 1) -> Campaign:
-    """A campaign from the part of its file below the required keys."""
+    """Parse a campaign from the text of its file below the required keys."""
     return parse_text(HEAD.format(trials=trials, seed=seed) + text)

@@ -16,7 +16,8 @@ STEP = 0.125  # s; its multiples are exact
 
 
 def follow(rows: np.ndarray) -> np.ndarray:
-    """A direct output as FMPy sees it: at the start of the first row's inputs, then of those of the row before."""
+    """Return a direct output as FMPy reads it: at the start of the first row's inputs, then of
+    those of the row before."""
     return np.concatenate([rows[:1], rows[:-1]])
 
 

@@ -33,7 +33,7 @@ def air_disturbance():
 
 
 def jet_health():
-    """The factors are constant."""
+    """Return constant factors."""
     factors = np.array([1.0, 0.5, 0.0, 1.1, 0.9, 1.0])
     return Check(
         truth="closed form",
@@ -46,7 +46,7 @@ def jet_health():
 
 
 def forming_filter():
-    """The matrix exponential, van Loan's covariance of a step's noise and Lyapunov's of the start.
+    """Compute the matrix exponential, van Loan's covariance of a step's noise and Lyapunov's of the start.
 
     Each step takes two numbers, the first for the disturbance, by the lower Cholesky factor.
     """

@@ -28,7 +28,7 @@ def power(matrix, exponent, modulus):
 
 
 def advanced(state, steps):
-    """The exact state ``steps`` numbers later."""
+    """Return the exact state ``steps`` numbers later."""
     one = power(STEP1, steps, P1)
     two = power(STEP2, steps, P2)
     return [sum(one[i][k] * state[k] for k in range(3)) % P1 for i in range(3)] + [
@@ -45,7 +45,7 @@ def exact_numerator(state):
 
 
 class Numbers:
-    """The random numbers of a seed and a stream: arrays of the given shape, in the order of drawing."""
+    """The random numbers of a seed and a stream: arrays of any shape, in the order of drawing."""
 
     def __init__(self, seed, stream):
         self.state = advanced([12345] * 6, seed * 2**127 + stream * 2**76)
@@ -55,7 +55,7 @@ class Numbers:
         return np.array([exact_numerator(self.state) / (P1 + 1) for _ in range(int(np.prod(shape)))]).reshape(shape)
 
     def normal(self, *shape):
-        """Of mean 0 and variance 1."""
+        """Draw numbers of mean 0 and variance 1."""
         pairs = self.uniform(int(np.prod(shape)), 2)
         numbers = [mpmath.sqrt(-2 * mpmath.log(radius)) * mpmath.cospi(2 * angle) for radius, angle in pairs]
         return np.array(numbers, dtype=float).reshape(shape)

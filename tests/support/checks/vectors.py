@@ -4,6 +4,6 @@ import numpy as np
 
 
 def unit(rows):
-    """Of length 1; analytic, so that a complex step passes through it."""
+    """Return rows scaled to length 1; analytic, so that a complex step passes through it."""
     rows = np.asarray(rows)
     return rows / np.sqrt((rows * rows).sum(axis=-1, keepdims=True))

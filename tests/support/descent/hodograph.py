@@ -25,5 +25,5 @@ def integrals(speed, angle, ratio, gravity):
 
 
 def ratio_to_rest(speed, angle, height, gravity):
-    """The ratio with which the turn loses just this height."""
+    """Return the ratio with which the turn loses just this height."""
     return brentq(lambda n: integrals(speed, angle, n, gravity)[0] - height, 1.001, 1e4, xtol=1e-13, rtol=1e-14)

@@ -1,4 +1,4 @@
-"""What tests of the descent laws share: the classes, their states, and flights over a round Moon."""
+"""Shared code of tests of the descent laws: the classes, their states, and flights over a round Moon."""
 
 import numpy as np
 
@@ -28,7 +28,7 @@ MASSES = {id(C1): 940.0, id(C2): 940.0, id(A1): 560.0}
 
 
 def start(guidance_class, leg, **parameters):
-    """A guidance at the start of a leg, its first command made."""
+    """Return a guidance at the start of a leg, after its first command."""
     guidance = guidance_class(
         position=leg.position.tolist(),
         velocity=leg.velocity.tolist(),

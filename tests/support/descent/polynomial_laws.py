@@ -70,7 +70,7 @@ class Leg:
 
 @dataclass(frozen=True)
 class Limits:
-    """Of engine and approach; angles in rad."""
+    """Limits of engine and approach; angles in rad."""
 
     mass: float
     maximum: float = 5099.0

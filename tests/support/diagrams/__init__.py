@@ -1,1 +1,1 @@
-"""Block diagrams: graphs made by hand, and the geometry of what is drawn."""
+"""Block diagrams: hand-written graphs, and the geometry of their drawings."""

@@ -71,7 +71,7 @@ class Drawing:
             self.terminals.setdefault(name, []).append(self._rect(group.find(f"{SVG}rect")))
 
     def labels_of(self, block: str) -> list[tuple[str, Box]]:
-        """The labels inside a block."""
+        """Return the labels inside a block."""
         return [(text, box) for text, box in self.labels if self.blocks[block].holds(box)]
 
     def connections(self) -> list[tuple[str, str]]:
@@ -143,12 +143,12 @@ def assert_readable(drawing: Drawing) -> None:
 
 
 def _is_frame(drawing: Drawing, block: Box) -> bool:
-    """Whether there are blocks inside."""
+    """Return True if there are blocks inside."""
     return any(other != block and block.holds(other) for other in drawing.blocks.values())
 
 
 def _crosses(segment: Box, block: Box) -> bool:
-    """Whether a line has points inside a block; its ends are on the border."""
+    """Return True if a line has points inside a block; its ends are on the border."""
     return (
         segment.left < block.right - EXACT
         and segment.right > block.left + EXACT
@@ -158,7 +158,7 @@ def _crosses(segment: Box, block: Box) -> bool:
 
 
 def _covers(one: Box, other: Box) -> bool:
-    """Whether two lines have more than a point in common."""
+    """Return True if two lines have more than a point in common."""
     if one.left == one.right and other.left == other.right and abs(one.left - other.left) < 1.0:
         return min(one.bottom, other.bottom) - max(one.top, other.top) > EXACT
     if one.top == one.bottom and other.top == other.bottom and abs(one.top - other.top) < 1.0:

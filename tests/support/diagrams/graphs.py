@@ -1,4 +1,4 @@
-"""Graphs of systems made by hand or by hypothesis, without any FMU."""
+"""Graphs of systems, hand-written or by hypothesis, without any FMU."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ MAX_BLOCKS, MAX_PORTS = 7, 4
 
 
 def block_of(name: str, inputs: dict[str, str], outputs: dict[str, str], path: str = "", kind: str = "") -> Block:
-    """A block with scalar ports; the dictionaries are names with units."""
+    """Return a block with scalar ports; the dictionaries are names with units."""
     path = path or name
     block = Block(path, name, kind, f"{name} model")
     add_ports(block, inputs, outputs)
@@ -27,12 +27,12 @@ def add_ports(block: Block, inputs: dict[str, str], outputs: dict[str, str]) -> 
 
 
 def connect(system: Block, source: tuple[str, str], target: tuple[str, str], change: str = "") -> None:
-    """Add an edge between two blocks inside a system, each given with its port."""
+    """Add an edge between two blocks inside a system, each named with its port."""
     join(system, PortKey(source[0], Side.OUT, source[1]), PortKey(target[0], Side.IN, target[1]), change)
 
 
 def join(system: Block, source: PortKey, target: PortKey, change: str = "") -> None:
-    """Add an edge between two ports, of blocks inside a system or of its own."""
+    """Add an edge between two ports, of the system or of blocks inside it."""
     blocks = {block.path: block for block in system.all_blocks()}
     pair = blocks[source.block].ports[source].signals[0], blocks[target.block].ports[target].signals[0]
     sources = [edge.source for edge in system.edges if edge.target._replace(entry=0) == target]
@@ -46,7 +46,7 @@ def join(system: Block, source: PortKey, target: PortKey, change: str = "") -> N
 
 @strategies.composite
 def graphs(draw: strategies.DrawFn) -> Block:
-    """A system of some blocks, one of which may be a system, and any edges, loops of one block included."""
+    """Draw a system of some blocks, one of which may be a system, and any edges, loops of one block included."""
     system = draw(levels(""))
     if system.blocks and draw(strategies.booleans()):
         number = draw(strategies.integers(0, len(system.blocks) - 1))
@@ -66,7 +66,7 @@ def graphs(draw: strategies.DrawFn) -> Block:
 
 @strategies.composite
 def levels(draw: strategies.DrawFn, path: str) -> Block:
-    """A system with connectors, blocks and edges inside, some of several sources."""
+    """Draw a system with connectors, blocks and edges inside, some of several sources."""
     sizes = strategies.integers(0, MAX_PORTS)
     system = Block(path, "any", "system")
     add_ports(system, *({f"{side}{k}": "m" for k in range(draw(sizes))} for side in ("in", "out")))

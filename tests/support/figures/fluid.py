@@ -1,4 +1,4 @@
-"""Where elements of a figure of any width lie at one width of it."""
+"""Positions of elements of a figure of any width, computed at one width."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ TRANSLATE = re.compile(r"translate\(([-\d.]+)(?: ([-\d.]+))?\)")
 
 
 def position(element: Any, area: tuple[float, float]) -> tuple[float, float]:
-    """The place (px) of a text or a mark in axes with this area (px), from its upper left corner."""
+    """Return the position (px) of a text or a mark in axes with this area (px), from its upper left corner."""
     x = y = 0.0
     while element.getparent() is not None:
         shift = TRANSLATE.search(element.get("transform", ""))

@@ -25,7 +25,7 @@ def plot_quantity(
 ) -> None:
     """Draw a line over ``x`` in the look of the index-th series; a lone point as a dot.
 
-    ``quantity`` in ``unit``, [rows]; what is not finite is left out. ``time`` (s) is given where ``x`` is another
+    ``quantity`` in ``unit``, [rows]; what is not finite is left out. ``time`` (s) is needed where ``x`` is another
     quantity; ``style`` is matplotlib's.
     """
     finite = np.where(np.isfinite(quantity), quantity, np.nan)

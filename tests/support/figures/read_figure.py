@@ -23,7 +23,7 @@ from tests.support.figures.unstated import UnstatedError
 
 
 def read_charts(figure: Figure, *, reduced: bool = False) -> list[Chart]:
-    """The charts of a figure that was drawn; ``reduced``: envelopes of their lines.
+    """Read the charts of a drawn figure; ``reduced``: envelopes of their lines.
 
     If one pair of axes is not stated in full, or has bars and bands alone, all are `picture`.
     """
@@ -93,7 +93,7 @@ def _box(axes: Axes) -> tuple[float, float, float, float]:
 
 
 def _label(axes: Axes) -> str:
-    """The label of an abscissa, which of axes that share theirs only one has, or the figure."""
+    """Return the label of an abscissa; of axes that share theirs one alone, or the figure, has it."""
     figure = axes.get_figure(root=True)
     assert figure is not None  # the axes were drawn
     labels = [each.get_xlabel() for each in (axes, *axes.get_shared_x_axes().get_siblings(axes))]

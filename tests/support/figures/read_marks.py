@@ -29,7 +29,7 @@ FINE = 8.0  # points of a curved outline, a pixel of the figure
 
 
 def read_curve(line: Line2D, reduced: bool) -> Curve:
-    """A line over the data; ``reduced``: its envelope."""
+    """Read a line over the data; ``reduced``: its envelope."""
     _check_line(line)
     style = line.get_drawstyle()
     if style not in STEPS:
@@ -62,7 +62,7 @@ def read_curve(line: Line2D, reduced: bool) -> Curve:
 
 
 def read_dots(line: TrialDots) -> Dots:
-    """Marks of trials."""
+    """Read marks of trials."""
     if line.get_marker() not in ("o", "x"):
         raise UnstatedError(f"marker {line.get_marker()}")
     size, cross = line.get_markersize(), line.get_marker() == "x"
@@ -77,7 +77,7 @@ def read_dots(line: TrialDots) -> Dots:
 
 
 def read_rule(axes: Axes, line: Line2D) -> Rule:
-    """A line across the axes."""
+    """Read a line across the axes."""
     _check_line(line)
     upright = line.get_transform() is axes.get_xaxis_transform(which="grid")
     if not upright and line.get_transform() is not axes.get_yaxis_transform(which="grid"):
@@ -97,7 +97,7 @@ def read_rule(axes: Axes, line: Line2D) -> Rule:
 
 
 def read_steps(patch: StepPatch) -> Curve:
-    """The outline of a histogram without a baseline, as a line of steps."""
+    """Read the outline of a histogram without a baseline as a line of steps."""
     values, edges, baseline = patch.get_data()
     if patch.get_fill() or baseline is not None or patch.orientation != "vertical" or patch.get_hatch():
         raise UnstatedError("a filled or hatched histogram")
@@ -109,7 +109,7 @@ def read_steps(patch: StepPatch) -> Curve:
 
 
 def read_areas(axes: Axes, patch: Patch) -> Iterator[Area]:
-    """The fill of a patch, and the strokes around it."""
+    """Read the fill of a patch, and the strokes around it."""
     if type(patch) not in FILLED or patch.get_hatch() or patch.get_path_effects():
         raise UnstatedError(f"{type(patch).__name__}, or its hatches")
     fill: Any = to_rgba(patch.get_facecolor())
@@ -124,7 +124,7 @@ def read_areas(axes: Axes, patch: Patch) -> Iterator[Area]:
 
 
 def read_collection(axes: Axes, collection: Any) -> Iterator[Area]:
-    """The areas between lines, or unbroken strokes."""
+    """Read the areas between lines, or unbroken strokes."""
     kind, edges = type(collection), collection.get_edgecolor()
     if kind not in (FillBetweenPolyCollection, LineCollection) or collection.get_hatch():
         raise UnstatedError(f"{kind.__name__}, or its hatches")
@@ -144,7 +144,7 @@ def read_collection(axes: Axes, collection: Any) -> Iterator[Area]:
 
 
 def numbers_of(sequence: Any) -> np.ndarray:
-    """Data of a line, nan where they are masked."""
+    """Return data of a line, nan where they are masked."""
     return np.ma.filled(np.ma.asarray(sequence, dtype=float), np.nan)
 
 
@@ -187,7 +187,7 @@ def _dashes(artist: Any) -> list[float]:
 
 
 def _polygons(path: Path, transform: Transform, unit: Transform) -> Iterator[np.ndarray]:
-    """The outlines of a path, [points, 2], every point of them; curves as chords, fine in pixels.
+    """Yield the outlines of a path, [points, 2], every point of them; curves as chords, fine in pixels.
 
     `Path.to_polygons` leaves out points that are near to each other in units of the data.
     """
@@ -219,7 +219,7 @@ def _area(points: np.ndarray, of_axes: tuple[bool, bool], colour: Any, stroke: f
 
 
 def _transform_of(axes: Axes, patch: Patch) -> tuple[tuple[bool, bool], Transform]:
-    """True for each coordinate that is a fraction of the axes, and the transform from these units to pixels."""
+    """Return the transform from units of a patch to pixels, and for each coordinate if it is a fraction of the axes."""
     transform = patch.get_data_transform()
     if transform is axes.get_xaxis_transform(which="grid"):
         return (False, True), transform

@@ -16,7 +16,7 @@ OF_AXES = {"data": False, "axes fraction": True}
 
 
 def read_note(axes: Axes, text: Text) -> Note:
-    """A text with its place; a point of the data lies within the axes."""
+    """Read a text with its position; a point of the data is inside the axes."""
     if text.get_rotation() != 0.0 or text.get_path_effects() or getattr(text, "arrow_patch", None) is not None:
         raise UnstatedError("a turned text, or one with an arrow")
     if "\n" in text.get_text() or text.get_fontstyle() != "normal":

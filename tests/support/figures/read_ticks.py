@@ -21,7 +21,7 @@ EDGE = 1e-9  # of the axis, by which a tick at its end may lie beyond
 
 
 def read_axis(axis: FigureAxis, ends: tuple[float, float], label: str) -> Axis:
-    """An axis that was drawn. Raises UnstatedError for ticks that could not be numbered again at another zoom."""
+    """Read a drawn axis. Raises UnstatedError for ticks that could not be numbered again at another zoom."""
     scale = axis.get_scale()
     low, high = sorted(map(float, ends))
     if scale not in ("linear", "log"):
@@ -64,7 +64,7 @@ def _is_turned(ticks: list[Any]) -> bool:
 
 
 def _reads(text: str, at: float, low: float, high: float) -> bool:
-    """True if a text is the number at which it stands."""
+    """Return True if a text is the number at its position."""
     power = POWER.fullmatch(text)
     plain = f"{power[1] or 1}e{power[2].translate(PLAIN)}" if power else text.translate(PLAIN)
     return bool(NUMBER.fullmatch(plain)) and math.isclose(float(plain), at, rel_tol=SAME, abs_tol=SAME * (high - low))

@@ -76,7 +76,7 @@ class Measurements:
 
 
 def measurements(seed=0, scale=1.0):
-    """What the sensors say in one flight, with errors ``scale`` times those specified; 0 is perfect."""
+    """Return the sensors' measurements in one flight, with errors ``scale`` times those specified; 0 is perfect."""
     random = np.random.default_rng(seed)
     k = np.arange(STEPS + 1)
     t = k * STEP

@@ -61,7 +61,7 @@ def seeds(descent, time):
 
 
 def settle(descent, time, count):
-    """The path of ``count`` problems, each expanded about the one before; None where the target is out of reach."""
+    """Solve ``count`` problems, each expanded about the one before; None where the target is out of reach."""
     expansion = seeds(descent, time)
     path = None
     for _ in range(count):
@@ -73,7 +73,7 @@ def settle(descent, time, count):
 
 
 def solve(descent, time, near, log_near):
-    """The best path of a ``time`` (s), expanded about positions and log masses; None where there is no path."""
+    """Return the best path of a ``time`` (s), expanded about positions and log masses; None where there is no path."""
     n = INTERVALS
     acceleration = descent.maximum / descent.mass
     length = np.linalg.norm(descent.position - descent.target)
@@ -159,7 +159,7 @@ A1 = Descent(
 
 
 def approach(random):
-    """A start drawn near the ground: 0.5 to 2.5 km away, 1.4 to 2.4 km above, towards the target and sinking."""
+    """Draw a start near the ground: 0.5 to 2.5 km away, 1.4 to 2.4 km above, towards the target and sinking."""
     azimuth, ground = random.uniform(-np.pi, np.pi), random.uniform(500.0, 2500.0)
     heading = azimuth + np.pi + random.uniform(-0.35, 0.35)
     speed = random.uniform(20.0, 80.0)

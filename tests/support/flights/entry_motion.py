@@ -116,7 +116,7 @@ class Entry:
         )
 
     def fly(self, state, seconds):
-        """The state after a time, by DOP853 at 1e-13."""
+        """Return the state after a time, by DOP853 at 1e-13."""
         return solve_ivp(self.slopes, (0.0, seconds), state, "DOP853", rtol=1e-13, atol=1e-13).y[:, -1]
 
     def read(self, state, time):

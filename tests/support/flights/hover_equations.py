@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 
 def share_of(p):
-    """The paper's k."""
+    """Return the paper's k."""
     return 1.0 - p[2] ** 2 / (0.5 * p[0] ** 2)
 
 

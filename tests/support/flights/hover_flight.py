@@ -14,7 +14,7 @@ H = 0.1
 
 
 def begun(**values):
-    """A block after its first sample, at time 0."""
+    """Return a block after its first sample, at time 0."""
     block = HoverGuidance()
     defaults = {
         "uniform_gravity": GRAVITY,
@@ -31,7 +31,7 @@ def begun(**values):
 
 
 def fly(block, seconds, position=None, velocity=(0.0, 0.0, 0.0), gravity=lambda r: np.array([0.0, 0.0, -GRAVITY])):
-    """A point mass under the block's commands; yields time, position, velocity and mass at every sample."""
+    """Fly a point mass under the block's commands; yield time and state (position, velocity, mass) at every sample."""
     state = np.array([*(START if position is None else position), *velocity, block.mass])
     for n in range(round(seconds / H)):
         thrust, direction, rate = (

@@ -53,7 +53,7 @@ def encoded_law(path_angle: float, altitude: float, saturation: float) -> tuple[
 
 
 def printed_law(path_angle: float, altitude: float, saturation: float) -> tuple[float, float]:
-    """The same from the printed formulas, mistakes included."""
+    """Evaluate the printed formulas, mistakes included."""
 
     def exp(z: float) -> float:
         return math.exp(z) if z <= LARGEST_EXPONENT else saturation

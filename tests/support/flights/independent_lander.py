@@ -68,7 +68,7 @@ def command(position: np.ndarray, velocity: np.ndarray, exact: bool) -> tuple[fl
 def burn(
     state: np.ndarray, duration: float, acceleration: float, direction: np.ndarray, rate: np.ndarray
 ) -> np.ndarray:
-    """The state (position, velocity) ``duration`` (s) after a command, by Runge-Kutta with four slopes."""
+    """Return the state (position, velocity) ``duration`` (s) after a command, by Runge-Kutta with four slopes."""
 
     def slope(since_command: float, y: np.ndarray) -> np.ndarray:
         along = direction + rate * since_command

@@ -19,7 +19,7 @@ VELOCITY = 950.0 * np.array([-math.cos(0.05), 0.0, -math.sin(0.05)])
 
 
 def declared_state(fractions):
-    """A state of the published box from six numbers in [0, 1]."""
+    """Return a state of the published box from six numbers in [0, 1]."""
     u = list(fractions)
     ground = 0.95e5 + 1e4 * u[0]
     azimuth = -math.pi / 4 + math.pi / 2 * u[1]
@@ -61,7 +61,7 @@ def impulse_and_miss(position, velocity, time):
 
 
 def polynomials(position, velocity):
-    """A T, B as polynomials of T, component by component."""
+    """Return A T, B as polynomials of T, component by component."""
     impulses = [Polynomial([0.0, -velocity[i], GRAVITY * UP[i]]) for i in range(3)]
     misses = [Polynomial([TARGET[i] - position[i], -velocity[i], 0.5 * GRAVITY * UP[i]]) for i in range(3)]
     return impulses, misses
@@ -94,7 +94,7 @@ def balance_roots(position, velocity, degree):
 
 
 def modified_time(position, velocity):
-    """Published closed formula, in the method's axes (y up)."""
+    """Evaluate the published closed formula, in the method's axes (y up)."""
     distance = np.linalg.norm(TARGET - position)
     speed = np.linalg.norm(velocity)
     lift = -velocity[2] + 2.0 * GRAVITY * distance / speed

@@ -28,7 +28,7 @@ class Flight:
 
 
 def begin(block, descent, **parameters):
-    """The block at the start of a descent with the limits of that."""
+    """Return the block at the start of a descent with the limits of that."""
     return NamedInstance(
         block,
         target_position=descent.target,
@@ -49,7 +49,7 @@ def begin(block, descent, **parameters):
 
 
 def fly(block, descent, factor=1.0, shifts=(), **parameters):
-    """A point mass in the Moon's central field by Runge and Kutta's method, thrust clipped and times ``factor``.
+    """Fly a point mass in the Moon's central field by Runge and Kutta's method, thrust clipped and times ``factor``.
 
     ``shifts``: pairs of a time (s) and how far (m) position jumps then, as where knowledge is corrected.
     """

@@ -13,7 +13,7 @@ NO_FIRST_ERRORS = {"first_position_sigma": 0.0, "first_velocity_sigma": 0.0}
 
 
 def counts(measurements):
-    """The four counts at every communication point; none of an inertial sample at the start."""
+    """Return the four counts at every communication point; none of an inertial sample at the start."""
     new = (measurements.new_altitude, measurements.new_velocity, measurements.new_position)
     return np.column_stack([np.arange(STEPS + 1), *(np.cumsum(each) for each in new)])
 
@@ -24,7 +24,7 @@ def truth(k):
 
 
 def plain(block_class, measurements, **settings):
-    """The block after its initialisation (k = 0) and after every step k, as generator of (k, block)."""
+    """Yield (k, block) after initialisation (k = 0) and after every step k."""
     block = block_class(position=position(0.0).tolist(), velocity=velocity(0.0).tolist(), **settings)
     counted = counts(measurements).tolist()
     for k in range(STEPS + 1):

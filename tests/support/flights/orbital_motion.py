@@ -27,7 +27,7 @@ def angles_of(matrix):
 
 
 def orbital_from_inertial(time):
-    """The orbital frame turns by -w0 t about its z axis; inertial axes are those of the start."""
+    """Return the rotation of the orbital frame by -w0 t about its z axis; inertial axes are those of the start."""
     return Rotation.from_rotvec([0.0, 0.0, -ORBITAL_RATE * time]).as_matrix().T
 
 

@@ -20,7 +20,7 @@ OBSERVERS = [
 
 
 def block_class(name, kind="navigation"):
-    """The class of a block by its FMU's name."""
+    """Return the class of a block by its FMU's name."""
     module = import_module(f"perilune.fmus_src.{kind}.{name}")
     return getattr(module, "".join(token.capitalize() for token in name.split("_")))
 
@@ -29,7 +29,7 @@ SPLIT = "_split"  # of an observer's name: with split, it follows each pulse
 
 
 class Run:
-    """One observer, given (roll, pitch, rates) at each tick and the pulses before it."""
+    """One observer, with (roll, pitch, rates) as inputs at each tick and the pulses before it."""
 
     def __init__(self, name, sample, pulses=(0.0, 0.0, 0.0), **parameters):
         self.component = Component(block_class(name.removesuffix(SPLIT)))
@@ -50,7 +50,7 @@ class Run:
             self.block.vertical_count = self.block.gyro_count = self.block.gyro_count + 1
 
     def step(self, sample, pulses=(0.0, 0.0, 0.0), new=True):
-        """The next tick; the estimated angles and rates."""
+        """Advance a tick; return the estimated angles and rates."""
         period = self.block.sample_period
         self.give(sample, pulses, new)
         self.component.do_step(self.tick * period, period)

@@ -20,7 +20,7 @@ from perilune.analysis.runtime.system.prepared import PreparedSystem, prepare_sy
 
 
 def prepared_for(system: object, steps: int | None = None, **options: object) -> PreparedSystem:
-    """A system made ready, with so many steps at most."""
+    """Prepare a system, with at most ``steps`` steps."""
     prepared = prepare_system(system, SystemOptions(**options))
     return prepared if steps is None else replace(prepared, steps=min(steps, prepared.steps))
 
@@ -36,7 +36,8 @@ def compare(flight: Flight, rows: Rows) -> None:
 def assert_same(
     prepared: PreparedSystem, faults: Sequence[Fault] = (), wanted: Collection[str] | None = None, flights: int = 2
 ) -> str:
-    """Fly a system both ways, the executor so many times, with its instances reset; return the status."""
+    """Simulate a system by the reference loop, then ``flights`` times by the executor with
+    reset instances; return the status."""
     rows = fly_reference(prepared, faults, wanted)
     with Simulation(prepared, faults=faults, wanted=wanted) as simulation:
         for _ in range(flights):
@@ -46,7 +47,8 @@ def assert_same(
 
 
 def some_faults(prepared: PreparedSystem, seed: str) -> list[Fault]:
-    """Biases and freezes of connected Reals and tunable parameters of a system, in a part of its flight."""
+    """Draw biases and freezes of connected Reals and tunable parameters of a system, during a
+    fraction of the simulation."""
     network, generator = prepared.network, random.Random(seed)
     reals = [
         name

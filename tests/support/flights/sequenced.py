@@ -40,7 +40,7 @@ class Flown:
             setattr(self.block, name, value)
 
     def step(self, count=1, **values):
-        """So many steps with these inputs, answered by the guidances at once unless they say otherwise."""
+        """Step ``count`` times with these inputs, answered by the guidances at once unless they say otherwise."""
         self.answers = values.pop("answers", self.answers)
         self.see(**values)
         for _ in range(count):

@@ -1,4 +1,4 @@
-"""What the tests of the terminal guidances share: classes, commands, flights.
+"""Shared code of tests of the terminal guidances: classes, commands, flights.
 
 `flight` runs plant and guidance in turn, as the co-simulation schedules them. What has no code in common with the
 components is in `linear_thrust`.

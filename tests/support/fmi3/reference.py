@@ -26,7 +26,7 @@ FMI3 = (*FMI2, "StateSpace")
 
 @cache
 def reference_fmu(version: int, name: str) -> Path:
-    """A Reference-FMU of FMI 2 or 3."""
+    """Return a Reference-FMU of FMI 2 or 3."""
     folder = CACHE / "reference_fmus"
     path = folder / f"fmi{version}" / f"{name}.fmu"
     folder.mkdir(parents=True, exist_ok=True)

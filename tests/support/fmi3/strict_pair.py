@@ -24,7 +24,7 @@ WIRES = {
 
 
 def pack_strict_pair(folder: Path, *, stop: float = 2.0, **quirks: int) -> str:
-    """The path of ``folder``/pair.ssp, whose flight ends at ``stop`` (s); ``quirks`` are those of `strict_fmu`."""
+    """Write ``folder``/pair.ssp, whose simulation ends at ``stop`` (s); ``quirks`` are those of `strict_fmu`."""
     strict_fmu(folder, **quirks)
     wires = "".join(connection(f"source.{start}", f"sink.{end}") for start, end in WIRES.items())
     root = system(

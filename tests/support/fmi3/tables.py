@@ -1,4 +1,4 @@
-"""What FMPy records, by the names that Perilune gives it."""
+"""Records of FMPy, by the signal names of Perilune."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import numpy as np
 
 
 def columns(component: str, recorded: np.ndarray) -> dict[str, np.ndarray]:
-    """The numbers of a record of `fmpy.simulate_fmu` by signal, those of arrays by element; Strings are left out."""
+    """Return the numbers of a record of `fmpy.simulate_fmu` by signal, those of arrays by
+    element; Strings are left out."""
     by_name = {}
     for key in recorded.dtype.names or ():
         table = recorded[key]

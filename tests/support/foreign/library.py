@@ -14,7 +14,7 @@ from perilune.fmus_src.export.compilers import FLAGS, compilers_for
 
 @cache
 def library(name: str, macros: tuple[str, ...] = (), sources: Path = Path(__file__).parent) -> bytes:
-    """The shared library of name.c in a folder; ``macros`` are options of the compiler."""
+    """Compile the shared library of name.c in a folder; ``macros`` are options of the compiler."""
     headers = Path(fmpy.__file__).parent / "c-code"
     with tempfile.TemporaryDirectory() as folder:
         target, source = Path(folder) / name, sources / f"{name}.c"

@@ -90,7 +90,7 @@ def odd_fmu(
 
 
 def odd_system(folder: Path, stop: float = 1.0, **quirks: object) -> Path:
-    """An .ssp of one such FMU, its input open at 0.5, with steps of 0.25 s."""
+    """Write an .ssp of one such FMU, its input open at 0.5, with steps of 0.25 s."""
     odd_fmu(folder, **quirks)
     root = system(component("odd", "odd", "output y Real; output tolerance Real; output length Real"))
     return pack(folder / "odd.ssp", folder, document(root, stop=stop))

@@ -6,7 +6,7 @@ HEAD = '<OspSystemStructure xmlns="http://opensimulationplatform.com/MSMI/OSPSys
 
 
 def structure(simulators, connections, functions=""):
-    """A document; ``functions`` are lines between simulators and connections."""
+    """Return a document; ``functions`` are lines between simulators and connections."""
     return (
         f"{HEAD}\n<BaseStepSize>0.125</BaseStepSize>\n<Algorithm>fixedStep</Algorithm>\n<Simulators>\n{simulators}\n</Simulators>\n"
         f"{functions}<Connections>\n{connections}\n</Connections>\n</OspSystemStructure>\n"
@@ -31,7 +31,7 @@ def joined(start, end, kind="Variable"):
 
 
 def groups(**variables):
-    """An OspModelDescription.xml: the variables of each group, in one word."""
+    """Return an OspModelDescription.xml: the variables of each group, in one word."""
     inside = "".join(
         f'<Generic name="{name}">{"".join(f"""<Variable ref="{each}"/>""" for each in names.split())}</Generic>'
         for name, names in variables.items()
@@ -44,7 +44,7 @@ def groups(**variables):
 
 
 def write_osp(folder, tiny_folder, text, fmus="", **others):
-    """A folder as libcosim takes it: FMUs beside the file, or in a folder ``fmus`` from there; and other XML files."""
+    """Write a folder as libcosim takes it: FMUs next to the file, or in its folder ``fmus``; and other XML files."""
     folder.mkdir(parents=True, exist_ok=True)
     fmu_folder = folder / fmus
     fmu_folder.mkdir(parents=True, exist_ok=True)

@@ -11,7 +11,7 @@ ROOT = "output out Real m"
 
 
 def fly_plain(fmus, folder):
-    """The gain's output and the system's own."""
+    """Simulate the gain's output and the system's output."""
     root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
     return fly(pack(folder / "plain.ssp", fmus, document(root)))
 

@@ -1,4 +1,4 @@
-"""One block in Python and in C, given the same random calls and compared to the last bit."""
+"""One block in Python and in C, called with the same random values and compared to the last bit."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def bits(values: list) -> bytes:
 def draw(
     random: Random, variable: Variable, position: int, h: float, before: float | None = None
 ) -> float | int | bool:
-    """A value that the declaration admits: near the one before, the declared start, or spread around zero."""
+    """Draw a value that the declaration admits: near the one before, the declared start, or spread around zero."""
     start = variable.elements[position]
     if isinstance(start, bool):
         return random.random() < 0.5
@@ -75,7 +75,7 @@ def draw(
 
 
 def draw_operation(random: Random, row: int, column: int) -> int:
-    """An entry of a network operator's matrix, one matrix in ten of which is none."""
+    """Draw an entry of a network operator's matrix, one matrix in ten of which is none."""
     if random.random() < 0.1 / SIZE**2:
         return random.choice([4, 22])
     if row == column:
@@ -88,14 +88,15 @@ LEVELS = ("bank_programme", "no_control", "standard_control", "jet_health", "lan
 
 
 def only_switches(block: type[Block]) -> bool:
-    """Whether all that a block computes is Boolean or one of a few levels, so that most rows repeat earlier ones."""
+    """Return True if all outputs of a block are Boolean or one of a few levels, so that most
+    rows repeat earlier ones."""
     return block.fmu_name in LEVELS or all(
         v.type_name == "Boolean" for v in block.variables.values() if not isinstance(v, Parameter | Input)
     )
 
 
 class Pair:
-    """One block in both forms, given the same calls."""
+    """One block in both forms, called alike."""
 
     def __init__(self, block: type[Block], random: Random, native: NativeInstance | None = None) -> None:
         self.block = block
@@ -135,11 +136,11 @@ class Pair:
         assert self.native.set(numbers, values) == OK
 
     def wild_now(self, value: float | int | bool) -> bool:
-        """Whether to replace a value by one that no declaration admits."""
+        """Return True if a value is to be replaced by one that no declaration admits."""
         return isinstance(value, float) and self.random.random() < 0.1
 
     def both(self, plain: object, native: object) -> bool:
-        """Whether both calls succeed; when one faults, the other does so at the same line."""
+        """Return True if both calls succeed; when one faults, the other does so at the same line."""
         before = len(self.native.log)
         error = None
         try:
@@ -177,7 +178,7 @@ class Pair:
         return bits([native[reference] for reference in self.computed])
 
     def begin(self, h: float, start_time: float) -> bool:
-        """A fresh start with drawn parameters and inputs, read twice during initialisation."""
+        """Restart with drawn parameters and inputs, read twice during initialisation."""
         self.native.reset()
         self.plain = Component(self.block)
         self.plain.start_time = start_time
@@ -208,7 +209,7 @@ def elements(block: type[Block]) -> list[tuple[Variable, int]]:
 
 
 def fly(pair: Pair, steps: int) -> tuple[list[bytes], int]:
-    """Flights of random length until so many steps are compared; the rows of all steps, and the flights begun."""
+    """Compare flights of random length for ``steps`` steps; return the rows of all steps, and the number of flights."""
     rows: list[bytes] = []
     flights = 0
     while len(rows) < steps:

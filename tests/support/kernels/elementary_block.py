@@ -1,4 +1,4 @@
-"""A block that calls every elementary function, with arguments of all sizes, drawn by a generator of its own."""
+"""A block that calls every elementary function, with arguments of all sizes from its generator."""
 
 from __future__ import annotations
 
@@ -68,6 +68,6 @@ class ElementaryFunctions(Block):
         self.value[18] = cbrt(wide)
 
     def draw(self) -> float:
-        """A number in (0, 1)."""
+        """Draw a number in (0, 1)."""
         self.seed = math.fmod(FACTOR * self.seed, MODULUS)
         return self.seed / MODULUS

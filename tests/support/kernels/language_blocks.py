@@ -29,7 +29,7 @@ def scale(values: list, factor: float) -> None:
 
 
 def count_down(n: int) -> int:
-    """Steps of the Collatz sequence, at most 40."""
+    """Count steps of the Collatz sequence, at most 40."""
     steps = 0
     while n > 1 and steps < 40:
         if n % 2 == 0:
@@ -49,12 +49,12 @@ def position_of_first_above(values: list, limit: float) -> int:
 
 
 def is_between(value: float, low: float, high: float) -> bool:
-    """Whether low < value < high."""
+    """Return True if low < value < high."""
     return low < value and value < high
 
 
 def spread(values: list) -> float:
-    """Sum of the distances from the mean; a list of its own does not make a function change anything."""
+    """Return the sum of the distances from the mean; a local list does not make a function change anything."""
     distances = [0.0] * len(values)
     mean = 0.0
     for i in range(len(values)):
@@ -65,7 +65,7 @@ def spread(values: list) -> float:
 
 
 class LanguageBase(Block, interface=True):
-    """What the block below inherits and overrides."""
+    """Base class with members that the block below inherits and overrides."""
 
     x = Input(0.0, description="a number")
     k = Input(0, minimum=0, maximum=9, description="an int")
@@ -91,7 +91,7 @@ class Language(LanguageBase):
         return super().combine(a) - 0.5 * self.x
 
     def remember(self, value: float) -> float:
-        """Changes the block and returns what it was."""
+        """Change the block and return its memory before."""
         before = self.memory[0]
         for i in range(3):
             self.memory[i] = self.memory[i + 1]
@@ -140,7 +140,7 @@ class Language(LanguageBase):
         self.n[7] = position_of_first_above(self.memory, self.x)
 
     def lists(self) -> None:
-        """Lists declared in loops and branches, passed on, of several sizes."""
+        """Use lists declared in loops and branches, passed on, of several sizes."""
         total = 0.0
         for i in range(3):
             row = [0.25] * 12
@@ -194,7 +194,7 @@ HALVES = vector(0.5, -2.0)
 
 
 def unit(v: Vector) -> Vector:
-    """A vector of any size divided by the sum of its sizes."""
+    """Return a vector of any size divided by the sum of its sizes."""
     total = 1e-3
     for i in range(len(v)):
         total += abs(v[i])
@@ -236,7 +236,7 @@ class VectorLanguage(Block):
     x_before = State(0.0, description="a number")
 
     def remember(self, v: Vector3) -> tuple[Vector3, float]:
-        """Changes the block and returns what it was."""
+        """Change the block and return its memory before."""
         before = self.kept
         self.kept = v
         return before, dot(before, v)
@@ -247,7 +247,7 @@ class VectorLanguage(Block):
         return -self.scale if k % 2 == 0 else UP
 
     def moved_on(self, place: Vector3, speed: Vector3, time: float) -> tuple[Vector3, Vector3]:
-        """Arguments bound anew, from several values too."""
+        """Bind arguments again, from several values too."""
         while time < 2.0:
             place, speed = self.moved(place, speed, 0.5)
             time = time + 0.75
@@ -419,20 +419,20 @@ class Faults(Block):
 
 
 class Engine(Enumeration):
-    """Of the engine."""
+    """Status of the engine."""
 
     READY = member("cold")
 
 
 class Tank(Enumeration):
-    """Of the tank."""
+    """Status of the tank."""
 
     FULL = member("full")
     READY = member("pressurised")
 
 
 class Valve(Enumeration):
-    """Of the valve."""
+    """Status of the valve."""
 
     SHUT = member("shut")
     OPEN = member("open")

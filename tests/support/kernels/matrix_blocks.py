@@ -26,7 +26,7 @@ AXES = 3
 
 
 def trace(a: Matrix) -> float:
-    """The sum of the diagonal, of any size."""
+    """Return the sum of the diagonal, of any size."""
     total = 0.0
     for i in range(len(a)):
         total = total + a[i, i]
@@ -40,7 +40,7 @@ def symmetric(a: Matrix) -> tuple[Matrix, float]:
 
 
 def turn(a: Matrix, k: int) -> None:
-    """Changes what it is given, reading it elsewhere."""
+    """Change the argument, reading it elsewhere."""
     a[:, :] = a.T
     a[0, :] = a[:, k % 3]
     a[PAIR, PAIR] = a[PAIR, PAIR].T + a[0:2, 0:2]

@@ -40,7 +40,7 @@ class Callbacks(ctypes.Structure):
 
 
 def load(sources: dict[str, bytes], main: str, portable: bool = False) -> ctypes.CDLL:
-    """The library of a C file, compiled through the build cache and loaded from a copy of its own."""
+    """Load the library of a C file, compiled through the build cache, from a separate copy."""
     platform = local_platform()
     assert platform is not None
     text = build_library(sources, main, platform, CACHE, portable=portable)
@@ -51,7 +51,7 @@ def load(sources: dict[str, bytes], main: str, portable: bool = False) -> ctypes
 
 
 def opened(file: Path) -> ctypes.CDLL:
-    """The library of an FMU."""
+    """Load the library of an FMU."""
     dll = ctypes.CDLL(str(file))
     if hasattr(dll, "fmi2Instantiate"):
         dll.fmi2Instantiate.restype = c_void_p
@@ -66,7 +66,7 @@ def library(block_class: type[Block], guid: str = GUID) -> ctypes.CDLL:
 
 @cache
 def built(block_class: type[Block]) -> tuple[ctypes.CDLL, str] | None:
-    """The library of a block's native FMU and its GUID; None where there is none of these sources."""
+    """Return the library of a block's native FMU and its GUID; None where none is built from these sources."""
     name, platform = block_class.fmu_name, local_platform()
     if platform is None or catalogue().get(name) is not block_class or not native_are_current([name]):
         return None

@@ -50,7 +50,7 @@ def link(command: list[str], inputs: list[str], program: Path) -> None:
 def fly(
     block: type[Block], program: list[str], guid: str, steps: int, environment: Mapping[str, str] | None = None
 ) -> str:
-    """What a program of `link` prints."""
+    """Return the output of a program of `link`."""
     variables = block.variables.values()
     kinds = "".join(variable.type_name[0].lower() * variable.size for variable in variables)
     causalities = "".join(variable.causality[0] * variable.size for variable in variables)

@@ -25,7 +25,7 @@ class Pair(Record):
 
 
 class Outcome(Record):
-    """What is no vector space."""
+    """Record that is no vector space."""
 
     motion = Field(Motion)
     count = Field(int, description="how often")
@@ -33,7 +33,7 @@ class Outcome(Record):
 
 
 def mean_of(pair: Pair) -> Motion:
-    """The weighted mean."""
+    """Return the weighted mean."""
     return (1.0 - pair.weight) * pair.first + pair.second * pair.weight
 
 
@@ -46,7 +46,7 @@ def assess(m: Motion, count: int) -> tuple[Outcome, float]:
 
 
 def fall(t: float, height: float, rate: float) -> float:
-    """The rate of a float."""
+    """Return the rate of a float."""
     return -rate * height + t
 
 
@@ -75,7 +75,7 @@ class RecordLanguage(Block):
         return Motion(position=0.1 * force - 0.01 * s.position, heading=rate * turned, mass=-0.001 * s.mass)
 
     def turning(self, t: float, arrow: Vector2) -> Vector2:
-        """The rate of a vector, without inputs."""
+        """Return the rate of a vector, without inputs."""
         return vector(-arrow.y, arrow.x) * self.given / 10.0
 
     def step(self, t: float, h: float) -> None:

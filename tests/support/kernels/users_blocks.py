@@ -51,7 +51,7 @@ class Integrators(Block):
         return Translation(position=s.velocity, velocity=self.gravity(s.position) + cos(t) * thrust)
 
     def acceleration(self, t: float) -> Vector3:
-        """Of the third body (m/s2)."""
+        """Return the acceleration by the third body (m/s2)."""
         return vector(-cos(t), -sin(t), exp(-t))
 
     def step(self, t: float, h: float) -> None:
@@ -64,7 +64,7 @@ class Integrators(Block):
 
 
 class EngineCommand(Bundle):
-    """What an engine is to do."""
+    """Command of an engine."""
 
     thrust = Port(0.0, unit="N", description="thrust")
     direction = Port([0.0, 0.0, 1.0], unit="1", frame="body", description="of thrust")
@@ -86,7 +86,7 @@ class Bundles(Block):
         self.command = self.first
 
     def weaken(self, thrust: float) -> tuple[float, float]:
-        """A thrust over the factor (N), and how long the second direction is."""
+        """Return a thrust over the factor (N), and the length of the second direction."""
         return thrust / self.factor, norm(self.second.direction)
 
     def step(self, t: float, h: float) -> None:
@@ -109,7 +109,7 @@ class Bundles(Block):
 
 
 class Bounded(Block):
-    """Has parameters of all kinds with bounds, and integrates in steps of its own."""
+    """Block with parameters of all kinds with bounds and an internal integration step."""
 
     internal_step = Parameter(0.1, unit="s", minimum=1e-4, description="longest integration step")
     fraction = Parameter(0.5, unit="1", minimum=0.0, maximum=1.0, description="a fraction")

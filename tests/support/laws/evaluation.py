@@ -11,7 +11,7 @@ from perilune.fmus_src.mathlib.network_operator import LARGEST, LOG_LARGEST, bin
 
 
 def evaluate_tree(law: Law, theta: float, altitude_error: float) -> tuple[float, ...]:
-    """What the law's outputs come to, unclipped: thrust angle (rad) and thrust above nominal (kgf).
+    """Evaluate the law's outputs, unclipped: thrust angle (rad) and thrust above nominal (kgf).
 
     ``theta`` is the path angle (rad), ``altitude_error`` is (hf - h)/h0.
     """

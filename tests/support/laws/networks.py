@@ -27,7 +27,7 @@ def matrices(draw, unary=UNARY, binary=(0, 1, 2, 3), most=40):
 
 
 def random_matrix(random):
-    """A matrix of the same kind, from a numpy generator; one to three edges into every node."""
+    """Draw a matrix of the same kind, from a numpy generator; one to three edges into every node."""
     matrix = np.zeros((SIZE, SIZE), dtype=int)
     for node in range(SOURCES, SIZE):
         matrix[node, node] = random.choice([0, 0, 0, 1, 1, 2, 3])

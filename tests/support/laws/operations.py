@@ -44,7 +44,7 @@ FORMULAS = {
 
 
 def saturated(operation, z):
-    """A unary operation for any z, exp saturating at 1e8."""
+    """Apply a unary operation to any z, exp saturating at 1e8."""
     if operation in (5, 7):
         z = np.copysign(max(abs(z), 1 / LARGE), z)
     if operation == 8:
@@ -55,7 +55,7 @@ def saturated(operation, z):
 
 
 def backwards(matrix, sources, unary=saturated):
-    """A function from a node, from 0, to its value: from its predecessors' values, recursively."""
+    """Return a function from a node, from 0, to its value: from its predecessors' values, recursively."""
 
     @cache
     def value_of(node):

@@ -45,5 +45,5 @@ class FormulaEvaluator:
 
 
 def near(theta, d):
-    """The published basic solution without its step, that is one edge, and with other parameters."""
+    """Evaluate the published basic solution without its step, that is one edge, and with other parameters."""
     return 1.25 * (math.pi + theta) + 0.75 * d, -0.5 * theta * math.cos(theta)

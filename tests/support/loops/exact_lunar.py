@@ -39,12 +39,12 @@ class HoverLoop:
 
     @property
     def gradient(self) -> float:
-        """Of gravity along the axis, 1/s2."""
+        """Gravity gradient along the axis, 1/s2."""
         return (2.0 if self.vertical else -1.0) * PARAMETER / RADIUS**3
 
     @property
     def gains(self) -> np.ndarray:
-        """What the guidance asks for per offset (1/s2) and velocity (1/s)."""
+        """Acceleration commanded by the guidance per offset (1/s2) and velocity (1/s)."""
         time, n = self.time_to_go, self.gradient
         ahead = 0.5 * STEP if self.vertical else STEP + ATTITUDE_LAG
         now = np.array([-6.0 / time**2 - n, -4.0 / time])
@@ -84,7 +84,7 @@ class HoverLoop:
 
     @property
     def poles(self) -> np.ndarray:
-        """Of the closed loop in z of one communication step, largest first."""
+        """Poles of the closed loop in z of one communication step, largest first."""
         loop = self.state_space
         poles = np.linalg.eigvals(loop.A - loop.B @ loop.C)
         return poles[np.argsort(-abs(poles))]

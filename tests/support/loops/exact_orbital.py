@@ -1,4 +1,4 @@
-"""The loops of orbital_attitude in closed form: the linear motion about the wanted state, held torque, placed gains.
+"""The loops of orbital_attitude in closed form: the linear motion about the reference state, held torque, placed gains.
 
 Written from Euler's equations by numpy; knows nothing of the FMUs. The estimate is taken for the state, which ideal
 sensors and the right inertia make it.
@@ -16,7 +16,7 @@ WANTED = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -ORBITAL_RATE])
 
 
 def skew(v):
-    """The matrix of v x."""
+    """Return the matrix of v x."""
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
@@ -31,13 +31,13 @@ def motion(x):
 
 
 def linear_motion():
-    """A about the wanted state, by differences."""
+    """Return A about the reference state, by differences."""
     h = 1e-3
     return np.array([(motion(WANTED + h * e) - motion(WANTED - h * e)) / (2.0 * h) for e in np.eye(6)]).T
 
 
 def linear_matrix(inertia):
-    """A about the wanted state, [A11 I; A21 A22] of the docs."""
+    """Return A about the reference state, [A11 I; A21 A22] of the docs."""
     spin, up = WANTED[3:], np.array([0.0, 1.0, 0.0])
     tilt = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
     kinematics = np.array([[0.0, -ORBITAL_RATE, 0.0], [ORBITAL_RATE, 0.0, 0.0], [0.0, 0.0, 0.0]])
@@ -54,7 +54,7 @@ def placed_gain(a):
 
 
 def derivative_system(angle_poles, rate_poles, coupling, tick):
-    """The motion over a tick, the effect of a torque and the gain, of (x, the angular velocity of the tick before).
+    """Return the motion over a tick, the effect of a torque and the gain, of (x, the angular velocity one tick before).
 
     Rates of angles, and w' as a difference over a tick, are fed back.
     """
@@ -77,7 +77,7 @@ def derivative_loop(axis, angle_poles, rate_poles, coupling, tick):
 
 
 def sample_motion(a, driven, tick):
-    """The motion over a tick under a torque that is held."""
+    """Return the motion over a tick under a torque that is held."""
     whole = expm(np.block([[a, driven], [np.zeros((3, 9))]]) * tick)
     return whole[:6, :6], whole[:6, 6:]
 

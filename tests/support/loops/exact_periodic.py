@@ -45,7 +45,7 @@ def description() -> str:
 
 
 def advance(state: np.ndarray, point: int, added: np.ndarray, opened: tuple[int, ...] = ()) -> np.ndarray:
-    """The memory (STATES, n) at a communication point from that at the one before.
+    """Return the memory (STATES, n) at a communication point from that at the one before.
 
     ``added`` (2, n) goes onto the commands; those of the axes in ``opened`` are not fed back.
     """
@@ -63,7 +63,8 @@ def advance(state: np.ndarray, point: int, added: np.ndarray, opened: tuple[int,
 
 
 def hyperperiod(opened: tuple[int, ...] = ()) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The map of six steps from the point before a common sample: memory and samples added to memory, u and v."""
+    """Return the map of six steps from the point before a common sample: memory and samples
+    added to memory, u and v."""
     inputs = sum(SAMPLES)
     state = np.hstack([np.eye(STATES), np.zeros((STATES, inputs))])
     u: list[list[np.ndarray]] = [[], []]
@@ -81,7 +82,7 @@ def hyperperiod(opened: tuple[int, ...] = ()) -> tuple[np.ndarray, np.ndarray, n
 
 
 def exact_model() -> LiftedModel:
-    """The lifted model with a port at each axis' command."""
+    """Return the lifted model with a port at each axis' command."""
     state, u, v = hyperperiod()
     ports = tuple(
         Port(channel, EVERY[axis] * STEP, axis * SAMPLES[0], SAMPLES[axis])

@@ -1,6 +1,6 @@
 """The robot's sampled control loops in closed form: means of samples, Tustin's lead, double integrator, late jets.
 
-Per axis, x being the robot's error from its plan and T the period: at tick k the lead is given the mean y_k of the
+Per axis, x being the robot's error from its plan and T the period: the lead's input at tick k is the mean y_k of the
 samples at kT - T + T/n, ..., kT; the acceleration it asks for acts from kT + d until that of the next tick does:
 
     x(kT + s) = x_k + s v_k + min(s, d) (s - min(s, d)/2) a_(k-1) + max(s - d, 0)^2/2 a_k        0 <= s <= T
@@ -47,7 +47,8 @@ class SampledLoop:
     delay: float
 
     def reach(self, s: float) -> tuple[float, float]:
-        """What the accelerations before and after the change have moved the robot by at ``s`` after the tick, s2."""
+        """Return the displacement by the accelerations before and after the change ``s`` after
+        the tick, per unit (s2)."""
         before = min(s, self.delay)
         after = s - before
         return before * (s - 0.5 * before), 0.5 * after**2
@@ -124,12 +125,12 @@ class SampledLoop:
 
     @cached_property
     def poles(self) -> np.ndarray:
-        """Of the closed loop, in z."""
+        """Poles of the closed loop, in z."""
         a, b, c = self.state_space
         return np.linalg.eigvals(a - np.outer(b, c))
 
     def closed(self, position: float, velocity: float, errors: np.ndarray) -> np.ndarray:
-        """The closed loop from tick 0 on: rows of x, v and y as measured, at every tick.
+        """Simulate the closed loop from tick 0 on: rows of x, v and y as measured, at every tick.
 
         Starts from rest of the lead and without acceleration; the first mean is that of one sample. ``errors`` are
         those of the means of the samples, tick by tick.
@@ -154,7 +155,8 @@ DESIGNS = {8.0: (1.5625e-4, 160.0, 13.3), 4.0: (6.25e-4, 80.0, 6.67)}
 
 
 def translation_loop(period: float) -> SampledLoop:
-    """Translation at a period of 8 or 4 s: samples every second, jets late by a quarter of the period."""
+    """Return the loop of translation at a period of 8 or 4 s: samples every second, jets a
+    quarter of the period late."""
     return SampledLoop(period, *DESIGNS[period], samples=round(period), delay=0.25 * period)
 
 

@@ -16,14 +16,15 @@ FREQUENCY, DAMPING, INTEGRAL_TIME = 0.3, 0.9, 20.0
 
 
 def gains(integral_time):
-    """Of attitude, rate and summed attitude: (s^2 + 2 z w s + w^2)(s + 1/T), without the last factor where T is 0."""
+    """Return gains of attitude, rate and summed attitude: (s^2 + 2 z w s + w^2)(s + 1/T),
+    without the last factor if T is 0."""
     pole = 1.0 / integral_time if integral_time > 0.0 else 0.0
     _, rate, attitude, integral = np.polymul([1.0, 2.0 * DAMPING * FREQUENCY, FREQUENCY**2], [1.0, pole])
     return attitude, rate, integral * TICK
 
 
 def motion():
-    """A and B of (attitude, w, wheel speeds), with the torque wanted of the wheels as input; null motion is closed."""
+    """Return A and B of (attitude, w, wheel speeds), with the demanded wheel torque as input; null motion is closed."""
     locked = INERTIA - SPIN_INERTIA * AXES @ AXES.T
     null = null_space(AXES)[:, 0]
     from_speeds = -FRICTION * np.eye(4) - NULL_GAIN * SPIN_INERTIA * np.outer(null, null)  # torques on the wheels

@@ -18,7 +18,7 @@ from tests.support.loops.sampled_loops import delay, held
 
 
 def with_stability(ssd: str, inside: str) -> str:
-    """The description with an annotation around the elements of Stability, on lines of their own."""
+    """Return the description with an annotation around the elements of Stability, on separate lines."""
     note = (
         '<ssd:Annotations><ssc:Annotation type="org.perilune.stability">\n'
         f'<Stability xmlns="https://perilune.org/stability">\n{inside}\n</Stability>\n'
@@ -57,7 +57,7 @@ class ExactSystem:
 
 
 def held_late(plant: control.StateSpace, period: float, late: float) -> control.StateSpace:
-    """A plant behind a hold whose output acts ``late`` (s) later, less than ``period``.
+    """Return a plant after a hold whose output acts ``late`` (s) later, less than ``period``.
 
     Source: Åström and Wittenmark 1997, Computer-Controlled Systems, section 3.2.
     """
@@ -78,7 +78,7 @@ def difference(proportional: float, derivative: float, period: float) -> control
 
 
 def wires(*names: str) -> str:
-    """Connections around a ring: each name ``component.input.output`` feeds the next one's input."""
+    """Return connections around a ring: each name ``component.input.output`` feeds the next one's input."""
     parts = [name.split(".") for name in names]
     pairs = zip(parts, [*parts[1:], parts[0]], strict=True)
     return "".join(connection(f"{here}.{out}", f"{there}.{into}") for (here, _, out), (there, into, _) in pairs)
@@ -87,7 +87,7 @@ def wires(*names: str) -> str:
 def ring(
     parts: dict[str, tuple[str, str, str, str]], step: float, stop: float, stability: str = "", width: int = 1
 ) -> str:
-    """A description of components in a ring: name -> (fmu, input, output, parameters), vectors of ``width``."""
+    """Describe components in a ring: name -> (fmu, input, output, parameters), vectors of ``width``."""
     marks = [""] if width == 1 else [f"[{index}]" for index in range(1, width + 1)]
     components = [
         component(
@@ -137,7 +137,7 @@ def late_double_integrator(
 
 
 def resonance(every: int = 1, step: float = 0.1) -> ExactSystem:
-    """A resonance behind a low pass, of third order: the gain is above 1 around the resonance only."""
+    """Return a resonance after a low pass, of third order: the gain is above 1 around the resonance only."""
     rate, damping, gain = 2.0, 0.1, 0.5
     keep = 0.5 if every == 1 else 0.7
     period, declared, sampled = sampling(every, step)
@@ -152,7 +152,7 @@ def resonance(every: int = 1, step: float = 0.1) -> ExactSystem:
 
 
 def pendulum(every: int = 1, step: float = 0.05) -> ExactSystem:
-    """An upright pendulum, unstable, over one step of delay."""
+    """Return an upright pendulum, unstable, over one step of delay."""
     rate, kp, kd = 1.2, 4.0, 2.6
     period, declared, sampled = sampling(every, step)
     parts = {
@@ -184,7 +184,7 @@ def coupled_pair(every: int = 1, step: float = 0.1) -> ExactSystem:
 
 
 def relay_loop(relay: Path) -> ExactSystem:
-    """A lead, a relay with dead zone, a delay and a double integrator; a unit gain in the relay's slot.
+    """Return a lead, a relay with dead zone, a delay and a double integrator; a unit gain in the relay's slot.
 
     A flight with ``relay``, an FMU, starts far above the unstable limit cycle; ``loop`` is the linear rest.
     """
@@ -208,7 +208,7 @@ def relay_loop(relay: Path) -> ExactSystem:
 
 
 def end_of_stability(low: float = 1.2, high: float = 2.0) -> float:
-    """The derivative gain (s) from which on the late double integrator is unstable, by python-control."""
+    """Return the derivative gain (s) from which on the late double integrator is unstable, by python-control."""
 
     def largest(gain: float) -> float:
         return np.max(abs(late_double_integrator(derivative=gain).closed)) - 1.0

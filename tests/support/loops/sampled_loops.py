@@ -36,7 +36,7 @@ def nearest_to_circle(system: control.StateSpace, factor: complex = 1.0) -> floa
 
 
 def held(transfer: control.TransferFunction, period: float) -> control.StateSpace:
-    """A continuous plant behind a zero-order hold."""
+    """Return a continuous plant after a zero-order hold."""
     return control.c2d(control.ss(transfer), period, "zoh")
 
 

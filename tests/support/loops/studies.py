@@ -67,13 +67,13 @@ class Studies:
 
 
 def named(exact: ExactSystem, name: str, more: str = "") -> ExactSystem:
-    """The system with its loop called ``name``, and more in its declaration."""
+    """Return the system with its loop called ``name``, and more in its declaration."""
     ssd = exact.ssd.replace('<Loop name="loop"', f'<Loop name="{name}"').replace("</Stability>", f"{more}</Stability>")
     return replace(exact, ssd=ssd)
 
 
 def foreign_system(folder: Path) -> Path:
-    """An integrator in C and a law of stock pythonfmu."""
+    """Write a system of an integrator in C and a law of stock pythonfmu."""
     ends = "input u Real; output y Real"
     wires = connection("law.y", "plant.u") + connection("plant.y", "law.u")
     parts = component("law", "law", ends), component("plant", "integrator", ends)
@@ -82,7 +82,7 @@ def foreign_system(folder: Path) -> Path:
 
 
 def campaign(folder: Path, low: float, high: float) -> str:
-    """A campaign that draws the derivative gain (s) of the late double integrator."""
+    """Write a campaign that draws the derivative gain (s) of the late double integrator."""
     path = folder / f"derivative_{low:g}_{high:g}.toml"
     path.write_text(CAMPAIGN.format(low=low, high=high))
     return str(path)
@@ -111,7 +111,7 @@ def keep_studies(folder: Path, fmus: Path) -> None:
 
 
 def kept_studies(folder: Path) -> Studies:
-    """What `keep_studies` kept there."""
+    """Return the studies stored there by `keep_studies`."""
     collected = pickle.loads((folder / KEPT).read_bytes())
     assert isinstance(collected, Studies)
     return collected

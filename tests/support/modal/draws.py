@@ -23,7 +23,7 @@ def random_spectrum(random: np.random.Generator, size: int, pairs: int) -> np.nd
 def random_systems(
     count: int, states: int, inputs: int, outputs: int = 1, most_pairs: int | None = None, seed: int = 0
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]:
-    """A, B, C with normal elements, and poles with any number of pairs up to ``most_pairs``."""
+    """Yield A, B, C with normal elements, and poles with any number of pairs up to ``most_pairs``."""
     random = np.random.default_rng([states, inputs, outputs, seed])
     maximum = states // 2 if most_pairs is None else min(most_pairs, states // 2)
     for _ in range(count):
@@ -36,7 +36,7 @@ def random_systems(
 
 
 def pole_error(closed_loop: np.ndarray, wanted: np.ndarray) -> float:
-    """The largest distance between poles after optimal one-to-one matching."""
+    """Return the largest distance between poles after optimal one-to-one matching."""
     apart = np.abs(np.linalg.eigvals(closed_loop)[:, None] - np.asarray(wanted)[None, :])
     return float(np.max(apart[linear_sum_assignment(apart)]))
 
@@ -47,7 +47,7 @@ def kappa_of(closed_loop: np.ndarray) -> float:
 
 
 def assert_placed(closed_loop: np.ndarray, wanted: np.ndarray, conditions: float = 1.0) -> bool:
-    """What always holds, and 1e-10 where ``conditions`` and kappa are at most 1000; says whether they are."""
+    """Assert the general bounds, and 1e-10 where ``conditions`` and kappa are at most 1000; return if they are."""
     error, kappa = pole_error(closed_loop, wanted), kappa_of(closed_loop)
     assert error <= 1000.0 * EPS * kappa * np.linalg.norm(closed_loop, 2)
     well = kappa <= 1e3 and conditions <= 1e3

@@ -34,7 +34,7 @@ COMPILED = either(NATIVE, [name for name in NATIVE if name in REPRESENTATIVE])
 
 @cache
 def fmi3_fmu(block: type[Block]) -> Path:
-    """The FMI 3.0 FMU of a block."""
+    """Build the FMI 3.0 FMU of a block."""
     platform = local_platform(3)
     assert platform is not None
     path = CACHE / "fmi3" / f"{block.fmu_name}.fmu"

@@ -21,7 +21,7 @@ def link(command: Sequence[str], inputs: Sequence[str], program: Path) -> None:
 
 
 def drive(block: type[Block], program: Sequence[str], token: str, steps: int) -> str:
-    """The checksum of so many steps, none of whose answers is wrong."""
+    """Return the checksum of ``steps`` steps, none of whose answers is wrong."""
     variables = list_variables(block)
     types = "".join(variable.type_name[0].lower() for variable in variables)
     tunable = tunable_parameters(block)

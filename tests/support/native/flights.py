@@ -18,7 +18,7 @@ Row = Mapping[str, float]  # elements by their names in FMI 2.0
 
 
 class Flown:
-    """What a flight left: the values of all variables at each point, and the complete state at the end."""
+    """Record of a simulation: the values of all variables at each point, and the complete state at the end."""
 
     def __init__(self) -> None:
         self.points: list[Values] = []
@@ -26,7 +26,7 @@ class Flown:
 
 
 def fly_fmi2(fmu: Path, parameters: Row, inputs: Sequence[Row], step: float, folder: Path) -> Flown:
-    """A flight in FMI 2.0, each step from the values of its row of ``inputs``."""
+    """Simulate in FMI 2.0, each step from the values of its row of ``inputs``."""
     description = fmpy.read_model_description(str(fmu), validate=False)
     variables = {variable.name: variable for variable in description.modelVariables}
     slave = FMU2Slave(
@@ -67,7 +67,7 @@ def fly_fmi2(fmu: Path, parameters: Row, inputs: Sequence[Row], step: float, fol
 
 
 def fly_fmi3(fmu: Path, parameters: Row, inputs: Sequence[Row], step: float, folder: Path) -> Flown:
-    """The same flight in FMI 3.0."""
+    """Simulate the same in FMI 3.0."""
     description = fmpy.read_model_description(str(fmu), validate=False)
     variables = {each.name: each for each in description.modelVariables if each.causality != "independent"}
     slave = FMU3Slave(
@@ -140,13 +140,13 @@ def _elements(shape: tuple[int, ...] | None) -> range:
 
 
 def _starts(variable: Any) -> list[Any]:
-    """The declared starts, as numbers; an array's stand in one text."""
+    """Return the declared starts, as numbers; an array's are one text."""
     texts = str(variable.start).split()
     return [text == "true" if variable.type == "Boolean" else float(text) for text in texts]
 
 
 def _position(index: str, shape: tuple[int, ...] | None) -> int:
-    """Which element in row order ``2,3]`` of FMI 2.0 is; some matrices number theirs through there."""
+    """Return the number in row order of the element ``2,3]`` of FMI 2.0; some matrices number theirs through."""
     numbers = [int(number) - 1 for number in index.rstrip("]").split(",")] if index else [0]
     if len(numbers) == 2:
         assert shape is not None

@@ -46,7 +46,7 @@ def _members(source: Any, structure: Any, path: str, lines: list[str]) -> str:
 
 
 def _words(array: np.ndarray) -> str:
-    """The bytes of an array as words of eight, one at least."""
+    """Return the bytes of an array as words of eight, one at least."""
     content = array.tobytes()
     content += bytes(8 - len(content) % 8)
     return ", ".join(map(hex, np.frombuffer(content, dtype=np.uint64).tolist()))

@@ -19,7 +19,8 @@ FLAGS = ["-std=c99", "-O1", "-g", "-ffp-contract=off", "-fno-sanitize-recover=al
 
 @cache
 def find_compiler() -> tuple[str, ...]:
-    """The command that compiles with sanitizers: the system's compiler, else zig's without the one for addresses."""
+    """Return the command that compiles with sanitizers: the system's compiler, else zig's
+    without the one for addresses."""
     system = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
     if system is not None:
         command = (system, *FLAGS, f"-fsanitize=address,{UNDEFINED}")

@@ -17,7 +17,7 @@ FLAGS = (
 
 
 def find_browser() -> str:
-    """The path of chromium; without it the tests that ask for it are left out, which CI does not allow."""
+    """Return the path of chromium; without it tests that need it are skipped, which CI does not allow."""
     collected = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     if collected is None and os.environ.get("PERILUNE_REQUIRE_BROWSER") == "1":
         pytest.fail("chromium is not installed, and PERILUNE_REQUIRE_BROWSER=1 asks for it")

@@ -1,4 +1,4 @@
-"""What every page must satisfy."""
+"""Properties of every page."""
 
 import base64
 import hashlib
@@ -13,7 +13,7 @@ FETCHING = ("src", "srcset", "href", "{http://www.w3.org/1999/xlink}href", "xlin
 
 
 def parse(text):
-    """The page as a tree; no id is used twice."""
+    """Parse the page as a tree; no id is used twice."""
     assert text.startswith("<!DOCTYPE html>")
     root = html.document_fromstring(text)
     ids = root.xpath("//@id")
@@ -22,7 +22,7 @@ def parse(text):
 
 
 def assert_self_contained(text):
-    """Nothing is fetched: references stay in the page, links are to neighbouring files."""
+    """Assert that a page fetches nothing: references stay in the page, links are to neighbouring files."""
     root = parse(text)
     for element in root.iter():
         if not isinstance(element.tag, str):
@@ -45,7 +45,7 @@ def assert_self_contained(text):
 
 
 def assert_permitted(script, root):
-    """A script is JSON, or in the page and permitted by its hash."""
+    """Assert that a script is JSON, or in the page and permitted by its hash."""
     if script.get("type") == "application/json":
         assert json.loads(script.text)
         return
@@ -55,23 +55,23 @@ def assert_permitted(script, root):
 
 
 def without_policy(text):
-    """A page in which a test's script may run, too."""
+    """Return a page in which a test's script may run, too."""
     return re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", text)
 
 
 def section_of(text, heading):
-    """The section of a page below a heading of the second level, which may be folded, as a tree."""
+    """Return the section of a page below a heading of the second level, which may be folded, as a tree."""
     (section,) = parse(text).xpath("//section[.//h2[. = $heading]]", heading=heading)
     return section
 
 
 def data_values(text):
-    """The exact numbers of a page: value attributes of its data elements."""
+    """Return the exact numbers of a page: value attributes of its data elements."""
     return parse(text).xpath("//data/@value")
 
 
 def text_of(text):
-    """The words of a page, spaces made single."""
+    """Return the words of a page, runs of spaces as one."""
     root = parse(text)
     for script in root.xpath("//script"):
         script.drop_tree()

@@ -1,4 +1,4 @@
-"""Batches made by hand, without flying, and written as `perilune batch` writes them: what a comparison is given."""
+"""Hand-written batches to compare, stored as `perilune batch` stores them, without simulating."""
 
 import tomllib
 from pathlib import Path
@@ -59,7 +59,7 @@ SAMPLING = "every = 2\nsignals = {signals}\ntrials = {traced}"
 
 
 def facts(campaign, variants, targets=True):
-    """What `perilune.analysis.campaigns.folder.provenance` would say of the hand-made batch."""
+    """Return the provenance of the hand-written batch, as `perilune.analysis.campaigns.folder.provenance` would."""
     names = dict.fromkeys([*campaign.record.final, *campaign.record.signals])
     target = {f"pilot.target_{kind}[{i + 1}]": float(value) for kind, at in
               (("position", TARGET), ("velocity", np.zeros(3))) for i, value in enumerate(at)}  # fmt: skip
@@ -121,7 +121,7 @@ def sample_batch(
     targets=True,
     flat=False,
 ) -> BatchResult:
-    """A batch in which alpha is good, beta worse, gamma off to one side; ``noise`` scales all misses.
+    """Return a batch in which alpha is good, beta worse, gamma off to one side; ``noise`` scales all misses.
 
     ``flat`` ones are horizontal.
     """
@@ -177,7 +177,7 @@ def sample_batch(
 
 
 def write_sample(folder: Path, **options) -> BatchResult:
-    """A sample batch in a folder, as `perilune batch --output` leaves it."""
+    """Write a sample batch to a folder, as `perilune batch --output` does."""
     result = sample_batch(**options)
     write_draws(result.plan, folder, result.plan.campaign.trials)
     result.write(folder)

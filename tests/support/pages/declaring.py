@@ -1,4 +1,4 @@
-"""A system's description with figures of its own asked for."""
+"""Descriptions of systems that declare figures."""
 
 import re
 from functools import cache
@@ -8,18 +8,18 @@ from perilune.common.paths import SYSTEMS
 
 @cache
 def shipped_ssd(name):
-    """The text of a shipped system's SSD, which a build composes."""
+    """Return the text of a shipped system's SSD, which a build composes."""
     return (SYSTEMS / name / "SystemStructure.ssd").read_text(encoding="utf-8")
 
 
 def with_frames(ssd, inside):
-    """The description with these elements of Frames instead of those it has, each on its line."""
+    """Return the description with these elements of Frames instead of those it has, each on its line."""
     whole = re.search(r"( *<Frames [^>]*>\n).*?( *</Frames>\n)", ssd, flags=re.DOTALL)
     return f"{ssd[: whole.end(1)]}{inside}\n{ssd[whole.start(2) :]}"
 
 
 def with_report(ssd, inside, frames=""):
-    """The description with these elements of Report and Frames as its annotations, on lines of their own."""
+    """Return the description with these elements of Report and Frames as its annotations, on separate lines."""
     names = f'<Frames xmlns="https://perilune.org/frames">{frames}</Frames>'
     note = (
         "<ssd:Annotations>"

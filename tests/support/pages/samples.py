@@ -1,4 +1,4 @@
-"""Results made by hand, without flying: what the reports are given."""
+"""Hand-written results for the reports, without simulating."""
 
 import tomllib
 from dataclasses import replace
@@ -45,7 +45,7 @@ expression = "miss <= 1"
 
 
 def run_result(rows: int = 200, status: str = "finished", message: str = "") -> Result:
-    """A flight of a `ship` that turns, with a nested `crew.cook` and a system connector; rows may be 0."""
+    """Return a flight of a `ship` that turns, with a nested `crew.cook` and a system connector; rows may be 0."""
     time = 0.5 * np.arange(rows)
     spike = np.where(np.arange(rows) == 3, 1e6, np.sin(time))
     signals = {
@@ -99,7 +99,7 @@ by = "case"
 
 
 def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str = DRAWS + METRICS) -> BatchResult:
-    """A batch from (success, miss, tilt) of every trial by variant."""
+    """Return a batch from (success, miss, tilt) of every trial by variant."""
     trials = len(next(iter(outcomes.values())))
     campaign = parse_campaign(Table(tomllib.loads(HEAD.format(trials=trials) + text), "test.toml"))
     if list(outcomes) != ["default"]:
@@ -137,7 +137,7 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
 
 
 def grouped_batch(trials: int = 60) -> BatchResult:
-    """The mixed batch with a drawn `case` by which trials are grouped."""
+    """Return the mixed batch with a drawn `case` by which trials are grouped."""
     return mixed_batch(trials, CASES + DRAWS + METRICS)
 
 

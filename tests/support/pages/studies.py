@@ -38,18 +38,18 @@ expression = "total > 0"
 
 
 def rare_study(folder: Path) -> perilune.RareResult:
-    """A failure of the linear system: its total above `LIMIT`."""
+    """Study a failure of the linear system: its total above `LIMIT`."""
     system = linear_system(folder)
     return perilune.rare(*system, failure=f"total > {LIMIT}", samples=200, workers=1, output=folder / "rare")
 
 
 def worst_study(folder: Path) -> perilune.WorstResult:
-    """The largest total of the linear system, in a corner of the box."""
+    """Search for the largest total of the linear system, in a corner of the box."""
     return perilune.worst(*linear_system(folder), metric="total", flights=300, workers=1, output=folder / "worst")
 
 
 def sensitivity_study(folder: Path) -> perilune.SensitivityResult:
-    """Indices of a sum of independent draws, which are their `SHARES` of its variance."""
+    """Compute indices of a sum of independent draws, which are their `SHARES` of its variance."""
     system, _ = linear_system(folder)
     (folder / "sum.toml").write_text(SUM)
     return perilune.sensitivity(system, folder / "sum.toml", 256, workers=1, output=folder / "sensitivity")

@@ -40,7 +40,7 @@ MISTAKES = {
 
 
 def write_system(folder: Path) -> None:
-    """The files of the page in the folders ``descent`` and ``holding`` of a working folder."""
+    """Write the files of the page to the folders ``descent`` and ``holding`` of a working folder."""
     whole = [text for kind, text in EXAMPLES if kind == "xml" and text.startswith("<?xml") and text.count("\n") > 8]
     (sets,) = [text for text in whole if "ParameterSet>" in text]
     (ssd,) = [text for text in whole if "</ssd:SystemStructureDescription>" in text]

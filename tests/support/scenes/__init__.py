@@ -1,1 +1,1 @@
-"""Scenes of three dimensions, made by hand, and what a page has of them."""
+"""Hand-written scenes of three dimensions, and their content in a page."""

@@ -1,4 +1,4 @@
-"""A flight made by hand with a scene that has everything a scene can have, under any name."""
+"""A hand-written flight with a scene that has everything a scene can have, under any name."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from tests.support.scenes.made import body, cartesian, flown, scalar, scene, sph
 
 
 def descent(name="ship", rows=20, **more):
-    """A lander comes down over a round body: the run, half a second a row, and its scene."""
+    """Return the run of a lander that comes down over a round body, half a second a row, and its scene."""
     along = np.linspace(0.0, 1.0, rows)
     result = flown(
         position=[100.0 * along, 0.0 * along, 50.0 * (1.0 - along)],

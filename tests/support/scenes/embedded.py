@@ -1,4 +1,4 @@
-"""What is embedded in a page for its scripts, read back without them: the inverse of reports/interactive/columns.py."""
+"""Reader of the data embedded in a page for its scripts: the inverse of reports/interactive/columns.py."""
 
 import base64
 import json
@@ -19,13 +19,13 @@ def require_bundle(name):
 
 
 def document_of(text):
-    """The document of a page, or of its elements alone."""
+    """Return the document of a page, or of its elements alone."""
     (content,) = html.document_fromstring(text).xpath("//script[@id='page-data']/text()")
     return json.loads(content)
 
 
 def embed(name, bundle, content):
-    """A document as a page would have it, read back."""
+    """Embed a document as a page would, and read it back."""
     require_bundle(bundle)
     embedded = Embedded()
     assert embedded.add_document(name, bundle, content)
@@ -33,7 +33,7 @@ def embed(name, bundle, content):
 
 
 def column(document, index):
-    """A column of float32."""
+    """Return a column of float32."""
     *before, encoded = document["columns"][: index + 1]
     start = sum(4 * each["rows"] for each in before if "low" not in each)
     content = zlib.decompress(base64.b64decode(document["packed"][0]))[start : start + 4 * encoded["rows"]]

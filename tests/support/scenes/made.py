@@ -1,4 +1,4 @@
-"""Scenes made by hand over runs made by hand: signals whose poses can be said."""
+"""Hand-written scenes over hand-written runs: signals with known poses."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What tests of a spacecraft and of its surroundings share."""
+"""Shared code of tests of a spacecraft and of its environment."""

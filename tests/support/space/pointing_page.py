@@ -16,38 +16,39 @@ NADIR = 2  # modes.mode
 
 
 def section(title: str) -> str:
-    """The text under a heading."""
+    """Return the text under a heading."""
     return PAGE.split(f"\n## {title}\n")[1].split("\n## ")[0]
 
 
 def row(title: str, heading: str = "Results") -> list[str]:
-    """The columns of a row after its title, in the section under a heading."""
+    """Return the columns of a row after its title, in the section under a heading."""
     line = next(line for line in section(heading).splitlines() if line.startswith(f"| {title}"))
     return [cell.strip() for cell in line.strip("|").split("|")[1:]]
 
 
 def scientific(value: float) -> str:
-    """A number as the page writes it: 2.5e-4."""
+    """Format a number as the page writes it: 2.5e-4."""
     return f"{value:.1e}".replace("e-0", "e-")
 
 
 def in_nadir(flight: Mapping[str, np.ndarray]) -> np.ndarray:
-    """True for the samples from 600 s after the beginning of the nadir mode on."""
+    """Return True for the samples from 600 s after the beginning of the nadir mode on."""
     return (flight["modes.mode"] == NADIR) & (flight["modes.time_in_mode"] > 600.0)
 
 
 def root_mean_square(values: np.ndarray) -> float:
-    """The root of the mean square of all elements."""
+    """Return the root of the mean square of all elements."""
     return math.sqrt(np.mean(np.square(values)))
 
 
 def knowledge(flight: Mapping[str, np.ndarray]) -> float:
-    """The error of the known attitude per axis across the star tracker's boresight in nadir mode (arcsec, rms)."""
+    """Return the error of the known attitude per axis across the star tracker's boresight in
+    nadir mode (arcsec, rms)."""
     return root_mean_square(flight["monitor.knowledge_error"][in_nadir(flight)] @ ACROSS.T) / ARCSEC
 
 
 def farrenkopf() -> float:
-    """The standard deviation of a gyro-filtered attitude before a star sample (rad), without drift of the bias.
+    """Return the standard deviation of a gyro-filtered attitude before a star sample (rad), without drift of the bias.
 
     Farrenkopf 1978: variance p before a sample of variance s, p = p s/(p + s) + N^2 T.
     """

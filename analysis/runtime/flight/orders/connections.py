@@ -18,7 +18,7 @@ from .slots import Slots
 
 
 class Term(NamedTuple):
-    """What a connection, or one that is added to it, is to the instructions.
+    """A connection, or a source added to it, as an operand of instructions.
 
     ``origins`` are the components that the target's value comes from (-1: a system's input); slots of both ends.
     """
@@ -57,7 +57,7 @@ class Connections:
         group[name] = link
 
     def terms(self) -> list[list[Term]]:
-        """The terms of each group, numbered as in `arrays`."""
+        """Return the terms of each group, numbered as in `arrays`."""
         return [[term for link in group for term in self._terms(link)] for group in self._groups]
 
     def arrays(self) -> dict[str, np.ndarray]:
@@ -84,12 +84,12 @@ class Connections:
         return [first, *(Term(codes.ADD, origins, slots[term.source.name], target) for term in link.added)]
 
     def _number(self, link: Link) -> int:
-        """The number of the component that a value comes from, -1 of a system's input."""
+        """Return the number of the component that a value comes from, -1 of a system's input."""
         component = origin(self._network, link).component
         return -1 if component is None else self._components[component]
 
     def _code(self, link: Link) -> int:
-        """The instruction that carries a connection's value."""
+        """Return the instruction that carries a connection's value."""
         if link.transformation.table:
             return codes.MAP
         if link.transformation != IDENTITY:
@@ -101,5 +101,5 @@ class Connections:
 
 
 def _remainder(link: Link) -> list[tuple[float, float]]:
-    """The end of a table that leaves other values as they are, by which the loop knows it."""
+    """Return the end of a table that leaves other values as they are, by which the loop knows it."""
     return [(math.nan, math.nan)] if link.transformation.is_partial else []

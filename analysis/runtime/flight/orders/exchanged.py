@@ -1,4 +1,4 @@
-"""Which variables of a system are exchanged or recorded."""
+"""Exchanged and recorded variables of a system."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from .injections import Injection
 
 
 class Exchanged:
-    """The names of a system's variables, by what is done with them in flight.
+    """Names of a system's variables, by their use in a simulation.
 
-    ``wanted`` names what is recorded (None: all that is exchanged), ``more`` what else is. ``fetched`` are the outputs
+    ``wanted`` names recorded variables (None: all exchanged ones), ``more`` further ones. ``fetched`` are the outputs
     that are taken (None: all), ``named`` is what is recorded whatever its causality, ``other_sources`` what is
     connected like an output and is none, ``passed_parameters`` are parameters of systems that signals pass through,
     ``tuned`` the tunable parameters that are driven over time or have faults.
@@ -38,15 +38,15 @@ class Exchanged:
         self.passed_parameters = {node.name for node in signals if node.component is None and node.kind in PARAMETERS}
 
     def is_tuned(self, component: str, variable: Variable) -> bool:
-        """True for a tunable parameter that changes in flight."""
+        """Return True for a tunable parameter that changes in flight."""
         return f"{component}.{variable.name}" in self.tuned
 
     def is_given(self, name: str) -> bool:
-        """Whether an input is connected or driven over time."""
+        """Return True if an input is connected or driven over time."""
         return name in self._network.driver or name in self._network.driven
 
     def is_fetched(self, name: str) -> bool:
-        """Whether an output is connected or recorded."""
+        """Return True if an output is connected or recorded."""
         return self.fetched is None or name in self.fetched
 
 

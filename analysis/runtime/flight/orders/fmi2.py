@@ -84,7 +84,7 @@ class Fmi2Orders:
             self._rows.call(code, self._component, function, (first, count))
 
     def carry(self) -> None:
-        """The faults on inputs that are not given."""
+        """Apply the faults on inputs that are not set."""
         for _, first, count, _ in self._tuned:
             self._rows.inject((first, count))
         for name in ("SetReal", "SetInteger", "SetBoolean"):
@@ -101,13 +101,13 @@ class Fmi2Orders:
             self._call(codes.GET_TEXT, "GetString", self._text_ranges[1])
 
     def read(self) -> None:
-        """What is recorded only."""
+        """Read variables that are recorded only."""
         for function, first, count in self._recorded:
             code = codes.READ_REAL if function == FUNCTION["GetReal"] else codes.GET_WHOLE
             self._rows.call(code, self._component, function, (first, count))
 
     def step(self, count: int) -> None:
-        """A step over so many communication steps, 0 for one."""
+        """Write a step over ``count`` communication steps, 0 for one."""
         self._call(codes.STEP, "DoStep", (0, count))
 
     def reset(self) -> None:
@@ -116,7 +116,7 @@ class Fmi2Orders:
         self._call(codes.MODE, "Reset")
 
     def enter_initialization(self) -> None:
-        """Parameters, initialisation mode, parameters again: there are FMUs that lose what they were given before."""
+        """Write parameters, initialisation mode, parameters again: some FMUs lose those set before."""
         self._parameters(1)
         self._call(codes.SETUP, "SetupExperiment")
         self._call(codes.MODE, "EnterInitializationMode")
@@ -126,7 +126,7 @@ class Fmi2Orders:
         self._call(codes.MODE, "ExitInitializationMode")
 
     def read_back(self) -> None:
-        """The parameters that the FMU has."""
+        """Read back the parameters of the FMU."""
         self._parameters(3)
 
     def _parameters(self, column: int) -> None:
@@ -167,7 +167,7 @@ class Fmi2Orders:
         self._rows.rows += [[code, run.address, instance, run.first, run.size, self._component, 0] for run in runs]
 
     def _runs(self, stretch: Stretch, kind: str, *, to_set: bool = False) -> list[Run]:
-        """A stretch of slots in an FMU's memory; nothing before all are initialised."""
+        """Return a stretch of slots in an FMU's memory; nothing before all are initialised."""
         if not self._rows.between_steps:
             return []
         first, count = stretch

@@ -40,7 +40,7 @@ class Fmi3Orders:
             self._rows.call(codes.SET_EVENTS, self._component, _mode("EnterEventMode"), both)
 
     def carry(self) -> None:
-        """The faults on inputs that are not given."""
+        """Apply the faults on inputs that are not set."""
         for transfer in (*self._transfers.inputs, *self._transfers.discrete):
             self._rows.inject(self._table.slots(transfer))
 
@@ -50,7 +50,7 @@ class Fmi3Orders:
             self._rows.inject(self._table.slots(transfer))
 
     def read(self) -> None:
-        """What is recorded only."""
+        """Read variables that are recorded only."""
         self._exchange(codes.READ_TRANSFER, codes.GETTERS, self._transfers.recorded)
 
     def step(self, count: int) -> None:

@@ -25,7 +25,7 @@ class Run(NamedTuple):
 def runs_in_memory(
     instance: Callee, references: np.ndarray, first: int, kind: str, *, to_set: bool = False
 ) -> list[Run]:
-    """The runs of values of an FMI type, with these value references (uint32) and slots from ``first`` on.
+    """Return the runs of values of an FMI type, with these value references (uint32) and slots from ``first`` on.
 
     None where the FMU does not say where one of them is.
     """

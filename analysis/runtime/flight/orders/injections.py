@@ -25,11 +25,13 @@ class Injection(NamedTuple):
 
 
 def of_fault(fault: Fault, margin: float) -> Injection:
-    """A fault; ``margin`` (s) is what the times of communication points may lack."""
+    """Return the injection of a fault; ``margin`` (s) is the rounding that the times of communication points may
+    lack."""
     window = (fault.start - margin, fault.stop - margin)
     return Injection(fault.name, KIND_NUMBERS[fault.kind], float(fault.value), window)
 
 
 def of_excitation(connector: str, column: int) -> Injection:
-    """A connector to which `Simulation.advance` adds the given column of its excitation, in the connector's unit."""
+    """Return the injection for a connector to which `Simulation.advance` adds a column of its excitation, in its
+    unit."""
     return Injection(connector, codes.EXCITE, float(column), (-math.inf, math.inf))

@@ -21,7 +21,7 @@ GETTERS = (1, 3, 5)  # of EXCHANGES
 
 
 class ComponentSlots(NamedTuple):
-    """Where the variables of a component lie.
+    """Slots of the variables of a component.
 
     ``ranges`` [function of EXCHANGES] are first slot and count; ``recorded`` (function, first slot, count) of what is
     read for the record only; ``tuned`` (function, first slot, count, first slot of their bases) of parameters that

@@ -14,21 +14,21 @@ Stretch = tuple[int, int]  # first, and how many
 
 
 class Callee(Protocol):
-    """What instructions have to know of an instance."""
+    """Instance as instructions need it."""
 
     @property
     def address(self) -> int:
-        """Of the instance, which calls are given."""
+        """Address of the instance, an argument of calls."""
 
     def function_addresses(self) -> list[int]:
-        """Of its functions, in the order of `FUNCTION_NAMES`."""
+        """Return the addresses of its functions, in the order of `FUNCTION_NAMES`."""
 
     @property
     def is_self_contained(self) -> bool:
         """True if its calls leave nothing behind in the process."""
 
     def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
-        """Where these variables lie side by side in its memory; 0 where it does not say."""
+        """Return the address of these variables where they are contiguous in its memory; 0 where it does not say."""
 
 
 class Unloaded:
@@ -58,11 +58,11 @@ class Rows:
         self._ended = 0  # before this one are the instructions of other parts
 
     def array(self) -> np.ndarray:
-        """What has been collected."""
+        """Return the collected instructions."""
         return np.array(self.rows, dtype=np.uint64).reshape(-1, codes.COLUMNS)
 
     def call(self, code: int, component: int, function: int, stretch: Stretch = (0, 0)) -> None:
-        """A call of an FMI function on a stretch of slots or parameters, or on a stretch of the table."""
+        """Call an FMI function on a stretch of slots or parameters, or on a stretch of the table."""
         instance, addresses = self.addresses[component]
         self.rows.append([code, addresses[function], instance, int(stretch[0]), int(stretch[1]), component, function])
         self._restore_floats(component)
@@ -85,7 +85,7 @@ class Rows:
             self.rows.append(restore)
 
     def inject(self, stretch: Stretch) -> None:
-        """The faults on a stretch of slots."""
+        """Inject the faults on a stretch of slots."""
         for number, slot in enumerate(self.fault_slots):
             if stretch[0] <= slot < stretch[0] + stretch[1]:
                 self.rows.append([codes.INJECT, 0, 0, number, 1, 0, 0])

@@ -16,7 +16,7 @@ class Slots:
     """``numbers`` by name, with the type and unit of each; ``references`` and ``initial`` values by number.
 
     ``exact`` are the starts of whole numbers of 64 bits, by number. ``unfed`` are elements of arrays that nothing is
-    connected to, whose array is given as a whole. ``bases`` are the slots of what parameters that change in flight have
+    connected to, whose array is set as a whole. ``bases`` are the slots of what parameters that change in flight have
     without the change, by (component, variable).
     """
 
@@ -49,6 +49,6 @@ class Slots:
         return first
 
     def start(self, component: str, variable: Variable) -> float:
-        """What an input is given while its source is not known yet: the value set for it, else its FMU's start."""
+        """Return an input's value while its source is not known yet: the value set for it, else its FMU's start."""
         start = self.settings.variables.get((component, variable.name), variable.start or 0.0)
         return float({"true": 1, "false": 0}.get(str(start).lower(), start))

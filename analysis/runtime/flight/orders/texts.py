@@ -1,6 +1,6 @@
-"""The Strings and Binaries that FMUs exchange: where they lie in the loop's arrays.
+"""Strings and Binaries that FMUs exchange, in the loop's arrays.
 
-They are no signals of a result, which is made of numbers.
+They are no signals of a result, which consists of numbers.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ LONGEST = {"String": 4096, "Binary": 65536}  # bytes of one, of a String with it
 
 
 class Texts:
-    """Places of the texts of one type that are connected, by name; those of a component and direction are contiguous.
+    """Positions of the connected texts of one type, by name; those of a component and direction are contiguous.
 
-    ``ranges`` [component, 0 inputs, 1 outputs] are the first and how many there are, ``variables`` [component]
-    [direction] whose they are. ``connections`` [component] lists the component that each of its inputs comes from (-1:
-    a value that the system is given), and both places.
+    ``ranges`` [component, 0 inputs, 1 outputs] are the first and the count, ``variables`` [component] [direction] their
+    variables. ``connections`` [component] lists the source component of each of its inputs (-1: an input of the
+    system), and both positions.
     """
 
     def __init__(self, network: Network, settings: Settings, type_name: str = "String") -> None:
@@ -77,7 +77,7 @@ class Texts:
         self._initial.append(content)
 
     def sizes(self) -> np.ndarray:
-        """The bytes of each at the start, uint64."""
+        """Return the bytes of each at the start, uint64."""
         return np.array([len(content) for content in self._initial], dtype=np.uint64)
 
     def memory(self) -> arrays.Texts:

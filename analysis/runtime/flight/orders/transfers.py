@@ -1,4 +1,4 @@
-"""Transfers of FMI 3.0 variables, each given or taken in one call, as rows of the loop's table."""
+"""Transfers of FMI 3.0 variables, each set or read in one call, as rows of the loop's table."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ assert all(FUNCTION_NAMES[number] == f"fmi3{name}" for name, number in NUMBERS.i
 
 @dataclass
 class ComponentTransfers:
-    """The transfers of a component of FMI 3.0 by what is done with them, as numbers of rows of the table.
+    """Transfers of a component of FMI 3.0 by use, as numbers of rows of the table.
 
-    ``discrete`` inputs are given in event mode, those of a component that ``uses_events``; parameters are set before
+    ``discrete`` inputs are set in event mode, those of a component that ``uses_events``; parameters are set before
     initialisation mode, ``repeated`` in it, and read ``back`` after it, ``structural`` ones in configuration mode.
     Those that change in flight are among the inputs, or, where events are used, among the discrete ones; ``bases`` are
-    (first slot, count, first slot of their own values).
+    (first slot, count, first slot of their unchanged values).
     """
 
     uses_events: bool = False
@@ -55,7 +55,8 @@ class TransferTable:
         self.references: list[int] = []
 
     def add(self, variables: Sequence[Variable], first: int) -> int:
-        """A transfer of variables of one representation, their elements from index ``first`` on; returns its number."""
+        """Add a transfer of variables of one representation, their elements from index ``first`` on; return its
+        number."""
         references = [
             reference for _, reference in dict.fromkeys((each.array or each.name, each.reference) for each in variables)
         ]
@@ -77,7 +78,7 @@ class TransferTable:
 
 
 def needs_events(network: Network, component: str) -> bool:
-    """Whether a component is flown with event mode: it has it, and a discrete input that is given in flight.
+    """Return True if a component uses event mode: it has it, and a discrete input that is set in flight.
 
     Without it an FMU handles its events by itself, within its steps.
     """
@@ -95,7 +96,7 @@ def needs_events(network: Network, component: str) -> bool:
 
 
 def whole(variables: Iterable[Variable], selected: Collection[str]) -> list[Variable]:
-    """The variables of which an element is selected by name, with all their elements."""
+    """Return the variables of which an element is selected by name, with all their elements."""
     variables = list(variables)
     arrays = {each.array or each.name for each in variables if each.name in selected}
     return [each for each in variables if (each.array or each.name) in arrays]

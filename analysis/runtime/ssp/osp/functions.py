@@ -18,7 +18,7 @@ MOST_INPUTS = 10_000
 
 
 class FunctionError(Exception):
-    """What is wrong with a function, and what to do."""
+    """Error of a function, with its remedy."""
 
     def __init__(self, problem: str, remedy: str) -> None:
         super().__init__(problem, remedy)
@@ -43,7 +43,8 @@ class Function:
         self.inputs[signal] = self._check(points)
 
     def connect_output(self, points: list[Point]) -> list[tuple[Point, list[Point]]]:
-        """The variables that the output is connected to, each with those whose sum it gets. Raises FunctionError."""
+        """Return the variables that the output is connected to, each with the summands of its
+        value. Raises FunctionError."""
         sources = []
         for signal, connected in self.inputs.items():
             if connected is None:
@@ -59,7 +60,7 @@ class Function:
 
 
 def read_function(element: etree._Element) -> Function:
-    """A function of any kind that libcosim has: LinearTransformation, Sum or VectorSum. Raises FunctionError."""
+    """Read a function of any kind that libcosim has: LinearTransformation, Sum or VectorSum. Raises FunctionError."""
     name, kind = element.get("name", ""), tag(element)
     if kind == "LinearTransformation":
         gain = Transformation(_number(element, "factor", "1"), _number(element, "offset", "0"))

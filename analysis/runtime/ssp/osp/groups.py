@@ -18,9 +18,9 @@ SUFFIX = "_OspModelDescription.xml"
 
 
 def read_groups(archive: SystemArchive, source: str, element: str) -> dict[str, list[str]]:
-    """The names of variables by group, of the FMU ``source`` that ``element`` names.
+    """Return the names of variables by group, of the FMU ``source`` that ``element`` names.
 
-    The file is looked for where libcosim does: under the name of the FMU's model, in the folder of the system's
+    The file is searched where libcosim does: under the name of the FMU's model, in the folder of the system's
     description, then in that of the FMU; and under the FMU's own file name. Raises InputError.
     """
     candidates = list(dict.fromkeys(_candidates(archive, source, element)))
@@ -30,7 +30,7 @@ def read_groups(archive: SystemArchive, source: str, element: str) -> dict[str, 
 
 
 def _variable(element: etree._Element, file: str) -> str:
-    """The variable of the FMU that a Variable of a group refers to."""
+    """Return the variable of the FMU that a Variable of a group refers to."""
     ref = element.get("ref")
     if ref is None:
         where = f"Variable (line {element.sourceline})"

@@ -27,7 +27,7 @@ VARIABLES, SIGNALS = ("Variable", "VariableGroup"), ("Signal", "SignalGroup")
 
 
 def read_osp(data: bytes, file: str, archive: SystemArchive) -> Description:
-    """The document, one of an archive's files. Raises InputError."""
+    """Read the document, one of an archive's files. Raises InputError."""
     return _Reader(file, archive).read(parse_xml(data, file))
 
 
@@ -105,7 +105,7 @@ class _Reader:
         )
 
     def binding(self, values: list[etree._Element], line: int) -> Binding:
-        """Initial values as the parameter set that an SSD would hold."""
+        """Return initial values as the parameter set that an SSD would hold."""
         ssv = f"{{{NAMESPACES['ssv']}}}"
         parameters = etree.Element(f"{ssv}ParameterSet", version="1.0", name="InitialValues")
         inside = etree.SubElement(parameters, f"{ssv}Parameters")
@@ -189,7 +189,7 @@ class _Reader:
             self.connect([start], stop, IDENTITY, connection.sourceline)
 
     def points(self, end: etree._Element) -> list[Point]:
-        """A variable, or the variables of a group."""
+        """Return a variable, or the variables of a group."""
         simulator, name = self.variable(end)
         if tag(end) == "Variable":
             return [(simulator, name)]

@@ -30,7 +30,7 @@ class BoundSet:
 def convert_description(
     description: etree._Element, arrays_of: ArraysOf, enumerations_of: EnumerationsOf = lambda source: ()
 ) -> tuple[etree._Element, list[BoundSet]]:
-    """The same system in SSP 2.0, and the files that it binds, that of the whole system first.
+    """Convert the system to SSP 2.0; return it and the files that it binds, that of the whole system first.
 
     ``arrays_of`` gives the arrays that the FMU of a source has as such (FMI 3.0); one of FMI 2.0 has a variable for
     each element, and SSP wants a connector for each variable. ``enumerations_of`` gives its enumerations.
@@ -90,7 +90,7 @@ def _declares(element: etree._Element, name: str) -> bool:
 
 
 def _convert_bindings(owner: etree._Element, known: Mapping[str, Shape]) -> Iterator[BoundSet]:
-    """The files that an element binds; parameter sets inside the description are converted in place."""
+    """Convert the files that an element binds; parameter sets inside the description are converted in place."""
     for binding in children(child(owner, "ssd:ParameterBindings"), "ssd:ParameterBinding"):
         prefix = binding.get("prefix", "")
         arrays = {name.removeprefix(prefix): shape for name, shape in known.items() if name.startswith(prefix)}

@@ -11,7 +11,8 @@ SCALAR = "ModelVariables/ScalarVariable"
 
 
 def arrays_of_fmu(description: etree._Element) -> dict[str, Shape]:
-    """The shapes of the arrays of an FMI 3.0 FMU at their start sizes; none of FMI 2.0, which has scalars only."""
+    """Return the shapes of the arrays of an FMI 3.0 FMU at their start sizes; none of FMI 2.0, which has scalars
+    only."""
     if not description.get("fmiVersion", "").startswith("3."):
         return {}
     variables = description.findall("ModelVariables/*")
@@ -28,6 +29,6 @@ def arrays_of_fmu(description: etree._Element) -> dict[str, Shape]:
 
 
 def enumerations_of_fmu(description: etree._Element) -> set[str]:
-    """The variables of an FMU that are enumerations: elements of this name in FMI 3.0, in FMI 2.0 what holds one."""
+    """Return the enumerations of an FMU: elements of this name in FMI 3.0, in FMI 2.0 variables that hold one."""
     declared = [*description.iterfind("ModelVariables/Enumeration"), *description.iterfind(f"{SCALAR}[Enumeration]")]
     return {variable.get("name", "") for variable in declared}

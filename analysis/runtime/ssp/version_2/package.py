@@ -24,7 +24,7 @@ OTHERS = (".ssm", ".ssb")
 
 
 def convert_package(files: Mapping[str, bytes], label: str) -> dict[str, bytes]:
-    """The files of a package by name, its documents in SSP 2.0, everything else as it is; ``label`` names it in errors.
+    """Convert the files of a package by name, documents to SSP 2.0, others unchanged; ``label`` names it in errors.
 
     Raises InputError for a document that is no XML.
     """
@@ -65,13 +65,13 @@ def convert_package(files: Mapping[str, bytes], label: str) -> dict[str, bytes]:
 
 
 def _name(source: str, files: Mapping[str, bytes]) -> str | None:
-    """The file of a package that a source means."""
+    """Return the file of a package that a source names."""
     names = (posixpath.normpath(source), posixpath.normpath(unquote(source)))
     return next((name for name in names if name in files), None)
 
 
 def _in_all(meanings: list[Mapping[str, Shape]]) -> dict[str, Shape]:
-    """The arrays that are the same by all of several meanings."""
+    """Return the arrays that are the same by all of several meanings."""
     first, *others = meanings or [{}]
     return {name: shape for name, shape in first.items() if all(other.get(name) == shape for other in others)}
 

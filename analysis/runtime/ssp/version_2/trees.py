@@ -1,4 +1,4 @@
-"""What all parts of the conversion do with a tree of XML: compare elements, take some away, give them dimensions."""
+"""Operations on a tree of XML for the conversion: compare elements, remove some, add dimensions."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ RENAMED = {"Real": "Float64", "Integer": "Int32"}
 
 
 def content(element: etree._Element, without: Collection[str]) -> bytes:
-    """What an element says, some of its attributes apart, to be compared."""
+    """Return the content of an element, some of its attributes apart, for comparison."""
     copy = deepcopy(element)
     copy.tail = None
     for name in without:
@@ -49,7 +49,7 @@ def group_elements(elements: Iterable[etree._Element], shapes: Mapping[str, Shap
 
 
 def is_whole(elements: Mapping[Shape, etree._Element], shape: Shape, without: Collection[str]) -> bool:
-    """Whether all elements of an array are there, and alike but for some attributes."""
+    """Return True if all elements of an array are present, and alike but for some attributes."""
     alike = len({content(element, without) for element in elements.values()}) == 1
     return alike and set(elements) == set(indices(shape))
 

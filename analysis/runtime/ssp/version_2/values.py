@@ -38,6 +38,6 @@ def merge_values(parameter_set: etree._Element, arrays: Mapping[str, Shape]) -> 
 
 
 def _but_number(parameter: etree._Element) -> bytes:
-    """What a Parameter says, its name and number apart."""
+    """Return the content of a Parameter, its name and number apart."""
     said = [content(inner, ("value",)) for inner in parameter]
     return b"".join([repr(sorted(each for each in parameter.attrib.items() if each[0] != "name")).encode(), *said])

@@ -86,7 +86,7 @@ class FrameReader(AnnotationReader):
             self.network.axes.update(zip(members, names, strict=True))
 
     def names(self, element: etree._Element, attribute: str) -> tuple[str, ...]:
-        """The names of an attribute, separated by spaces, all of them different."""
+        """Return the names of an attribute, separated by spaces, all of them different."""
         names = tuple(element.get(attribute, "").split())
         twice = [name for name in names if names.count(name) > 1]
         if twice:

@@ -13,7 +13,8 @@ from .sizes import Sizes, walk
 
 
 def expand_arrays(description: Description, sizes: Sizes) -> Description:
-    """The description with scalar connectors ``x[1]``, ``x[2]`` or ``x[2,1]`` for an array x, and connections of these.
+    """Return the description with scalar connectors ``x[1]``, ``x[2]`` or ``x[2,1]`` for an array x, and their
+    connections.
 
     ``sizes`` are those that structural parameters give. A description without arrays is returned as it is. Raises
     InputError.
@@ -25,7 +26,7 @@ def expand_arrays(description: Description, sizes: Sizes) -> Description:
 
 
 def _has_arrays(system: System) -> bool:
-    """Whether a system, inner ones apart, has an array, or a connection that names an element of one."""
+    """Return True if a system, inner ones apart, has an array, or a connection that names an element of one."""
     return (
         any(each.dimensions for owner in (system, *system.elements.values()) for each in owner.connectors.values())
         or any(each.dimensions for signals in system.dictionaries.values() for each in signals.values())
@@ -86,7 +87,7 @@ def _connections(description: Description, shapes: Shapes, path: str, connection
 def _part(
     description: Description, shapes: Shapes, path: str, connection: Connection, point: Point, chosen: Shape
 ) -> tuple[list[Point], Shape]:
-    """The elements that an end of a connection means, and the shape that they have together."""
+    """Return the elements that an end of a connection means, and the shape that they have together."""
     element, connector = point
     shape = shapes.at(path, point)
     if len(chosen) > len(shape) or any(index > size for index, size in zip(chosen, shape, strict=False)):

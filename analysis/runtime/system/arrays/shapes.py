@@ -1,4 +1,4 @@
-"""How many elements each array connector has: as stated, as its FMU has it, or as what it is connected to."""
+"""Shapes of array connectors: as stated, as in the FMU, or as those that they are connected to."""
 
 from __future__ import annotations
 
@@ -55,16 +55,16 @@ class Shapes:
         ARRAY_ELEMENTS.check(sum(math.prod(shape) for shape in self.known.values()), description.file, "Dimension")
 
     def at(self, path: str, point: Point) -> Shape:
-        """The shape of the connector that an end of a connection names; empty for scalars and unknown ones."""
+        """Return the shape of the connector that an end of a connection names; empty for scalars and unknown ones."""
         return self.known.get(name_of(path, point), ())
 
     def refuse_second(self, path: str, name: str, second: Connector, first: Connector) -> InputError:
-        """The error of an array's element that is a connector by itself, too."""
+        """Return the error of an array's element that is a connector by itself, too."""
         where = second.at(path + name)
         return InputError(self.description.file, where, f"declared in line {first.line}, too", "remove one")
 
     def _as_in_fmu(self, name: str, component: Component, connector: Connector, shape: Open) -> Open:
-        """The shape that a component's FMU gives an array; raises InputError for another than is declared."""
+        """Return the shape of an array in its component's FMU; raises InputError for another than is declared."""
         fmu = self.load(name, component)
         if name not in self.of_fmus:
             self.of_fmus[name] = array_shapes(fmu.variables)
@@ -108,7 +108,7 @@ class Shapes:
 
 
 def name_of(path: str, point: Point) -> str:
-    """The hierarchical name of an end of a connection in the system at ``path``."""
+    """Return the hierarchical name of an end of a connection in the system at ``path``."""
     element, connector = point
     return path + connector if element is None else f"{path}{element}.{connector}"
 

@@ -17,7 +17,7 @@ Load = Callable[[str, Component], Fmu]
 
 
 def walk(system: System, path: str = "") -> Iterator[tuple[str, System]]:
-    """A system and those inside it, with their paths: empty for the outermost, else with a dot behind."""
+    """Yield a system and those inside it, with their paths: empty for the outermost, else with a trailing dot."""
     yield path, system
     for element in system.elements.values():
         if isinstance(element, System):
@@ -27,7 +27,7 @@ def walk(system: System, path: str = "") -> Iterator[tuple[str, System]]:
 def given_values(
     description: Description, archive: SystemArchive, assignments: Sequence[Assignment]
 ) -> dict[str, ParameterValue]:
-    """The values of parameter sets and options by hierarchical name, later ones over earlier, outer over inner ones.
+    """Return the values of parameter sets and options by hierarchical name, later over earlier, outer over inner ones.
 
     No FMU is needed for that: names are not looked up, nor values converted. Raises InputError.
     """
@@ -45,7 +45,7 @@ def given_values(
 
 
 class Sizes:
-    """Sizes of dimensions. ``given`` reads the values that are given, when they are first needed."""
+    """Sizes of dimensions. ``given`` reads the assigned values when they are first needed."""
 
     def __init__(self, description: Description, given: Callable[[], Mapping[str, ParameterValue]], load: Load) -> None:
         self.description = description
@@ -60,7 +60,8 @@ class Sizes:
         }
 
     def size(self, owner: Element, path: str, dimension: Dimension, array: str) -> int:
-        """The size of a dimension of ``array`` that a connector gives, of the element ``owner`` at ``path``.
+        """Return the size of a dimension of ``array`` that a connector determines, of the element ``owner`` at
+        ``path``.
 
         Raises InputError.
         """
@@ -76,7 +77,8 @@ class Sizes:
         return self._check(self._declared(full) if given is None else given, full, where)
 
     def connected(self, component: str, names: Collection[str]) -> dict[str, int]:
-        """The values that connections bring the structural parameters ``names`` of a component. Raises InputError."""
+        """Return the values that connections bring the structural parameters ``names`` of a
+        component. Raises InputError."""
         sizes = {}
         for name in names:
             full = f"{component}.{name}"
@@ -87,14 +89,14 @@ class Sizes:
         return sizes
 
     def _chain(self, name: str) -> list[str]:
-        """A structural parameter, and those that lead to it, the outermost at the end."""
+        """Return a structural parameter, and those that lead to it, the outermost at the end."""
         chain = [name]
         while self.sources.get(chain[-1], chain[-1]) not in chain:
             chain.append(self.sources[chain[-1]])
         return chain
 
     def _brought(self, chain: Sequence[str]) -> object:
-        """The outermost value that is given along a chain, or that of the constant at its end."""
+        """Return the outermost value assigned along a chain, or that of the constant at its end."""
         if not chain:
             return None
         given = self.given()
@@ -107,7 +109,7 @@ class Sizes:
         return self._declared(name) if declared is not None and declared.kind == "constant" else None
 
     def _declared(self, name: str) -> object:
-        """What the FMU of a component declares as a variable's start."""
+        """Return a variable's start as the FMU of a component declares it."""
         component, _, short = name.rpartition(".")
         if component not in self.components:
             return None
@@ -126,7 +128,7 @@ class Sizes:
 
 
 def _structural_sources(description: Description) -> dict[str, str]:
-    """What leads to structural parameters, by hierarchical name."""
+    """Return the sources of structural parameters, by hierarchical name."""
     sources: dict[str, str] = {}
     for path, system in walk(description.system):
         for connection in system.connections:

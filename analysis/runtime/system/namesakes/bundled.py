@@ -1,4 +1,4 @@
-"""Names by which a process finds the code that an FMU brings, beside its own library: modules and shared libraries."""
+"""Names by which a process finds the code in an FMU apart from its library: modules and shared libraries."""
 
 from __future__ import annotations
 

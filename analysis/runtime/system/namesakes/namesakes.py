@@ -34,7 +34,7 @@ _loaded: dict[tuple[str, str], _Loaded] = {}  # by kind and name, what FMUs have
 
 
 def check_namesakes(fmus: Iterable[Fmu], *, in_process: bool) -> None:
-    """Refuse foreign FMUs that would be given the code of another one, or that of Perilune. Raises InputError.
+    """Refuse foreign FMUs that would load the code of another one, or that of Perilune. Raises InputError.
 
     They are compared with each other, with the modules of the process that loads them and, where that is this one
     (``in_process``), with all that it has ever loaded.
@@ -87,7 +87,7 @@ def _check_module(fmu: Fmu, module: Bundled, modules: Files) -> None:
 
 
 def _is_installed(name: str) -> bool:
-    """True if there is a module of this name without any FMU: others are not looked for in a process."""
+    """Return True if a module of this name exists without any FMU: others are not looked for in a process."""
     try:
         return name in sys.modules or find_spec(name) is not None
     except (ValueError, ImportError):

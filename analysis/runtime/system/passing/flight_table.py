@@ -1,4 +1,4 @@
-"""What flights one behind another are given: each the same parameters and faults, with values of its own."""
+"""Inputs of consecutive flights: each the same parameters and faults, with separate values."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class FaultColumns:
 
 @dataclass(frozen=True)
 class FlightTable:
-    """What n flights are given: values of varied parameters by name [n], and all faults of the simulation in order."""
+    """Inputs of n flights: values of varied parameters by name [n], and all faults of the simulation in order."""
 
     flights: int
     values: Mapping[str, np.ndarray]

@@ -38,7 +38,7 @@ def pass_parameters(network: Network, settings: Settings) -> None:
 
 
 def _passed_value(network: Network, settings: Settings, node: Node) -> tuple[str, float | str] | None:
-    """What connections bring a parameter, and from where: the outermost value wins; None where they bring nothing."""
+    """Return the value and source that connections bring a parameter: the outermost value wins; None without one."""
     chain = [network.driver[node.name]] if node.name in network.driver else []
     while chain and chain[-1].source.name in network.driver:
         chain.append(network.driver[chain[-1].source.name])
@@ -56,12 +56,12 @@ def _passed_value(network: Network, settings: Settings, node: Node) -> tuple[str
 
 
 def _number(text: str, node: Node) -> float | str:
-    """A constant's value as `Settings.nodes` has them."""
+    """Return a constant's value as `Settings.nodes` has them."""
     return text if node.type_name == "String" else float({"true": "1", "false": "0"}.get(text.lower(), text))
 
 
 def _pass_on(network: Network, link: Link, value: float | str) -> float | str:
-    """A parameter's value behind a connection."""
+    """Return a parameter's value after a connection."""
     if isinstance(value, str):
         return value
     if not link.transformation.table:
@@ -75,7 +75,7 @@ def _pass_on(network: Network, link: Link, value: float | str) -> float | str:
 
 
 def numbers(network: Network, link: Link) -> list[tuple[float, float]]:
-    """A connection's mapping as numbers: Booleans 0 and 1, enumeration items by their values; else nothing."""
+    """Return a connection's mapping as numbers: Booleans 0 and 1, enumeration items by their values; else nothing."""
     transformation = link.transformation
     kind = VALUE_TYPES[transformation.kind][0]
 

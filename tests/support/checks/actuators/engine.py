@@ -20,7 +20,8 @@ def leave_dead_band(thrust, low, high, full):
 
 
 def thrust_allocation():
-    """The lag by scipy's filters, turns by scipy's rotations: no demand, too small, too large and well within limits.
+    """Compute the lag by scipy's filters, turns by scipy's rotations: no demand, too small, too large and within
+    limits.
 
     The direction turns after a demand that jumps and moves on; short burns are ended by thrust_lead where they begin.
     """

@@ -6,7 +6,8 @@ from tests.support.checks.check import STEP, Check, follow
 
 
 def gyro_steering_robust():
-    """The smallest rates that give the torque, by least squares, scaled together where one is beyond the limit."""
+    """Compute the smallest rates that give the torque, by least squares, scaled together where
+    one is beyond the limit."""
     rows, momentum, limit = 25, 30.0, 0.6
     random = np.random.default_rng(284)
     angles = np.array([1.0, -1.0, 1.1, -0.9]) + random.normal(0.0, 0.1, (rows, 4))
@@ -42,7 +43,7 @@ def gyro_steering_robust():
 
 
 def momentum(angles):
-    """The cluster's momentum over that of one rotor."""
+    """Return the cluster's momentum over that of one rotor."""
     c, s = np.cos(angles), np.sin(angles)
     return np.array([c.sum(), s[0] + s[1], s[2] + s[3]])
 

@@ -17,7 +17,8 @@ def jets():
 
 
 def attainable_part(matrix, wrench, largest):
-    """The largest part, up to 1, of a wrench that jets of at most ``largest`` (N) give: a linear programme of HiGHS."""
+    """Return the largest fraction of a wrench that jets of at most ``largest`` (N) give: a
+    linear programme of HiGHS."""
     programme = linprog(
         -np.eye(9)[8],
         A_eq=np.column_stack([matrix, -wrench]),
@@ -63,7 +64,7 @@ def allocate_jets(allocate):
 
 
 def jet_allocation_pseudo_inverse():
-    """The pseudo-inverse of numpy, lifted to 0 and scaled where the largest thrust is beyond the limit."""
+    """Compute the pseudo-inverse by numpy, lifted to 0 and scaled where the largest thrust is beyond the limit."""
 
     def allocate(wrench):
         thrust = np.linalg.pinv(jets()) @ wrench
@@ -74,7 +75,8 @@ def jet_allocation_pseudo_inverse():
 
 
 def jet_allocation_least_propellant():
-    """Two linear programmes of HiGHS: the largest attainable part of the wrench, and the least thrust that gives it."""
+    """Solve two linear programmes by HiGHS: the largest attainable fraction of the wrench, then
+    the least thrust for it."""
     matrix = jets()
 
     def allocate(wrench):

@@ -12,7 +12,7 @@ ROWS, QUANTUM, LARGEST, DELAY = 49, 0.05, 0.16, 0.25
 
 
 def jet_allocation_quantised():
-    """Of all 4^8 levels those without torque, the nearest force, its least sum; scaled by a linear programme before.
+    """Search all 4^8 levels without torque for the nearest force of least sum, scaled by a linear programme before.
 
     Commands turn with the body, last four rows or eight; one takes the place of another that still waits, one lasts no
     time, which counts as no number, some have a torque.

@@ -19,7 +19,8 @@ def smallest_maximum(u, n):
 
 
 def check_allocation(truth, distribute):
-    """The check of an allocation; distribute: torques by the pseudo-inverse, speeds, null vector -> torques, change."""
+    """Return the check of an allocation; distribute: torques by the pseudo-inverse, speeds,
+    null vector -> torques, change."""
     random = np.random.default_rng(45)
     wanted, speeds = random.normal(0.0, 0.25, (ROWS, 3)), random.normal(0.0, 60.0, (ROWS, 4))
     wanted[20] = 1e102

@@ -11,7 +11,7 @@ WEAK, WRONG_FIELD, WRONG_MOMENTUM = 5, 7, 11  # samples of the magnetometer
 
 
 def dipole_of(mode, field, before, momentum, parameters):
-    """The dipole without a limit; ``before`` is the field of the sample before, None without one."""
+    """Return the dipole without a limit; ``before`` is the field of the sample before, None without one."""
     square = field @ field
     if mode == DETUMBLE and before is not None:
         return -parameters["detumble_gain"] / square * (field - before) / parameters["field_period"]

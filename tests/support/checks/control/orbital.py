@@ -11,14 +11,14 @@ DOWN = np.array([0.0, 0.0, -ORBITAL_RATE])
 
 
 def estimates(seed, angles_size, rates_size):
-    """Attitudes and absolute angular velocities near those wanted."""
+    """Draw attitudes and absolute angular velocities near the desired ones."""
     random = np.random.default_rng(seed)
     angles = angles_size * random.normal(size=(ROWS, 3))
     return angles, DOWN + rates_size * random.normal(size=(ROWS, 3))
 
 
 def orbital_modal_control():
-    """The closed loop that is wanted, a' = S1 a + z and z' = S0 z, in the coordinates (a, w - wp); u makes up for A."""
+    """Compute the desired closed loop, a' = S1 a + z and z' = S0 z, in the coordinates (a, w - wp); u compensates A."""
     angle_poles, rate_poles = np.array([0.12, 0.07, 0.1]), np.array([0.16, 0.13, 0.2])
     angles, w = estimates(287, 0.05, 0.003)
     a = derivatives_of(rates_of, np.concatenate([np.zeros(3), DOWN]))
@@ -37,7 +37,7 @@ def orbital_modal_control():
 
 
 def orbital_derivative_control():
-    """The same closed loop with roll moving pitch; its gain times the inverse of its matrix, on differences."""
+    """Compute the same closed loop with roll moving pitch; its gain times the inverse of its matrix, on differences."""
     angle_poles, rate_poles, turn = np.array([0.0012, 0.003, 0.0011]), np.array([0.001, 0.002, 0.0013]), 0.002
     angles, w = estimates(289, 0.05, 1e-5)
     a = derivatives_of(rates_of, np.concatenate([np.zeros(3), DOWN]))
@@ -64,7 +64,7 @@ def orbital_derivative_control():
 
 
 def orbital_arrival_control():
-    """The rate that is left to each angle, with yaw led through the corners of a trapezium."""
+    """Compute the rate that is left to each angle, with yaw led through the corners of a trapezium."""
     arrival, shortest_time, band, pulse = 3.0, 1.2, np.array([0.02, 0.015, 0.01]), 0.2
     turn, turn_rate, turn_start, stay = -0.06, 0.08, 0.81, 1.1
     angles, w = estimates(288, 0.05, 0.01)

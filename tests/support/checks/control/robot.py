@@ -10,7 +10,7 @@ ROWS = 33
 
 
 def attitude_control():
-    """The paper's torque, and a step of Euler's for the momentum to the middle of the period; a sample every two rows.
+    """Compute the paper's torque, and an Euler step of the momentum to mid-period; a sample every two rows.
 
     Law 1, of attitude and rate.
     """
@@ -58,9 +58,10 @@ def attitude_control():
 
 
 def translation_control():
-    """The lead by scipy's bilinear discretisation and filter, whose state keeps the output at a change of design.
+    """Compute the lead by scipy's bilinear discretisation and filter, whose state keeps the output at a change of
+    design.
 
-    Law 0: slow, fast, slow; the count of ticks pauses and goes on.
+    Law 0: slow, fast, slow; the count of ticks pauses and continues.
     """
     mass, designs = 900.0, {0.5: (0.2, 4.0, 0.7), 0.25: (0.7, 2.0, 0.4)}  # period: gain, lead, lag
     random = np.random.default_rng(290)

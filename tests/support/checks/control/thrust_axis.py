@@ -10,7 +10,7 @@ ROWS = 33
 
 
 def thrust_axis_control():
-    """Small and large errors, so that each closing rate is the least; no direction at first, none of the attitude last.
+    """Compute small and large errors, so that each closing rate is the least; no direction at first, no attitude last.
 
     Half of the rotation between two directions is the one to the bisector, given by a product of quaternions.
     """

@@ -29,7 +29,7 @@ LAST_BURN = 1.5 * STEP  # s
 
 
 def published(position, velocity, memory):
-    """Time from the quadratic where it falls through 0, complex roots by their real part; angles linear in time.
+    """Solve the quadratic for the time where it falls through 0, complex roots by their real part; angles are linear.
 
     The pitch rate holds the horizontal thrust and the cosine of the pitch at their start.
     """
@@ -50,7 +50,8 @@ def published(position, velocity, memory):
 
 
 def analytic_guidance():
-    """A hovering start that has no solution, a flight that stops, and one with samples straight above and sideways."""
+    """Check a hovering start without a solution, a flight that stops, and one with samples
+    straight above and sideways."""
     start = declared_state([0.3, 0.8, 0.5, 0.5, 0.6, 0.9])
     time = balance_roots(*start, 2)[-1]
     positions, velocities = disturb(path_of(*start, time), 31)
@@ -68,7 +69,8 @@ def analytic_guidance():
 
 
 def exact(position, velocity, memory):
-    """Nothing dropped: the direction turns as a0 + a1 t does; of least effort, the mean over the cycle is commanded."""
+    """Solve without approximations: the direction turns as a0 + a1 t; at least effort the mean
+    over the cycle is commanded."""
     time, least_effort = certain_time(position, velocity, memory)
     if time <= 0.0:
         return Solution(0.0)

@@ -39,7 +39,7 @@ LAST_BURN = 2.5 * STEP  # s
 
 
 def cycle_of(memory):
-    """The cycle (s) as the block knows it: 0 in the first sample of a flight."""
+    """Return the cycle (s) that the block knows: 0 in the first sample of a flight."""
     memory["samples"] = memory.get("samples", 0) + 1
     return STEP if memory["samples"] > 1 else 0.0
 
@@ -49,7 +49,7 @@ def impact_size(position, velocity, time):
 
 
 def newton(position, velocity, memory):
-    """The root of (A T - 3 B).(A T - 2 B) = 0 nearest to the start."""
+    """Find the root of (A T - 3 B).(A T - 2 B) = 0 nearest to the start."""
     cycle, speed = cycle_of(memory), np.linalg.norm(velocity)
     if "root" not in memory and speed == 0.0:
         return Solution(0.0, status=NO_SOLUTION, clamps=0)
@@ -64,7 +64,7 @@ def newton(position, velocity, memory):
 
 
 def astar_guidance():
-    """Samples without a root on the way, a start without one, a start at rest, one whose root is kept to."""
+    """Check samples without a root on the way, a start without one, a start at rest, one whose root is kept."""
     states = states_of_the_box(200, 34)
     rootless = [state for state in states if not astar_roots(*state)][:3]
     start = next(state for state in states if len(astar_roots(*state)) > 1 and np.ptp(astar_roots(*state)) > 50.0)
@@ -89,7 +89,8 @@ def closed(position, velocity, memory):
 
 
 def excess(state):
-    """By how much the lateral and the vertical part alone are more than the whole thrust; above 0 it is clamped."""
+    """Return the excess of lateral and vertical thrust alone over the whole, as a fraction;
+    above 0 thrust is clamped."""
     time = modified_time(*state)
     a0, _ = linear_thrust(*state, time)
     size = impact_size(*state, time)
@@ -97,7 +98,7 @@ def excess(state):
 
 
 def astar_modified_guidance():
-    """A flight to its stop, with samples that turn by a radian and more; clamped starts; no time, and less."""
+    """Check a flight to its stop, with samples that turn by a radian and more; clamped starts; no time, and less."""
     states = states_of_the_box(3000, 35)
     excesses = np.array([excess(state) for state in states])
     clamped = [states[k] for k in np.flatnonzero(excesses > 1e-3)[:3]]
@@ -116,7 +117,7 @@ def astar_modified_guidance():
 
 
 def robust(position, velocity, memory):
-    """The thrust a0 + a1 t at its start; linear where it is of least effort or points hardly forward."""
+    """Return the thrust a0 + a1 t at its start; linear where it is of least effort or points hardly forward."""
     time, least_effort = certain_time(position, velocity, memory)
     if time <= 0.0:
         return Solution(0.0, clamps=0)

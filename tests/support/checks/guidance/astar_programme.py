@@ -1,4 +1,4 @@
-"""The programme of method A*: lateral and vertical thrust linear in time, the forward part completes it.
+"""The programme of method A*: lateral and vertical thrust linear in time, the forward component completes it.
 
 Taken over from the method: an arcsine of more than 1 is one of 1, whose cosine in doubles, 6e-17, divides the forward
 rate.
@@ -12,7 +12,7 @@ from tests.support.flights.linear_thrust import linear_thrust
 
 
 def programme(position, velocity, time, size, cycle):
-    """The method's thrust of ``size`` (m/s2): its y and z are those of a0 + a1 t.
+    """Return the method's thrust of ``size`` (m/s2): its y and z are those of a0 + a1 t.
 
     Where its angles turn by more than a radian in the ``cycle`` (s), their mean over it by Simpson's rule.
     """

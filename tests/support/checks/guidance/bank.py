@@ -7,7 +7,7 @@ from tests.support.checks.check import STEP, Check
 
 
 def bank_programme():
-    """A reversal of bank with a coast: the rate is a trapezoid, the bank its integral."""
+    """Compute a reversal of bank with a coast: the rate is a trapezoid, the bank its integral."""
     target, reversal, largest, acceleration = 0.9, 1.3, 0.21, 0.07
     time = STEP * np.arange(129)
     gather = largest / acceleration

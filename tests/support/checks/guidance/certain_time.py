@@ -28,7 +28,7 @@ def effort_slope(position, velocity):
 
 
 def effort_times(position, velocity):
-    """Times of least effort, the first of which is meant."""
+    """Return times of least effort, the first of which counts."""
     slope = effort_slope(position, velocity)
     if not slope.coef[:3].any():
         return []
@@ -66,7 +66,7 @@ def mean_size(a0, a1, time, last_burn):
 
 
 def turning(a0, a1):
-    """The direction of a0 + a1 t at t = 0, and its derivative."""
+    """Return the direction of a0 + a1 t at t = 0, and its derivative."""
     size = np.linalg.norm(a0)
     direction = a0 / size
     return direction, (a1 - (a1 @ direction) * direction) / size

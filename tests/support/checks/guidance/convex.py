@@ -49,7 +49,7 @@ def costs_more_with_time(descent, time):
 
 @cache
 def plan_of(position, velocity):
-    """The path that is flown from a start, and the status."""
+    """Return the path to follow from a start, and the status."""
     status = GOOD
     descent = descent_of(position, velocity)
     balance = balance_polynomial(descent.position, descent.velocity, 3)
@@ -85,7 +85,7 @@ def mean_thrust(path, time):
 
 
 def planned(position, velocity, memory):
-    """The first sample makes a plan, those after it follow."""
+    """Plan at the first sample, follow the plan at those after it."""
     if not np.any(position - TARGET):
         return Solution(0.0, status=NO_SOLUTION)
     if "path" not in memory:
@@ -106,7 +106,7 @@ def planned(position, velocity, memory):
 
 
 def flight_along(position, velocity, seed, samples):
-    """Samples near the plan of a start: within some metres, and once within 25 m at 9 m/s, which is limited."""
+    """Return samples near the plan of a start: within some metres, and once within 25 m at 9 m/s, which is limited."""
     path, _ = plan_of(tuple(position), tuple(velocity))
     random = np.random.default_rng(seed)
     rows = [(np.asarray(position), np.asarray(velocity))]

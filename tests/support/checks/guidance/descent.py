@@ -74,7 +74,7 @@ def check_plan(leg, memory, limits, shape):
 
 
 def polynomial_law(choose, limits, update=None):
-    """The law of a function ``choose`` of the leg and memory, which gives the time and the shape that it is for.
+    """Return the law of a function ``choose`` of the leg and memory, which gives the time and the shape.
 
     ``update`` gives a later time of its own; without it the time is counted down, and chosen where thrust is short.
     """

@@ -65,7 +65,7 @@ def zem_zev_guidance():
 
 
 def fractional_guidance():
-    """Searched for a glide slope and a tilt, which one start is outside of."""
+    """Search for a glide slope and a tilt, which one start is outside of."""
     limits = replace(LIMITS, glide_slope=0.25, largest_tilt=1.2)
     shapes = [(1.0, kr, np.array([0.0, 0.0, 2.0])) for kr in (6.0, 8.0, 10.0, 12.0)]
 
@@ -93,7 +93,7 @@ def fractional_guidance():
 
 
 def apollo_guidance():
-    """Times are roots of Klumpp's cubic; the last flight has none."""
+    """Compute times as roots of Klumpp's cubic; the last flight has none."""
     lift, deceleration, jerk = 2.2, 5.0, 0.029
     limits = replace(LIMITS, maximum=4.9)
 
@@ -137,7 +137,7 @@ def apollo_guidance():
 
 
 def gravity_turn_guidance():
-    """An engine that waits for 60 % of its thrust; below the target, ascending, and with more thrust than there is."""
+    """Check an engine that waits for 60 % of its thrust; below the target, ascending, and with excessive thrust."""
     margin = 0.6 * LIMITS.maximum
 
     def law(position, velocity, memory):

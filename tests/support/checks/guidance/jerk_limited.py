@@ -17,7 +17,7 @@ FIRST, LAST = np.array([0.1, 0.2, -0.2]), np.array([0.0, -0.12, 0.16])
 
 
 def profile(jerks, durations, rate):
-    """The angle of pieces of constant jerk, from an angle of 0 and a rate without acceleration."""
+    """Return the angle over pieces of constant jerk, from an angle of 0 and a rate without acceleration."""
     knots = np.concatenate([[0.0], np.cumsum(durations)])
     acceleration = PPoly(np.array([jerks]), knots).antiderivative()
     first = PPoly(np.full((1, len(jerks)), rate), knots)
@@ -58,7 +58,7 @@ def seven_arcs(axis, angle, rate, acceleration, jerk):
 
 
 def slew_jerk_limited():
-    """A rate that is stopped, a turn at all three limits, another rate that is made."""
+    """Check a rate that is stopped, a turn at all three limits, another rate that is reached."""
     first, last = np.linalg.norm(FIRST), np.linalg.norm(LAST)
     jerks, durations = ramp(first)
     stop = Leg(FIRST / first, first, [-jerk for jerk in jerks], durations)
@@ -118,7 +118,7 @@ def slew_jerk_limited():
 
 
 def rendezvous_guidance_jerk_limited():
-    """The plan of the other guidance with another turn, which ends before its phase does."""
+    """Compute the plan of the other guidance with another turn, which ends before its phase does."""
     check = rendezvous.rendezvous_guidance()
     limits = {"turn_rate_limit": 1.9, "turn_acceleration_limit": 4.0, "turn_jerk_limit": 20.0}
     axis = np.cross([1.0, 0.0, 0.0], rendezvous.SPIN)

@@ -40,7 +40,7 @@ def descent():
 
 
 def hold_forward(velocity, up, active):
-    """The horizontal direction of flight, of an earlier row of the same flight where there is hardly any; first x."""
+    """Return the horizontal direction of flight, of an earlier row of the flight where there is hardly any; first x."""
     horizontal = velocity - (velocity * up).sum(axis=1)[:, None] * up
     size = np.linalg.norm(horizontal, axis=1)
     rows = np.arange(len(up))
@@ -50,7 +50,7 @@ def hold_forward(velocity, up, active):
 
 
 def network_operator_guidance():
-    """The planar law turned into space by rotations: no mass, a hand-over that stays, a second flight."""
+    """Turn the planar law into space by rotations: no mass, a hand-over that stays, a second flight."""
     up, altitude, velocity, mass, active = descent()
     rows = np.arange(len(up))
     across = np.cross(up, velocity)

@@ -1,4 +1,4 @@
-"""Truth of a law given as a network operator: every operation by numpy, from the outputs backwards."""
+"""Truth of a law declared as a network operator: every operation by numpy, from the outputs backwards."""
 
 import numpy as np
 

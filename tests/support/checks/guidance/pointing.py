@@ -39,7 +39,7 @@ def carry(r, v, h):
 
 
 def orbit_samples():
-    """Samples each second, 1 s old; none for more than 5 s; then one that falls straight down."""
+    """Return samples each second, 1 s old; none for more than 5 s; then one that falls straight down."""
     time = CYCLE * np.arange(ROWS)
     count = 7 + np.arange(ROWS) // 4
     count[NO_COUNT] = count[NO_COUNT[0] - 1]

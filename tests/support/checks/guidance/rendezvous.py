@@ -17,7 +17,7 @@ STATION = TARGET + ARRIVAL * DRIFT - DISTANCE * SPIN / np.linalg.norm(SPIN)
 
 
 def approach(acceleration):
-    """The spline of degree 6: rest of acceleration at both ends, of jerk at the second."""
+    """Return the spline of degree 6: rest of acceleration at both ends, of jerk at the second."""
     coasting = TURN_START * acceleration
     begin = (TURN_END - 0.5 * TURN_START) * coasting
     return BPoly.from_derivatives(
@@ -26,7 +26,7 @@ def approach(acceleration):
 
 
 def balanced_acceleration():
-    """That of phase 1 with which half-way through the spline the velocity has half of its change: a linear equation."""
+    """Solve for the acceleration of phase 1 with which velocity has half of its change half-way through the spline."""
 
     def imbalance(acceleration):
         velocity = approach(acceleration).derivative()

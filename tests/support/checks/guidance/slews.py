@@ -12,7 +12,7 @@ ANGLE = float(np.linalg.norm(TURN))
 
 
 def check_slew(truth, angle, duration):
-    """The check of a slew; angle: a piecewise polynomial of the time since its begin."""
+    """Return the check of a slew; angle: a piecewise polynomial of the time since its begin."""
     time, later = STEP * np.arange(ROWS) - BEGIN, STEP * np.arange(1, ROWS + 1) - BEGIN
 
     def rate(at):

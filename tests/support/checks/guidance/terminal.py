@@ -1,4 +1,4 @@
-"""What the truths of the terminal guidances share: samples of flights, and the slot as a whole record.
+"""Shared code of the truths of terminal guidances: samples of flights, and the slot as a whole record.
 
 A law is a function of what one sample sees and of the samples before; which command is in force, what time is left and
 where a flight ends is read off the record of its solutions. Taken over from the slot: the statuses, and what outputs
@@ -48,21 +48,21 @@ def path_of(position, velocity, time, step=STEP):
 
 
 def disturb(path, seed, fraction=1e-3):
-    """The path with errors that fade with the way that is left: guidance has something to correct."""
+    """Return the path with errors that fade with the remaining distance, for guidance to correct."""
     random = np.random.default_rng(seed)
     return tuple(rows * (1.0 + fraction * random.uniform(-1.0, 1.0, rows.shape)) for rows in path)
 
 
 def burn_end(times, left, horizon):
-    """The sample of the last burn, the first with no more than ``horizon`` left, or the number of samples."""
+    """Return the sample of the last burn, the first with no more than ``horizon`` left, or the number of samples."""
     late = np.flatnonzero(left <= horizon)
     return late[0] if len(late) else len(times)
 
 
 def fly(times, solutions, direction, last_burn=None):
-    """Outputs of the slot over one flight, from its first sample on.
+    """Return outputs of the slot over one flight, from its first sample on.
 
-    ``direction`` is that of the command before. ``last_burn`` (s): the last command is timed, and is given with no more
+    ``direction`` is that of the command before. ``last_burn`` (s): the last command is timed, and issued with no more
     than that left; None: the flight stops with the first sample, after its first, that has less than a cycle left.
     """
     count = len(times)
@@ -118,7 +118,7 @@ def fly(times, solutions, direction, last_burn=None):
 
 
 def check_of(truth, flights, law, parameters, last_burn=None, tolerance=1e-12):
-    """The check of flights, each a list of positions and velocities, with a row of no activity between them.
+    """Return the check of flights, each a list of positions and velocities, with an inactive row between them.
 
     ``law`` makes a `Solution` of position, velocity and a dictionary that is new in every flight.
     """

@@ -23,7 +23,7 @@ def sine_error(planned, actual):
 
 
 def attitude_filter():
-    """A turning robot with gyros and jets that start and stop; samples of either sign, one that is not finite.
+    """Check a turning robot with gyros and jets that start and stop; samples of either sign, one not finite.
 
     Between samples Euler's equations give the mean angular velocity of a step to first order in it, and the total
     momentum turns back into the body's axes, as the block's docstring says. The covariance is that of errors in body

@@ -19,7 +19,7 @@ def cross_matrix(v):
 
 
 def true_attitude(time):
-    """True attitude at times (s)."""
+    """Return the true attitude at times (s)."""
     return Rotation.from_rotvec([0.3, -0.2, 0.9]) * Rotation.from_rotvec(time[:, None] * RATE)
 
 
@@ -66,7 +66,7 @@ def directions():
 
 
 def attitude_navigation_filter():
-    """Turning with errors far larger than real ones; late star samples of either sign, directions, a gate.
+    """Check a turn with errors far larger than real ones; late star samples of either sign, directions, a gate.
 
     Q is that of Crassidis and Junkins, in which the body does not turn.
     """
@@ -98,7 +98,7 @@ def attitude_navigation_filter():
         rows.append([quaternion, rate - bias, bias, sigmas[:3], sigmas[3:], square, rejected, status])
 
     def take(z, h, r):
-        """True if within the gate: attitude and bias are corrected."""
+        """Correct attitude and bias with a sample; return True if it is within the gate."""
         nonlocal attitude, bias, square, rejected
         if z @ np.linalg.solve(h @ kalman.P @ h.T + r, z) > gate:
             rejected += 1
@@ -183,7 +183,7 @@ def attitude_navigation_filter():
 
 
 def attitude_navigation_ideal():
-    """The truth."""
+    """Return the truth."""
     quaternion, rate, stars, gyros, _, _ = motion()
     outputs = {"estimated_quaternion": follow(quaternion), "estimated_angular_velocity": follow(rate)}
     tolerances = dict.fromkeys(outputs, (0.0, 0.0))

@@ -13,7 +13,7 @@ NOT_FINITE = 24  # row of a sample that is not finite
 
 
 def chain_filter(sigmas, sigma):
-    """A filter of three like axes, of which the first states are measured; ``sigmas`` are those of the start."""
+    """Return a filter of three like axes, of which the first states are measured; ``sigmas`` are those of the start."""
     n = 3 * len(sigmas)
     kalman = KalmanFilter(dim_x=n, dim_z=3)
     kalman.x = np.zeros(n)
@@ -24,7 +24,8 @@ def chain_filter(sigmas, sigma):
 
 
 def predict(kalman, density, u=None):
-    """A step ahead: an integrator each from the last state to the first, with white noise of the densities on them."""
+    """Predict a step: an integrator each from the last state to the first, with white noise of
+    the densities on them."""
     n = len(density)
     transition, noise = discretise(np.eye(n, k=1), np.diag(density))
     kalman.predict(u=u, F=np.kron(transition, np.eye(3)), Q=np.kron(noise, np.eye(3)))

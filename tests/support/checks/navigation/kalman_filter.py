@@ -37,7 +37,7 @@ WALK, DRIFT, GATE, LIMIT = 0.01, 1e-3, 5.0, 2
 
 
 def with_blocks(blocks):
-    """A matrix of fifteen states that is 1 but for blocks {(i, k): 3 x n} from row 3 i, column 3 k."""
+    """Return a matrix of fifteen states that is 1 but for blocks {(i, k): 3 x n} from row 3 i, column 3 k."""
     made = np.eye(15)
     for (i, k), block in blocks.items():
         made[3 * i : 3 * i + 3, 3 * k : 3 * k + np.shape(block)[1]] = block
@@ -73,7 +73,7 @@ class Filter:
         return (self.x[:3] - CENTRE) / distance, distance
 
     def advance(self, force, free):
-        """A step ahead under a measured mean specific force."""
+        """Predict a step under a measured mean specific force."""
         if not free:
             bias, scale, rotation = self.x[6:].reshape(3, 3)
             force = force - bias - scale * force - np.cross(rotation, force)

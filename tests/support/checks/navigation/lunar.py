@@ -1,4 +1,4 @@
-"""Truths of lunar navigation with errors of its own. Direct outputs follow one row later."""
+"""Truths of lunar navigation with navigation errors. Direct outputs follow one row later."""
 
 import numpy as np
 from filterpy.kalman import KalmanFilter
@@ -56,7 +56,7 @@ def coloured_navigation():
 
 
 def noisy_navigation():
-    """A filter of filterpy that takes in three components at once."""
+    """Compute a filter of filterpy that takes in three components at once."""
     position, velocity = truth_of_flight()
     force = np.array([3.0, -0.5, 2.6]) + 0.3 * np.sin(TIME[:, None] + np.array([0.0, 1.0, 2.0]))
     first, sigmas, periods, noise, gravity = (40.0, 0.8), (5.0, 0.1), (4, 2), 1e-3, 1.6

@@ -29,7 +29,7 @@ class AttitudeKalman:
         self.rates = self.before = np.array(sample[2])
 
     def advance(self, w):
-        """A tick ahead at the mean angular velocity w by the rule of the middle."""
+        """Predict a tick at the mean angular velocity w by the midpoint rule."""
         start = np.concatenate([self.filter.x[:3], w])
         middle = np.concatenate([start[:3] + self.tick / 2.0 * rates_of(start)[:3], w])
         derivatives = self.tick * derivatives_of(rates_of, middle)[:3]
@@ -58,7 +58,7 @@ class AttitudeKalman:
 
 
 def orbital_filter():
-    """Samples with noise and a bias; two missing, the last not finite."""
+    """Check samples with noise and a bias; two missing, the last not finite."""
     sigmas = {"vertical_sigma": 0.05 * DEGREE, "gyro_sigma": 0.002 * DEGREE, "gyro_bias_sigma": 1e-5}
     samples = Samples(0.05 * DEGREE, 0.002 * DEGREE)
     samples.measured[:, 2:] += [1e-5, -2e-5, 1.5e-5]

@@ -1,6 +1,6 @@
 """Truths of the observers of the orbital attitude: direction cosines by DOP853 between samples, gains by numpy.
 
-A full observer's gain is that of docs/systems/orbital_attitude.md; its poles are seen to be those asked for. The
+A full observer's gain is that of docs/systems/orbital_attitude.md; its poles are compared with the requested ones. The
 derivatives of the motion are complex steps of the nonlinear equations.
 """
 
@@ -23,7 +23,7 @@ C = np.delete(np.eye(6), 1, axis=0)
 
 
 def check_poles(closed, yaw, measured):
-    """A matrix of errors has a pole of yaw, and five others as many directions of their own."""
+    """Check that a matrix of errors has a pole of yaw, and the five others independent directions."""
     shifted = closed - measured * np.eye(6)
     assert np.linalg.matrix_rank(shifted, tol=1e-9 * np.abs(closed).max()) == 1
     assert abs(np.trace(shifted) + measured - yaw) < 1e-9

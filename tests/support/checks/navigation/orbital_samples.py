@@ -1,4 +1,4 @@
-"""What observers of the orbital attitude are given: samples of a body that turns, and what its jets did."""
+"""Inputs of observers of the orbital attitude: samples of a body that turns, and the pulses of its jets."""
 
 from typing import NamedTuple
 
@@ -72,7 +72,7 @@ class Samples:
 
 
 def observe(truth, samples, correct, largest_yaw, tolerances, coast=None, **parameters):
-    """The check of an observer whose estimate after a good sample is ``correct`` (Tick), without one ``coast`` (Tick).
+    """Return the check of an observer whose estimate after a good sample is ``correct`` (Tick), without one ``coast``.
 
     Without ``coast`` it is the motion's, pulse by pulse. ``tolerances``: of angles (rad) and rates (rad/s).
     """

@@ -8,7 +8,7 @@ ROWS = 17
 
 
 def ideal_navigation():
-    """The estimate is the truth."""
+    """Return the truth as the estimate."""
     random = np.random.default_rng(28)
     position, velocity = random.normal(0.0, 1e4, (ROWS, 3)), random.normal(0.0, 1e2, (ROWS, 3))
     return Check(
@@ -26,7 +26,7 @@ def ideal_navigation():
 
 
 def orbital_true_state():
-    """The estimate is the truth."""
+    """Return the truth as the estimate."""
     random = np.random.default_rng(29)
     angles, rates = random.normal(0.0, 0.2, (ROWS, 3)), random.normal(0.0, 1e-2, (ROWS, 3))
     return Check(

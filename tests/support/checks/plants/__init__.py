@@ -1,4 +1,4 @@
-"""Truths of plants: closed forms, and scipy's DOP853 on equations written out anew."""
+"""Truths of plants: closed forms, and scipy's DOP853 on independently written equations."""
 
 from tests.support.checks.plants import attitude_lander, bodies, landers, spacecraft, wheels
 

@@ -44,7 +44,7 @@ empty.terminal = ground.terminal = True
 
 
 def integrate(start, end, y, command, acceleration):
-    """The state at ``end``, and when it has come to the ground: never, or from where on nothing is flown.
+    """Return the state at ``end``, and the time of touchdown: infinite, or the time from which integration stops.
 
     Without propellant there is no thrust. The axis turns to the end of the internal step that comes to the ground.
     """
@@ -67,9 +67,9 @@ def integrate(start, end, y, command, acceleration):
 
 
 def attitude_moon_lander():
-    """A burn, a coast while thrust dies away, a burn until the tank is empty, the fall, the probe, the ground.
+    """Check a burn, a coast while thrust dies away, a burn until the tank is empty, the fall, the probe, the ground.
 
-    Angular accelerations beyond the limit, with a part along the axis, and small ones.
+    Angular accelerations beyond the limit, with a component along the axis, and small ones.
     """
     time = STEP * np.arange(ROWS)
     late = time >= 1.5

@@ -1,4 +1,4 @@
-"""Truths of bodies that turn: scipy's rotations, and DOP853 on equations written out anew."""
+"""Truths of bodies that turn: scipy's rotations, and DOP853 on independently written equations."""
 
 import itertools
 import math
@@ -129,7 +129,7 @@ def free_flying_robot():
 
 
 def drifting_target():
-    """A straight line and a turn about a fixed axis."""
+    """Compute a straight line and a turn about a fixed axis."""
     start, velocity, axis, rate = np.array([400.0, 300.0, -50.0]), np.array([0.5, -0.25, 1.0]), [1.0, -2.0, 2.0], 0.4
     time = STEP * np.arange(65)
     turn = Rotation.from_rotvec(rate * time[:, None] * unit(axis))

@@ -1,4 +1,4 @@
-"""Truths of landers whose attitude is commanded: closed forms, and DOP853 on equations written out anew."""
+"""Truths of landers with commanded attitude: closed forms, and DOP853 on independently written equations."""
 
 import math
 
@@ -11,7 +11,7 @@ from tests.support.checks.vectors import unit
 
 
 def flat_moon_lander():
-    """A parabola, thrust along a turning direction that ends inside a step, a parabola."""
+    """Compute a parabola, thrust along a turning direction that ends inside a step, a parabola."""
     gravity, mass, thrust, since, duration, rows = 1.62, 940.0, 4500.0, 0.5, 2.05, 33
     direction, rate = np.array([0.8, -0.36, 0.48]), np.array([-0.036, -0.048, 0.024])
     start = np.array([1.0e5, -2.0e4, 1.05e4, -930.0, 180.0, -40.0])

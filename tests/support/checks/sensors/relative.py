@@ -17,7 +17,7 @@ from tests.support.checks.sensors.sampled import (
 
 
 def attitude_sensor():
-    """The axis measured by a constant and a new small rotation, to first order."""
+    """Rotate the axis by a constant and a new small rotation, to first order."""
     constant_sigma, attitude_sigma, rate_sigma = 0.02, 0.01, 0.003
     axis = wave(1.0, 0.3, 2.0, 4.0) + np.array([0.0, 0.0, 3.0])
     axis /= np.linalg.norm(axis, axis=1)[:, None]

@@ -13,7 +13,7 @@ COUNTED = ("sample_count", "status", "valid")
 
 
 def sampled(rows):
-    """What a sensor sees at its samples: a sample at t_n sees the inputs of the row before."""
+    """Return a sensor's inputs at its samples: a sample at t_n has the inputs of the row before."""
     return follow(rows)[::EVERY]
 
 
@@ -22,7 +22,7 @@ def repeat(samples):
 
 
 def check_sensor(truth, inputs, samples, parameters, tolerance, count=None):
-    """The check of a sensor with these ``samples`` of its outputs; ``count`` if not all samples count."""
+    """Return the check of a sensor with these ``samples`` of its outputs; ``count`` if not all samples count."""
     outputs = {name: repeat(rows) for name, rows in samples.items()}
     outputs["sample_count"] = repeat(1 + np.arange(SAMPLES) if count is None else count)
     return Check(
@@ -36,12 +36,12 @@ def check_sensor(truth, inputs, samples, parameters, tolerance, count=None):
 
 
 def wave(size, *phases):
-    """A row per time, an element per phase."""
+    """Return waves, a row per time, an element per phase."""
     return size * np.sin(0.7 * TIME[:, None] + np.array(phases))
 
 
 def keep(rows, seen):
-    """Outputs at every sample, the last seen one where nothing is seen, 0 before; and the count."""
+    """Return outputs at every sample, the last valid one where none is valid, 0 before; and the count."""
     assert 0 < seen.sum() < SAMPLES
     count = np.cumsum(seen)
     return np.concatenate([np.zeros_like(rows[:1]), rows[seen]])[count], count

@@ -28,7 +28,7 @@ def delayed(rows, good, late):
 
 
 def correlated(first, fresh, sigma, lag):
-    """A first-order Gauss-Markov error that begins in its steady state, summed from all its past."""
+    """Return a first-order Gauss-Markov error that begins in its steady state, summed from all its past."""
     ages = np.subtract.outer(np.arange(SAMPLES), np.arange(SAMPLES)) * EVERY * STEP
     weights = np.where(ages >= 0.0, np.exp(-np.abs(ages) / lag), 0.0)
     weights[:, 1:] *= np.sqrt(1.0 - np.exp(-2.0 * EVERY * STEP / lag))
@@ -72,7 +72,7 @@ def rate_gyros():
 
 
 def star_inertial():
-    """The attitude after a small rotation in body axes, larger about the boresight; Sun, Moon, limb, rate, latency."""
+    """Compute the attitude after a small body rotation, larger about the boresight; Sun, Moon, limb, rate, latency."""
     attitude, sigma, roll, late = Rotation.from_euler("zyx", wave(1.2, 0.3, 1.3, 2.9)), 0.02, 0.05, 1
     boresight = np.array([2.0, -1.0, 2.0]) / 3.0
     aim = attitude.apply(boresight)
@@ -82,7 +82,7 @@ def star_inertial():
     error = Rotation.from_rotvec(sigma * (numbers - about) + roll * about)
 
     def passing(time, distance, axis):
-        """A vector from the spacecraft that crosses the boresight at a time."""
+        """Return a vector from the spacecraft that crosses the boresight at a time."""
         return distance * Rotation.from_rotvec(np.outer(2.0 * (TIME - time), np.cross(axis, aim[0]))).apply(aim)
 
     position = -passing(3.2, 7e6, [0.0, 0.0, 1.0])
@@ -126,7 +126,7 @@ def star_inertial():
 
 
 def magnetometer():
-    """A drawn matrix and a drawn bias, the torquers' field, both limits of a component, a field that is not finite."""
+    """Check a drawn matrix and bias, the torquers' field, both limits of a component, a field that is not finite."""
     field, dipole = wave(4e-5, 0.0, 2.2, 4.2), wave(3.0, 5.0, 3.0, 1.0)
     field[2 * NOT_FINITE - 1, 1] = np.nan
     scale, coupling = 0.01 * SHAPE, 1e-7 * SHAPE.T
@@ -221,7 +221,8 @@ def sun_sensors():
 
 
 def gps_receiver():
-    """Samples two periods late; the correlated error summed from all its past; an outage, a position not finite."""
+    """Check samples two periods late; the correlated error summed from all its past; an outage,
+    a position not finite."""
     position = np.array([7e6, 1e5, -2e5]) + np.outer(TIME, [500.0, 7000.0, 2000.0])
     velocity = np.array([500.0, 7000.0, 2000.0]) + wave(10.0, 0.0, 1.0, 2.0)
     position[2 * NOT_FINITE - 1, 0] = np.nan

@@ -26,7 +26,7 @@ def on_sphere(position, height=0.0):
 
 
 def sites():
-    """Site and target by cycle: braking ends elsewhere, a move is shortened, then dropped, another one is made."""
+    """Return site and target by cycle: braking ends elsewhere, a move is shortened, then dropped, another accepted."""
     position, velocity = seen.fly_on(19, None)
     ahead = position + LOOKAHEAD * velocity
     assert np.linalg.norm(ahead - CENTRE) - RADIUS < LOWEST_HOVER

@@ -1,6 +1,6 @@
-"""What a landing's sequencer sees, cycle by cycle, so that the flight of `landing` comes about.
+"""Inputs of a landing's sequencer, cycle by cycle, that produce the flight of `landing`.
 
-Values lie just on either side of their thresholds. Rows between two cycles have the inputs of another cycle, and both
+Values are just on either side of their thresholds. Rows between two cycles have the inputs of another cycle, and both
 contacts: they must not count.
 """
 
@@ -67,7 +67,7 @@ def fly_on(cycle, targets):
 
 
 def record(targets, requested):
-    """Inputs by rows, two per cycle; ``requested``: number of the plan wanted in each cycle."""
+    """Return inputs by rows, two per cycle; ``requested``: number of the requested plan in each cycle."""
     cycles = np.arange(CYCLES)
 
     def at(*chosen):

@@ -82,7 +82,7 @@ def flight_monitor():
 
 
 def touchdown_monitor():
-    """The first contact is kept through a bounce; it is within all limits."""
+    """Check that the first contact is kept through a bounce; it is within all limits."""
     rows, first = 13, 5
     random = np.random.default_rng(282)
     contact = np.isin(np.arange(rows), [first, first + 1, first + 4, first + 5])
@@ -124,7 +124,7 @@ def touchdown_monitor():
 
 
 def site_divert():
-    """The site moved at the first row from divert_time on: the new target is as high above the sphere as the first."""
+    """Move the site at the first row from divert_time on: the new target is as high above the sphere as the first."""
     rows, time, radius = 13, 0.6, 1.7e6
     offset, target = np.array([1500.0, -700.0]), np.array([400.0, 300.0, 150.0])
     centre = np.array([0.0, 0.0, -radius])

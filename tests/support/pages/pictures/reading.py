@@ -38,7 +38,7 @@ class Comparison:
 
 @contextmanager
 def reading(browser: str, *, phone: bool = False) -> Iterator[Chrome]:
-    """A browser that notes what pages draw."""
+    """Yield a browser that notes drawings of pages."""
     require_scripts()
     options = ChromeOptions()
     options.binary_location = browser
@@ -57,7 +57,7 @@ def reading(browser: str, *, phone: bool = False) -> Iterator[Chrome]:
 
 
 def read_page(driver: Chrome, page: Path) -> Comparison:
-    """The figures of a page; no console message, and no task longer than `LONGEST` in the best of `TRIES`."""
+    """Read the figures of a page; no console message, and no task longer than `LONGEST` in the best of `TRIES`."""
     for attempt in range(1, TRIES + 1):
         read = _read(driver, page)
         if read["longest"] <= LONGEST:
@@ -85,7 +85,7 @@ def _read(driver: Chrome, page: Path) -> Any:
 
 
 def _differences(figure: Any) -> Iterator[str]:
-    """What of a figure differs from its picture: texts and their places, values at ten instants, ink."""
+    """Yield the differences of a figure from its picture: texts and their places, values at ten instants, ink."""
     stated, written = (Counter(text for text, *_ in figure[key]) for key in ("stated", "written"))
     if lost := sorted((stated - written).elements()):
         yield f"lost {lost}"

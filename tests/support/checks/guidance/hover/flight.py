@@ -60,7 +60,7 @@ def sample_times(count):
 
 
 def see(law, plan, number, time, elapsed, random):
-    """What the block sees at a sample of a plan: a start, or the reference with errors of its own."""
+    """Return the block's inputs at a sample of a plan: a start, or the reference with errors."""
     mode, plan_number, _, _, target, start, others = plan
     seen = SimpleNamespace(
         active=True,

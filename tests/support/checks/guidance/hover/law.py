@@ -1,7 +1,7 @@
 """The law that tracks a plan: projections by matrices, the engine's lag by the matrix exponential.
 
 Taken over from the block: its gains and limits, what outputs keep while idle, and that thrust is estimated at the mean
-mass of a cycle, before a plan is made.
+mass of a cycle, before planning.
 """
 
 import numpy as np
@@ -70,7 +70,7 @@ class Law:
             self.outputs["thrust_factor"] += gain * (measured - self.outputs["thrust_factor"])
 
     def sample(self, time, elapsed, seen, kind=None):
-        """Outputs at ``time`` (s); ``kind`` as in `make_plan`."""
+        """Return outputs at ``time`` (s); ``kind`` as in `make_plan`."""
         self.outputs["command_time"] = time
         if not seen.active or seen.mode == IDLE:
             self.plan, self.command = None, 0.0
@@ -93,7 +93,7 @@ class Law:
         return COASTING if t < plan.duration - plan.times[3] - 1.0 else BRAKING
 
     def track(self, t, reference, elapsed, seen):
-        """The command at ``t`` (s) after the plan's start."""
+        """Return the command at ``t`` (s) after the plan's start."""
         plan, w = self.plan, self.frequency(t)
         direction, rate = plan.direction(t)
         error = reference[0] - seen.position

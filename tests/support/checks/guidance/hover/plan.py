@@ -1,4 +1,4 @@
-"""Plans to a hover in space: how they are made, and what holds once they are over."""
+"""Plans to a hover in space: their computation, and outputs once they are over."""
 
 from dataclasses import dataclass
 
@@ -41,7 +41,7 @@ FROM = {WITH_FIRST_BURN: (5.5, 12.9, 8.5, 16.8)}
 
 @dataclass
 class Plan:
-    """Where a flight holds in the end, and the way there."""
+    """Final hold of a flight, and the path to it."""
 
     goal: np.ndarray
     up: np.ndarray
@@ -105,7 +105,7 @@ def capture_start(seen, elapsed, lift):
 
 
 def make_plan(seen, elapsed, kind):
-    """The plan of what the block sees; ``kind``: the form of a programme, declared with the flight."""
+    """Plan from the block's inputs; ``kind``: the form of a programme, declared with the flight."""
     plan = Plan(seen.target_position, vertical(seen.target_position))
     gravity = 0.5 * (weight(seen.position) + weight(seen.target_position))
     lift = gravity * plan.up

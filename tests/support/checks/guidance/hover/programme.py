@@ -1,7 +1,7 @@
 """The programme from hover to hover by root finding on the paper's full equations, integrated by scipy's DOP853.
 
 Taken over from the block: the ends that its search for least propellant tries, of which the best is the plan's. They
-are 1 s and 2.6 s later than a first one, then those of a golden section of the larger part of the bracket, to 1 ms.
+are 1 s and 2.6 s later than a first one, then those of a golden section of the larger segment of the bracket, to 1 ms.
 """
 
 import math
@@ -26,7 +26,7 @@ def times_of(kind, free, end=None):
 
 
 def solve(kind, guess, vehicle, x, y, end=None):
-    """Times of the programme that ends at rest at (x, y) (m)."""
+    """Return times of the programme that ends at rest at (x, y) (m)."""
     conditions = [2, 3] if kind == VERTICAL else [0, 1, 2, 3]
 
     def miss(free):
@@ -78,7 +78,7 @@ class Programme:
         return self.origin + x * self.along + y * self.up, vx * self.along + vy * self.up
 
     def direction(self, t):
-        """The thrust axis, and its derivative (1/s)."""
+        """Return the thrust axis and its derivative (1/s)."""
         pitch, rate = self.state(t)[5:]
         cosine, sine = math.cos(pitch), math.sin(pitch)
         return cosine * self.along + sine * self.up, rate * (cosine * self.up - sine * self.along)

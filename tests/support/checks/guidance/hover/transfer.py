@@ -35,7 +35,7 @@ class Transfer:
         return self.acceleration(t) + self.lift
 
     def direction(self, t):
-        """The thrust axis, and its derivative (1/s)."""
+        """Return the thrust axis and its derivative (1/s)."""
         f, axis = self.thrust(t), unit(self.thrust(t))
         return axis, (np.eye(3) - np.outer(axis, axis)) @ self.jerk(t) / np.linalg.norm(f)
 
@@ -68,7 +68,7 @@ def slow_transfer(start, goal, up, lift, limits):
 
 
 def capture(start, goal, lift, mass):
-    """The cheapest of 150 durations."""
+    """Return the cheapest of 150 durations."""
     transfers = [Transfer(start, goal, duration, lift) for duration in 8.0 * 1.02 ** np.arange(150)]
     prices = [np.dot([1.0, 1000.0], transfer.expense(mass)) for transfer in transfers]
     return transfers[int(np.argmin(prices))]
