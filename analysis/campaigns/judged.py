@@ -45,7 +45,7 @@ def metric_limits(expressions: Iterable[Expression]) -> dict[str, MetricLimits]:
 
 
 def _comparisons(node: ast.expr) -> Iterator[tuple[str, float, float]]:
-    """The metrics that comparisons joined by `and` compare with a number: name, least, greatest."""
+    """Yield the metrics that comparisons joined by `and` compare with a number: name, least, greatest."""
     if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
         for each in node.values:
             yield from _comparisons(each)
@@ -63,7 +63,7 @@ def _comparisons(node: ast.expr) -> Iterator[tuple[str, float, float]]:
 
 
 def _number(node: ast.expr) -> float | None:
-    """The number that an expression without variables is."""
+    """Return the number that an expression without variables is."""
     expression = Expression(ast.unparse(node))
     value = math.nan if expression.names else float(expression.evaluate({}))
     return value if math.isfinite(value) else None

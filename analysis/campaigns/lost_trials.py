@@ -16,7 +16,7 @@ def lost_status(status: str) -> str:
 
 
 def count_lost(statuses: Mapping[str, int]) -> Counter[str]:
-    """How many trials crashed, hung or ran out of memory, of the counts of all statuses."""
+    """Count the trials that crashed, hung or ran out of memory, from the counts of all statuses."""
     counts: Counter[str] = Counter()
     for status, count in statuses.items():
         if lost_status(status):
@@ -30,7 +30,7 @@ def lost_words(counts: Mapping[str, int]) -> str:
 
 
 def lost_lines(statuses: Mapping[str, Mapping[str, int]]) -> list[str]:
-    """A line for each variant that has any, of the counts of its statuses."""
+    """Return a line for each variant that has any, from the counts of its statuses."""
     words = {variant: lost_words(count_lost(counts)) for variant, counts in statuses.items()}
     return [
         f"{variant}: {text} of {sum(statuses[variant].values())} trials, which are no successes"
@@ -40,5 +40,5 @@ def lost_lines(statuses: Mapping[str, Mapping[str, int]]) -> list[str]:
 
 
 def lost_of(summary: Summary) -> list[str]:
-    """The lines of a summary's variants."""
+    """Return the lines of a summary's variants."""
     return lost_lines({variant: entry.statuses for variant, entry in summary.items()})

@@ -17,12 +17,12 @@ def align_columns(rows: list[list[str]]) -> list[str]:
 
 
 def assumption_lines(assumptions: Iterable[str]) -> list[str]:
-    """What a result assumes since an FMU does not declare it, a line for each assumption."""
+    """Return a result's assumptions where an FMU declares nothing, a line for each."""
     return [f"assumed: {assumption}" for assumption in assumptions]
 
 
 def faults_line(faults: Iterable[object]) -> str:
-    """What results say of the faults that flew."""
+    """Return the line of results on their faults."""
     return f"with faults: {'; '.join(map(str, faults))}"
 
 

@@ -30,7 +30,7 @@ class PlottedSample:
 
     @property
     def note(self) -> str:
-        """What is left out, in words; nothing where nothing is."""
+        """Note on trials left out, in words; nothing where none are."""
         if self.trials == len(self.first):
             return ""
         seen = int(np.count_nonzero(~self.dots.success))
@@ -39,7 +39,7 @@ class PlottedSample:
 
 
 def select_trials(rows: TrialTable, draws: list[str], metrics: list[str]) -> PlottedSample:
-    """What figures show of a variant's trials, with some draws and metrics."""
+    """Return the samples for figures of a variant's trials, with some draws and metrics."""
     names = ["trial", "status", "success", *(f"metric.{name}" for name in metrics), *(f"draw.{name}" for name in draws)]
     chosen: list[pyarrow.Table] = []
     trials = failures = retained = 0

@@ -1,4 +1,4 @@
-"""Whether the trials of a variant meet the campaign's requirements, and after which trial all of it is decided."""
+"""Verdicts of a variant's trials on the campaign's requirements, and the trial after which all are decided."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class RequirementVerdict:
 
 
 def satisfies(requirement: Requirement, trials: TrialTable) -> np.ndarray:
-    """Which trials satisfy a requirement (booleans); one does not where a metric of the requirement is not finite."""
+    """Return for each trial if it satisfies a requirement; one does not where a metric of it is not finite."""
     names = {name: f"metric.{name}" for name in requirement.expression.names} | {SUCCESS: "success"}
     satisfied = []
     for part in trials.parts(*names.values()):
@@ -73,7 +73,7 @@ def satisfies(requirement: Requirement, trials: TrialTable) -> np.ndarray:
 def requirement_verdict(
     requirement: Requirement, trials: TrialTable, until_decided: bool = False
 ) -> RequirementVerdict:
-    """The verdict on one requirement by a variant's trials, in order of trial.
+    """Return the verdict on one requirement by a variant's trials, in order of trial.
 
     With ``until_decided``, where the campaign may have ended because it was decided, all of it is by `StoppingRule`.
     """
@@ -100,7 +100,7 @@ def requirement_verdict(
 
 
 def _unevaluated(requirement: Requirement, trials: TrialTable) -> tuple[str, ...] | None:
-    """The metrics of a requirement that are nan in every trial."""
+    """Return the metrics of a requirement that are nan in every trial."""
     names = sorted(requirement.expression.names - {SUCCESS})
     read = list(trials.parts(*(f"metric.{name}" for name in names)))
     missing = [name for name in names if all(np.isnan(columns[f"metric.{name}"]).all() for columns in read)]

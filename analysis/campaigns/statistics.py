@@ -70,7 +70,7 @@ def statistics(column: Blocks, unit: str) -> MetricStatistics:
 
 
 def _read_once(column: Blocks) -> Blocks:
-    """The same column, in memory unless it is a very long one."""
+    """Return the same column, in memory unless it is a very long one."""
     blocks: list[np.ndarray] = []
     for values in column():
         blocks.append(values)
@@ -80,7 +80,7 @@ def _read_once(column: Blocks) -> Blocks:
 
 
 def _sum(column: Blocks, of: Callable[[np.ndarray], np.ndarray]) -> float:
-    """The sum of a function of the finite values, rounded once."""
+    """Return the sum of a function of the finite values, rounded once."""
     terms = (of(values[np.isfinite(values)]).tolist() for values in column())
     try:
         return math.fsum(itertools.chain.from_iterable(terms))
@@ -89,7 +89,7 @@ def _sum(column: Blocks, of: Callable[[np.ndarray], np.ndarray]) -> float:
 
 
 def quantile(column: Blocks, fraction: float) -> float:
-    """The smallest value of a column that a ``fraction`` of all does not exceed; nan where there is no value.
+    """Return the smallest value of a column that a ``fraction`` of all does not exceed; nan where there is no value.
 
     Exact; memory does not grow with the column. Raises ValueError unless 0 <= fraction <= 1.
     """

@@ -74,7 +74,7 @@ def success_interval(successes: int, trials: int, confidence: float = 0.95) -> I
 
 
 def success_rate(yes: np.ndarray) -> Rate:
-    """The rate of trials that are a yes (booleans, one a trial, one trial or more)."""
+    """Return the rate of trials that are a yes (booleans, one a trial, one trial or more)."""
     count = int(np.count_nonzero(yes))
     return Rate(count, yes.size, count / yes.size, success_interval(count, yes.size, CONFIDENCE))
 
@@ -112,7 +112,7 @@ def summarise(
     requirements: Sequence[Requirement] = (),
     until_decided: bool = False,
 ) -> Summary:
-    """The summaries of all variants by name. Every variant has one trial or more; metrics and units are its columns'.
+    """Summarise all variants by name. Every variant has one trial or more; metrics and units are its columns'.
 
     ``groups`` are those of trials by the values of the draw ``by``. Verdicts are by `requirement_verdict`.
     """

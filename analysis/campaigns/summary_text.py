@@ -30,7 +30,7 @@ def select_metrics(named: Sequence[str], known: Sequence[str], needed: Collectio
 
 
 def metric_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> list[str]:
-    """A line per metric and row: statistics over successful trials.
+    """Return a line per metric and row: statistics over successful trials.
 
     Metrics that are the same in all of them are in one line, and statistics that would make lines too long left out.
     """
@@ -102,7 +102,7 @@ def _common_value(rows: Sequence[SummaryRow], metric: str) -> float | None:
 
 
 def summary_text(summary: Summary, group: str | None = None, metrics: Sequence[str] | None = None) -> str:
-    """A summary for the terminal: success rates, requirements, then metrics of successful trials, of groups too.
+    """Return a summary for the terminal: success rates, requirements, then metrics of successful trials, of groups too.
 
     ``metrics`` are those to print; None for all.
     """

@@ -15,12 +15,13 @@ def who_heads(group: str | None) -> list[str]:
 
 
 def who_cells(row: SummaryRow, group: str | None) -> list[str]:
-    """A row's variant and, where trials are grouped, its group's value, or that it is all of them."""
+    """Return a row's variant and, where trials are grouped, its group's value, or that it is all of them."""
     return [row.variant] if group is None else [row.variant, row.group or "all"]
 
 
 def requirement_lines(summary: Summary) -> list[str]:
-    """A line per requirement and variant: what is required, the figures and the verdict; then tolerance bounds."""
+    """Return a line per requirement and variant: the requirement, the figures and the verdict; then tolerance
+    bounds."""
     head = ["requirement", "variant", "flights", "failures", "risk %", "verdict", "more for 0, 1, 2 failures"]
     cells, bounds = [head], []
     for variant, name, result in requirement_rows(summary):
@@ -44,7 +45,7 @@ def requirement_rows(summary: Summary) -> list[tuple[str, str, RequirementVerdic
 
 
 def bound_text(result: RequirementVerdict, value: str) -> str:
-    """The tolerance bound of a requirement in words, with its ``value`` as text. The requirement has a bound."""
+    """Return the tolerance bound of a requirement in words, with its ``value`` as text. The requirement has a bound."""
     bound = result.bound
     assert bound is not None
     level = f"with {100 * result.share:.10g} % probability at {100 * result.confidence:.10g} % confidence"
@@ -57,7 +58,7 @@ def bound_text(result: RequirementVerdict, value: str) -> str:
 
 
 def unmet_lines(summary: Summary) -> list[str]:
-    """A line for each requirement of each variant that is not met or undecided: its figures, what is missing."""
+    """Return a line for each unmet or undecided requirement of each variant: its figures, what is missing."""
     return [
         f"{variant}: requirement {name}: {result.text}: {verdict_text(result)}"
         for variant, entry in summary.items()
@@ -67,7 +68,7 @@ def unmet_lines(summary: Summary) -> list[str]:
 
 
 def verdict_text(result: RequirementVerdict) -> str:
-    """A verdict in words: its flights and failures and, where undecided, what would decide it."""
+    """Return a verdict in words: its flights and failures and, where undecided, those that would decide it."""
     if result.unevaluated:
         return f"{result.verdict}: {unevaluated_text(result)}"
     text = f"{result.verdict}: {result.failures} of {result.flights} flights fail it"

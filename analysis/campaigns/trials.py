@@ -34,7 +34,7 @@ class TrialTable:
     def of(
         cls, columns: Mapping[str, np.ndarray | Sequence[str]], traces: Mapping[int, Trace] | None = None
     ) -> TrialTable:
-        """The table of columns by name: numbers or truths (trials,), or texts; ``traces`` are by trial."""
+        """Return the table of columns by name: numbers or truths (trials,), or texts; ``traces`` are by trial."""
         return cls(
             table_of(
                 {
@@ -66,7 +66,7 @@ class TrialTable:
         return list(self._schema.names)
 
     def described(self, describe: Describe) -> Self:
-        """The same trials with what their columns mean."""
+        """Return the same trials with descriptions of their columns."""
         trials = copy(self)
         trials._describe = describe
         return trials
@@ -78,7 +78,7 @@ class TrialTable:
         return trials
 
     def units(self, prefix: str) -> dict[str, str]:
-        """The units of the columns whose names begin so, by what follows; "1" where there is none."""
+        """Return the units of the columns whose names begin so, by the rest of the name; "1" where there is none."""
         fields = {field.name: field.metadata or {} for field in self.schema if field.name.startswith(prefix)}
         return {name.removeprefix(prefix): about.get(b"unit", b"1").decode() for name, about in fields.items()}
 
@@ -86,15 +86,16 @@ class TrialTable:
         return int(self._table.num_rows)
 
     def tables(self, names: Sequence[str]) -> Iterator[pyarrow.Table]:
-        """Some columns, trials in a row at a time."""
+        """Yield some columns, consecutive trials at a time."""
         yield self._table.select(names)
 
     def traced(self) -> list[int]:
-        """The trials with a trace, in order; of a folder those with a file of one, which may be another batch's."""
+        """Return the trials with a trace, in order; of a folder those with a file of one, which may be another
+        batch's."""
         return sorted(self._traces)
 
     def trace(self, trial: int, names: Collection[str] | None = None) -> Trace | None:
-        """What a trial has recorded of these signals, or of all, and ``time`` (s); None where it has no trace.
+        """Return a trial's record of these signals, or of all, and ``time`` (s); None where it has no trace.
 
         Raises InputError for a damaged file.
         """
@@ -104,11 +105,11 @@ class TrialTable:
         return {name: values for name, values in signals if names is None or name in names or name == "time"}
 
     def whole(self) -> TrialTable:
-        """The same in memory, with all traces."""
+        """Return the table in memory, with all traces."""
         return self
 
     def parts(self, *names: str, members: Sequence[Member] = ()) -> Iterator[dict[str, np.ndarray]]:
-        """Some columns in numpy, trials in a row at a time; of the trials that are in all of some groups."""
+        """Yield some columns in numpy, consecutive trials at a time; of the trials that are in all of some groups."""
         needed = list(dict.fromkeys((*names, *(name for name, _ in members))))
         for table in self.tables(needed):
             columns = {name: numpy_of(table[name]) for name in needed}
@@ -118,11 +119,11 @@ class TrialTable:
             yield {name: columns[name] for name in names}
 
     def blocks(self, name: str, members: Sequence[Member] = ()) -> Blocks:
-        """A column of numbers as blocks; of the trials that are in all of some groups."""
+        """Return a column of numbers as blocks; of the trials that are in all of some groups."""
         return lambda: (np.asarray(part[name], dtype=float) for part in self.parts(name, members=members))
 
     def column(self, name: str) -> np.ndarray:
-        """A column in memory (trials,). Raises KeyError."""
+        """Return a column in memory (trials,). Raises KeyError."""
         return self._columns([name])[name]
 
     def _columns(self, names: Sequence[str]) -> dict[str, np.ndarray]:
@@ -132,7 +133,8 @@ class TrialTable:
         return {name: np.concatenate([values, *(part[name] for part in others)]) for name, values in first.items()}
 
     def in_memory(self, names: Sequence[str], most: int) -> TrialTable:
-        """These columns read once, if they have no more than ``most`` numbers in all; otherwise the table itself."""
+        """Read these columns once, if they have no more than ``most`` numbers in all; otherwise
+        return the table itself."""
         tables: list[pyarrow.Table] = []
         size = 0
         for table in self.tables(names):
@@ -143,13 +145,13 @@ class TrialTable:
         return self._like(pyarrow.concat_tables(tables).combine_chunks())
 
     def part(self, numbers: range) -> TrialTable:
-        """Those with some consecutive numbers."""
+        """Return the trials with some consecutive numbers."""
         first, end = np.searchsorted(self.trial, [numbers.start, numbers.stop]).tolist()
         traces = {trial: trace for trial, trace in self.traces.items() if trial in numbers}
         return self._like(self.table.slice(first, end - first), traces)
 
     def renumber(self, first: int) -> TrialTable:
-        """The same with other numbers, as many higher."""
+        """Return the table with all trial numbers increased by ``first``."""
         numbers = numbers_of(self.trial + first)
         table = self.table.set_column(self.names.index("trial"), "trial", numbers)
         return self._like(table, {trial + first: trace for trial, trace in self.traces.items()})
@@ -161,12 +163,12 @@ class TrialTable:
 
     @property
     def statuses(self) -> list[str]:
-        """How each flight ended, and the worst status that components had."""
+        """Ending of each flight, and the worst status that components had."""
         return list(self.column("status").tolist())
 
     @property
     def success(self) -> np.ndarray:
-        """Which trials are successes (trials,)."""
+        """Success of each trial (trials,)."""
         return np.asarray(self.column("success"), dtype=bool)
 
     @property
@@ -183,7 +185,7 @@ class TrialTable:
 
     @property
     def flown(self) -> np.ndarray:
-        """Which flights came to their end (trials,)."""
+        """True for each flight that reached its end (trials,)."""
         return np.asarray(self.column("message") == "", dtype=bool)
 
     @property

@@ -112,5 +112,5 @@ def holm_adjusted(p_values: Sequence[float]) -> np.ndarray:
 
 
 def _even_split(first: int, second: int) -> float:
-    """How likely a fair coin splits so unevenly, either way; 1 where there is nothing to split."""
+    """Return the probability that a fair coin splits so unevenly, either way; 1 where there is nothing to split."""
     return float(binomtest(first, first + second).pvalue) if first + second else 1.0

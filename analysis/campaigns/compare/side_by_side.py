@@ -61,7 +61,7 @@ def compare_folders(make: type[Result], folders: Sequence[Path], reference: str 
 
 
 def _label(folder: str, variant: str, *, several: bool, single: bool) -> str:
-    """What a contender is called: by what tells it from the others, variant, folder, or both."""
+    """Return the label of a contender by what distinguishes it from the others: variant, folder, or both."""
     if not several:
         return variant
     return folder if single else f"{folder}: {variant}"
@@ -114,7 +114,7 @@ def _notes(batches: Mapping[str, StoredBatch]) -> Iterator[str]:
 
 
 def _distinct_names(paths: Sequence[Path]) -> list[str]:
-    """The shortest ends of some different paths that tell them apart."""
+    """Return the shortest ends of some different paths that distinguish them."""
     for length in range(1, max(len(path.parts) for path in paths) + 1):
         names = ["/".join(path.parts[-length:]) for path in paths]
         if len(set(names)) == len(names):

@@ -1,1 +1,1 @@
-"""What is asked of a batch: file, draws, expressions, metrics, the plan of it all."""
+"""Definition of a batch: file, draws, expressions, metrics, and the plan of all of it."""

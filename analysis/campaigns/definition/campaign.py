@@ -43,13 +43,13 @@ class Metric:
 
     @property
     def names(self) -> frozenset[str]:
-        """What its expressions refer to."""
+        """Names that its expressions refer to."""
         return self.expression.names | (self.condition.names if self.condition is not None else frozenset())
 
 
 @dataclass(frozen=True)
 class Record:
-    """What is kept of a trial beside its metrics: final values, every n-th row of signals, full traces.
+    """Stored values of a trial apart from its metrics: final values, every n-th row of signals, full traces.
 
     ``trials`` keeps the sampled signals of that many trials, the first ones, only.
     """
@@ -149,7 +149,7 @@ class Campaign:
             raise InputError(self.file, "seed", f"{self.seed} is negative", "give a seed >= 0")
 
     def layer_of(self, variant: Variant) -> Layer:
-        """The FMUs, parameter sets and values of a variant, over those that all variants have."""
+        """Return the FMUs, parameter sets and values of a variant, over those that all variants have."""
         settings = {**self.settings, **variant.settings}
         places = dict.fromkeys(settings, (self.file, 0))
         return Layer(use=variant.use, parameters=self.parameters + variant.parameters, set=settings, places=places)
@@ -185,11 +185,12 @@ class Campaign:
         )
 
     def place_of(self, drawn: str) -> str:
-        """Where a drawn value is asked for, as errors name it: the file, or the option that sweeps it."""
+        """Return the source of a drawn value, as errors name it: the file, or the option that sweeps it."""
         return SINGLE if drawn in self.sweeps else self.file
 
     def variants(self) -> list[Variant]:
-        """The configurations, or every combination of the compared FMUs, named by them; else one named ``default``.
+        """Return the configurations, or every combination of the compared FMUs, named by them; else one named
+        ``default``.
 
         Of these only the ``selected`` one, if any.
         """
@@ -204,7 +205,7 @@ class Campaign:
         return [Variant("__".join(fmus), dict(zip(self.compare, fmus, strict=True))) for fmus in combinations]
 
     def select(self, configuration: str) -> Campaign:
-        """The same campaign with one of its variants only. Raises InputError."""
+        """Return the campaign with one of its variants only. Raises InputError."""
         names = [each.name for each in self._list_variants()]
         if configuration not in names:
             element = f"`configuration` {configuration}"
@@ -223,12 +224,12 @@ class Group:
     value: float
 
     def has(self, values: np.ndarray) -> np.ndarray:
-        """Which trials are in it, by their ``values`` (trials,)."""
+        """Return for each trial if it is in the group, by their ``values`` (trials,)."""
         return values == self.value
 
 
 def groups_of(parts: Iterable[np.ndarray], where: tuple[str, str]) -> list[Group]:
-    """The groups of trials by their values, finite, which come in parts (trials,); in ascending order.
+    """Return the groups of trials by their finite values, in blocks (trials,); in ascending order.
 
     ``where`` (file, element) is what an error points to. Raises InputError for more than `MAXIMUM_GROUPS` groups.
     """

@@ -1,4 +1,4 @@
-"""Whether a plan can fly: every variant prepared, every draw looked at, every name found."""
+"""Checks of a plan before its simulation: every variant prepared, every draw looked at, every name found."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def check_lookups(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Non
 
 
 def lookup_constants(plan: BatchPlan, prepared: PreparedSystem, lookup: Lookup) -> dict[str, float]:
-    """The parameters of a variant that the inputs of a lookup refer to, without those that are drawn, by name.
+    """Return the parameters of a variant that the inputs of a lookup refer to, without those that are drawn, by name.
 
     Raises InputError for a name that is none of either.
     """
@@ -97,7 +97,7 @@ def lookup_constants(plan: BatchPlan, prepared: PreparedSystem, lookup: Lookup) 
 
 
 def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
-    """Refuse given random streams of what has none."""
+    """Refuse random streams for a component that has none."""
     if plan.given is None:
         return
     known = sorted({name for prepared in systems for name in with_streams(prepared)})
@@ -133,7 +133,7 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
 
 
 def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> _Variable:
-    """The variable that is varied under a name; refused where it is no parameter, or cannot be drawn."""
+    """Return the variable that is varied under a name; refused where it is no parameter, or cannot be drawn."""
     place = plan.campaign.place_of(name)
     known: list[str] = []
     for component, fmu in prepared.network.fmus.items():
@@ -170,7 +170,7 @@ def _check_values(plan: BatchPlan, name: str, variable: _Variable, values: np.nd
 
 @dataclass(frozen=True)
 class VariantNames:
-    """What one variant varies, records and holds constant, by name."""
+    """Varied, recorded and constant names of one variant."""
 
     varied: list[str]
     signals: list[str]
@@ -200,7 +200,7 @@ def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
 
 
 def _is_signal(prepared: PreparedSystem, name: str) -> bool:
-    """Whether a connector's value comes from a connection or is a system's input."""
+    """Return True if a connector's value comes from a connection or is a system's input."""
     if name in prepared.network.driven:
         return True
     node = prepared.network.nodes.get(name)
@@ -210,14 +210,14 @@ def _is_signal(prepared: PreparedSystem, name: str) -> bool:
 
 
 def _causality(prepared: PreparedSystem, name: str) -> str:
-    """That of an FMU's number or Boolean; nothing where there is none of this name."""
+    """Return the causality of an FMU's number or Boolean; nothing where there is none of this name."""
     component, variable_name = split_name(name, prepared.network.fmus)
     variable = prepared.network.fmus[component].variables.get(variable_name) if component else None
     return "" if variable is None or variable.type in TEXTS else variable.causality
 
 
 def _constant(plan: BatchPlan, prepared: PreparedSystem, name: str) -> float:
-    """The value of a parameter that metrics refer to."""
+    """Return the value of a parameter that metrics refer to."""
     for component, fmu in prepared.network.fmus.items():
         variable = fmu.variables.get(name.removeprefix(f"{component}."))
         if not name.startswith(f"{component}.") or variable is None or variable.type in TEXTS:

@@ -71,7 +71,7 @@ class Uniform(_Interval, Independent):
 
 
 class _UniformDesign(_Interval, Design):
-    """Uniform values whose whole table is designed; a part of the trials is cut from it."""
+    """Uniform values whose whole table is designed; a block of trials is cut from it."""
 
     alternative: ClassVar[str] = Uniform.keyword
 
@@ -120,7 +120,7 @@ class Sobol(_UniformDesign):
 
 
 def read_ends(table: Table) -> tuple[float, float]:
-    """The ends of an interval. Raises InputError."""
+    """Read the ends of an interval. Raises InputError."""
     low, high = table.get("low", number), table.get("high", number)
     if not math.isfinite(high - low):
         raise table.error("high", f"{high!r} is too far from low = {low!r} for doubles", "give a smaller interval")
@@ -203,7 +203,7 @@ DISTRIBUTIONS = {kind.keyword: kind for kind in KINDS}
 
 
 def read_draw(name: str, table: Table) -> Draw:
-    """The draw declared in the table [draw.NAME]. Raises InputError."""
+    """Read the draw declared in the table [draw.NAME]. Raises InputError."""
     kind = DISTRIBUTIONS[table.get("distribution", choice_of(*DISTRIBUTIONS))]
     distribution = kind.read(table)
     return Draw(name, table.get("names", names) if kind is CorrelatedNormal else (name,), distribution)

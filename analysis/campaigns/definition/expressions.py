@@ -30,7 +30,7 @@ CONSTANTS = {"pi": math.pi, "e": math.e}
 
 
 def _over(function: Callable) -> Callable:
-    """A function of two values as one of two or more."""
+    """Return a function of two values as one of two or more."""
     return lambda *values: functools.reduce(function, values)
 
 
@@ -71,7 +71,7 @@ def _truth(value: np.ndarray) -> np.ndarray:
 
 
 def _chain(operators: list[Callable]) -> Callable:
-    """The function a < b <= c ... of its operands, for the given comparisons in their order."""
+    """Return the function a < b <= c ... of its operands, for these comparisons in their order."""
 
     if len(operators) == 1:
         return lambda one, other: _truth(operators[0](one, other))
@@ -93,7 +93,7 @@ ALLOWED = "numbers, names, + - * / // % **, comparisons, and, or, not, and funct
 
 
 def path_name(node: ast.expr) -> str | None:
-    """The variable that a node names (``x``, ``a.b``, ``a.b[1]``, ``a[1,2].c``, ``a["2.5"].b``), or None."""
+    """Return the variable that a node names (``x``, ``a.b``, ``a.b[1]``, ``a[1,2].c``, ``a["2.5"].b``), or None."""
     match node:
         case ast.Name(id=name):
             return name
@@ -113,7 +113,7 @@ def path_name(node: ast.expr) -> str | None:
 
 
 def is_name(text: str) -> bool:
-    """Whether ``text`` is a variable's name as expressions write it, without spaces and quotes."""
+    """Return True if ``text`` is a variable's name as expressions write it, without spaces and quotes."""
     try:
         node = _parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -122,7 +122,8 @@ def is_name(text: str) -> bool:
 
 
 def _parse(text: str) -> ast.expr:
-    """Raises SyntaxError, also where Python only warns: of ``1if x``, which later versions may not read."""
+    """Parse an expression. Raises SyntaxError, also where Python only warns: of ``1if x``,
+    which later versions may not read."""
     with warnings.catch_warnings():
         for category in (SyntaxWarning, DeprecationWarning):  # the latter before Python 3.12
             warnings.simplefilter("error", category)
@@ -142,7 +143,7 @@ class _Translator:
         raise InputError(*self.where, f"{problem} in {textwrap.shorten(self.text, 100)!r}", remedy)
 
     def number(self, value: float) -> ast.expr:
-        """A number as a numpy double, so that no Python integer or complex arithmetic takes place."""
+        """Return a number as a numpy double, so that no Python integer or complex arithmetic takes place."""
         slot = f"n{len(self.namespace)}"
         self.namespace[slot] = np.float64(value)
         return ast.Name(slot, ast.Load())
@@ -245,17 +246,17 @@ class Expression:
 
     @property
     def is_truth(self) -> bool:
-        """Whether the value is a truth, 0 or 1: a comparison, or logic."""
+        """True if the value is a truth, 0 or 1: a comparison, or logic."""
         body = ast.parse(self.text, mode="eval").body
         return isinstance(body, ast.Compare | ast.BoolOp) or (
             isinstance(body, ast.UnaryOp) and isinstance(body.op, ast.Not)
         )
 
     def evaluate(self, values: Mapping[str, ArrayLike]) -> float | np.ndarray:
-        """The value: a float, or an array of doubles where a value it uses is an array.
+        """Return the value: a float, or an array of doubles where a value it uses is an array.
 
-        ``values`` maps at least ``names`` to floats, integers, booleans or arrays of one shape.
-        Raises InputError for a name that is missing. Division by zero and the like give inf or nan.
+        ``values`` maps at least ``names`` to floats, integers, booleans or arrays of one shape. Raises InputError for a
+        name that is missing. Division by zero and the like give inf or nan.
         """
         arguments = []
         for name in self._order:

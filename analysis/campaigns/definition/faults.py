@@ -56,7 +56,7 @@ def _write_number(part: Expression | bool) -> str:
 
 
 def read_fault(name: str, table: Table) -> CampaignFault:
-    """The fault declared in the table [fault.NAME]. Raises InputError."""
+    """Read the fault declared in the table [fault.NAME]. Raises InputError."""
     table.only(KEYS)
     kind = table.get("kind", choice_of(*KINDS))
     if kind == "freeze" and "value" in table.content:
@@ -78,7 +78,7 @@ def _value(table: Table, key: str, value: object) -> Expression | bool:
 
 
 def _formula(table: Table, key: str, value: object) -> Expression:
-    """A finite number, or a text that is an expression."""
+    """Read a finite number, or a text that is an expression."""
     if isinstance(value, str):
         return expression(table, key, value)
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
@@ -101,7 +101,7 @@ class DrawnFault:
     end: np.ndarray
 
     def in_trial(self, trial: int) -> Fault | None:
-        """The fault in one of them, counted from 0, if it flies."""
+        """Return the fault in one of them, counted from 0, if it acts."""
         if not self.flies[trial]:
             return None
         value = 0.0 if self.value is None else self.value[trial].item()
@@ -109,27 +109,27 @@ class DrawnFault:
         return Fault(name, kind, value, float(self.start[trial]), float(self.end[trial]))
 
     def columns_of(self, rows: slice) -> FaultColumns:
-        """The fault in some of the trials."""
+        """Return the fault in some of the trials."""
         value = np.zeros(self.flies.size) if self.value is None else self.value.astype(np.float64)
         return FaultColumns(self.flies[rows], value[rows], self.start[rows], self.end[rows])
 
     def columns(self) -> dict[str, np.ndarray]:
-        """What the table of trials holds of it, by name."""
+        """Return its columns in the table of trials, by name."""
         name = f"fault.{self.declared.name}"
         value = {} if self.value is None else {f"{name}.value": np.where(self.flies, self.value, math.nan)}
         return {name: self.flies, **value, f"{name}.start": self.start, f"{name}.end": self.end}
 
 
 def fault_columns(fault: Fault, flights: int) -> FaultColumns:
-    """A fault that is the same in all of so many flights."""
+    """Return a fault that is the same in all of ``flights`` flights."""
     value, start, end = (np.full(flights, float(number)) for number in (fault.value, fault.start, fault.stop))
     return FaultColumns(np.ones(flights, dtype=bool), value, start, end)
 
 
 def fault_of_trials(declared: CampaignFault, draws: Mapping[str, np.ndarray], numbers: range) -> DrawnFault:
-    """A fault worked out for trials in a row, of these ``numbers``, from their ``draws``.
+    """Evaluate a fault for consecutive trials, of these ``numbers``, from their ``draws``.
 
-    Raises InputError where an expression is not finite or a window is empty in a trial in which the fault flies.
+    Raises InputError where an expression is not finite or a window is empty in a trial in which the fault acts.
     """
     trials = len(numbers)
     everywhere = np.ones(trials, dtype=bool)

@@ -190,7 +190,7 @@ def _scatter(name: str, table: Table, metrics: tuple[Metric, ...]) -> Scatter:
 
 
 def parse_campaign(table: Table) -> Campaign:
-    """The campaign in a table that was read from a file or made in memory. Raises InputError."""
+    """Parse the campaign in a table read from a file or created in memory. Raises InputError."""
     if SYNTHESIS in table.content:
         remedy = "search with perilune design search, then fly the law with a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
@@ -225,7 +225,7 @@ def parse_campaign(table: Table) -> Campaign:
 
 
 def read_campaign(path: Path) -> Campaign:
-    """The campaign in a TOML file. Raises InputError."""
+    """Read the campaign in a TOML file. Raises InputError."""
     return parse_campaign(read_source_file(path).table())
 
 
@@ -233,7 +233,7 @@ KEYS = ("use", "parameters", "set")
 
 
 def read_settings(table: Table, dispersed: Sequence[str]) -> dict[str, Setting]:
-    """The values of [set]. Raises InputError."""
+    """Read the values of [set]. Raises InputError."""
     settings: dict[str, Setting] = {}
     for name, value in table.flat():
         match value:
@@ -252,7 +252,7 @@ def read_settings(table: Table, dispersed: Sequence[str]) -> dict[str, Setting]:
 
 
 def read_configurations(campaign: Table, dispersed: Sequence[str]) -> tuple[Variant, ...]:
-    """The configurations of a campaign, in the order of its file. Raises InputError."""
+    """Read the configurations of a campaign, in the order of its file. Raises InputError."""
     declared = campaign.table("configuration")
     if declared.content and campaign.table("compare").content:
         remedy = "write the compared FMUs as configurations, or leave the configurations out"

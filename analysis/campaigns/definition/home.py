@@ -38,7 +38,7 @@ def find_system(raw: bytes, path: Path, named: Sequence[str]) -> str | None:
 
 
 def is_called(text: str, name: str) -> bool:
-    """True if a campaign's ``system`` is a system of this name, with or without the suffix of its file."""
+    """Return True if a campaign's ``system`` is a system of this name, with or without the suffix of its file."""
     return (text[:-4] if names_fmu(text) else text.removesuffix(".ssp")) == name
 
 

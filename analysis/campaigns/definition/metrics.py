@@ -14,17 +14,17 @@ TIME = "time"  # the name under which expressions see the record's times, s
 
 
 def names_needed(metrics: Iterable[Metric], drawn: Iterable[str]) -> set[str]:
-    """Recorded signals and parameters that the metrics refer to: all their names but times and draws."""
+    """Return recorded signals and parameters that the metrics refer to: all their names but times and draws."""
     return {name for metric in metrics for name in metric.names} - set(drawn) - {TIME}
 
 
 def evaluate_metric(
     metric: Metric, times: np.ndarray, values: Mapping[str, np.ndarray | float], ends: np.ndarray
 ) -> np.ndarray:
-    """One metric of flights (flights,), whose rows stand one behind another and end before ``ends``.
+    """Evaluate one metric of consecutive flights (flights,), whose rows end before ``ends``.
 
-    ``times`` are in s, one per row; ``values`` arrays over rows, or floats. NaN for a flight of which no row lies in
-    the window, as when it ended before it. Raises InputError for a name that ``values`` lacks.
+    ``times`` are in s, one per row; ``values`` arrays over rows, or floats. NaN for a flight without a row in the
+    window, as when it ended before it. Raises InputError for a name that ``values`` lacks.
     """
 
     def rows_of(formula: Expression) -> np.ndarray:
@@ -44,11 +44,12 @@ def evaluate_metric(
 
 
 def is_of_the_end(metric: Metric) -> bool:
-    """Whether a metric needs no other row of a flight than the last one."""
+    """Return True if a metric needs no other row of a flight than the last one."""
     return metric.reduction == "final" and metric.window is None
 
 
 def successes(success: Expression, metrics: Mapping[str, np.ndarray], trials: int) -> np.ndarray:
-    """Which trials the metrics (trials,) make successes. One of the expression that is not finite makes a failure."""
+    """Return the trials that the metrics (trials,) make successes. A metric of the expression
+    that is not finite makes a failure."""
     value = np.broadcast_to(success.evaluate(metrics), (trials,))
     return np.all(np.isfinite([value, *(metrics[name] for name in success.names)]), axis=0) & (value != 0.0)

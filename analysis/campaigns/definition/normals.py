@@ -140,6 +140,6 @@ def principal_axes(covariance: tuple[tuple[float, ...], ...]) -> tuple[np.ndarra
 
 
 def _combine(means: Sequence[float], factor: np.ndarray, u: np.ndarray) -> list[np.ndarray]:
-    """The values mean + factor u, an array (points,) for each mean."""
+    """Return the values mean + factor u, an array (points,) for each mean."""
     # summed column by column: a matrix product may round a row differently in a longer table
     return [mean + sum(factor[i, j] * u[:, j] for j in range(factor.shape[1])) for i, mean in enumerate(means)]

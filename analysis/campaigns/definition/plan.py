@@ -1,4 +1,4 @@
-"""A campaign made concrete: system, options, draws and variants, checked before anything flies."""
+"""Plan of a campaign: system, options, draws and variants, checked before any simulation."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ from .sweeps import with_sweeps
 
 @dataclass(frozen=True)
 class TrialSamples:
-    """The samples of the trials ``numbers`` of a plan with its campaign, ``given`` samples and ``user_faults``."""
+    """Samples of the trials ``numbers`` of a plan with its campaign, its supplied samples
+    (``given``) and ``user_faults``."""
 
     campaign: Campaign
     given: GivenDraws | None
@@ -45,16 +46,17 @@ class TrialSamples:
         return {name: column[rows] for name, column in self.table.columns.items()}
 
     def faults_of(self, trial: int) -> list[Fault | None]:
-        """The faults of a trial, in the order of `BatchPlan.list_faults`; None for one that does not fly in it."""
+        """Return the faults of a trial, in the order of `BatchPlan.list_faults`; None for one that does not act in
+        it."""
         return [*(fault.in_trial(trial - self.numbers.start) for fault in self.faults), *self.user_faults]
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
-        """The parameters of a trial: draws, and seed and stream of every component that has them."""
+        """Return the parameters of a trial: draws, and seed and stream of every component that has them."""
         columns = self._columns(prepared, range(trial, trial + 1))
         return {name: column.item() for name, column in columns.items()}
 
     def flights(self, prepared: PreparedSystem, trials: range) -> FlightTable:
-        """What some of them are flown with, in the order of `BatchPlan.list_faults`."""
+        """Return the inputs of some of them, in the order of `BatchPlan.list_faults`."""
         rows = self._rows(trials)
         drawn = [fault.columns_of(rows) for fault in self.faults]
         given = [fault_columns(fault, len(trials)) for fault in self.user_faults]
@@ -74,7 +76,7 @@ class TrialSamples:
 
 
 def with_streams(prepared: PreparedSystem) -> list[str]:
-    """The components that draw random numbers themselves."""
+    """Return the components that draw random numbers themselves."""
     return [name for name, fmu in prepared.network.fmus.items() if {SEED, STREAM} <= fmu.variables.keys()]
 
 
@@ -83,13 +85,13 @@ PART = 32768  # trials whose draws are looked at together; so few that their num
 
 @dataclass(frozen=True)
 class BatchPlan:
-    """What a batch flies; small enough to be sent to every worker.
+    """Content of a batch; small enough to be sent to every worker.
 
-    ``options`` are the user's system options, which come after the campaign's own and win; draws
-    win over parameter sets. ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names
-    parameters that whoever flies the plan gives anew with every flight. ``faults`` are the user's, which fly in
-    every trial after the campaign's own, ``series`` the inputs over time that all trials have; ``watch`` is how each
-    is watched. ``given`` are draws that fly in place of drawn ones.
+    ``options`` are the user's system options, which come after the campaign's own and win; draws win over parameter
+    sets. ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names parameters that the executor of the
+    plan sets for every simulation. ``faults`` are the user's, which act in every trial after the campaign's own,
+    ``series`` the inputs over time that all trials have; ``watch`` is the watch over each. ``given`` are samples that
+    replace drawn ones.
     """
 
     system: str
@@ -109,7 +111,7 @@ class BatchPlan:
 
     @cached_property
     def draws(self) -> Draws:
-        """What is drawn for all trials. Raises InputError."""
+        """Samples of all trials. Raises InputError."""
         if self.known_draws is not None:
             return self.known_draws
         if self.given is not None:
@@ -118,11 +120,11 @@ class BatchPlan:
 
     @property
     def is_counted(self) -> bool:
-        """Whether draws are made for each trial by itself, without a table."""
+        """True if samples are drawn for each trial by itself, without a table."""
         return self.given is None and self.campaign.draw_scheme == "counter"
 
     def draw_parts(self, size: int = PART) -> Iterator[DrawTable]:
-        """What is drawn for all trials, ``size`` of them at a time, none of it held. Raises InputError."""
+        """Yield the samples of all trials, ``size`` of them at a time, none of it held. Raises InputError."""
         if self.given is None and not self.is_counted and self.known_draws is None:
             yield from draw_parts(self.campaign, size)
             return
@@ -134,16 +136,17 @@ class BatchPlan:
         return self.values_from(self.draws.of_part(trials), trials)
 
     def values_from(self, table: DrawTable, trials: range) -> TrialSamples:
-        """The same from their table of draws. Raises InputError."""
+        """Return the samples of trials from their table of draws. Raises InputError."""
         faults = [fault_of_trials(fault, table.columns, trials) for fault in self.campaign.faults]
         return TrialSamples(self.campaign, self.given, self.faults, trials, table, faults)
 
     def of_first(self, trials: int) -> BatchPlan:
-        """A plan of the first ``trials`` trials, with the draws that they have in this one."""
+        """Return a plan of the first ``trials`` trials, with the draws that they have in this one."""
         return self.of_part(range(trials))
 
     def of_part(self, trials: range) -> BatchPlan:
-        """A plan of trials in a row, with the draws that they have in this one; from 1 on, those must be given."""
+        """Return a plan of consecutive trials, with the draws that they have in this one; from
+        1 on, those must be supplied."""
         given = None if self.given is None else self.given.of_part(trials)
         draws = None
         if not self.is_counted:  # made anew for fewer trials they may differ
@@ -152,7 +155,7 @@ class BatchPlan:
         return replace(self, campaign=campaign, given=given, known_draws=draws)
 
     def of_samples(self, given: GivenDraws) -> BatchPlan:
-        """A plan that flies given draws, a trial for each: values derived of them, faults and metrics follow.
+        """Return a plan of supplied samples, a trial for each: values derived of them, faults and metrics follow.
 
         Lookups, whose numbers are of the campaign's own draws, are left out. Raises InputError.
         """
@@ -172,14 +175,14 @@ class BatchPlan:
         return [*(Fault(fault.connector, fault.kind) for fault in self.campaign.faults), *self.faults]
 
     def faults_of(self, trial: int) -> list[Fault | None]:
-        """The faults of one trial, in the order of `list_faults`; None for one that does not fly in it."""
+        """Return the faults of one trial, in the order of `list_faults`; None for one that does not act in it."""
         return self.values_of(range(trial, trial + 1)).faults_of(trial)
 
     def fault_texts(self) -> list[str]:
         return [str(fault) for fault in (*self.campaign.faults, *self.faults)]
 
     def prepare(self, variant: Variant) -> PreparedSystem:
-        """The system as one variant flies it. Raises InputError."""
+        """Prepare the system of one variant. Raises InputError."""
         options = self.options.among(campaign=self.campaign.layer_of(variant))
         try:
             return prepare_system(self.archive or self.system, options, series=self.series)
@@ -190,17 +193,17 @@ class BatchPlan:
             raise
 
     def _origin_of_fault(self, variant: Variant) -> str:
-        """What errors name for the FMUs of a variant."""
+        """Return the origin that errors name for the FMUs of a variant."""
         if self.campaign.configurations:
             return f"{self.campaign.file}: configuration.{variant.name}.use"
         return self.compared_by or "compare"
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
-        """The parameters of one trial: draws, and seed and stream of every component that has them."""
+        """Return the parameters of one trial: draws, and seed and stream of every component that has them."""
         return self.values_of(range(trial, trial + 1)).parameters(prepared, trial)
 
     def parameter_names(self, prepared: PreparedSystem) -> set[str]:
-        """The names of `parameters`, which are those of every trial."""
+        """Return the names of `parameters`, which are those of every trial."""
         sampled = {name for name in self.campaign.input_names() if "." in name}
         return sampled | {f"{name}.{number}" for name in with_streams(prepared) for number in (SEED, STREAM)}
 

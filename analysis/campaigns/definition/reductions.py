@@ -15,7 +15,7 @@ EVER = (-np.inf, np.inf)  # a window, or a band
 
 
 class Rule(NamedTuple):
-    """How rows become a number; entries that a reduction has no use for are not looked at. Times in s."""
+    """Reduction of rows to a number; entries that a reduction does not use are ignored. Times in s."""
 
     kind: int  # place in REDUCTIONS
     window: tuple[float, float]  # both ends included
@@ -26,7 +26,7 @@ class Rule(NamedTuple):
 def reduce_rows(
     rule: Rule, times: np.ndarray, values: np.ndarray, condition: np.ndarray, ends: np.ndarray
 ) -> np.ndarray:
-    """A number (flights,) for each flight, whose rows end before ``ends`` (int64).
+    """Return a number (flights,) for each flight, whose rows end before ``ends`` (int64).
 
     NaN where a flight has no row in the window. ``times`` (s, growing within a flight), ``values`` and ``condition``
     are float64, one per row.
@@ -36,7 +36,7 @@ def reduce_rows(
       they never are, inf when they still are in the last row.
     - ``settled``: the time from the window's start, or the flight's if that is later, to the first row from which on
       the values are true to the last row; 0 when all are, inf when the last is not. NaN is not true.
-    - ``first``: the value in the first row ``delay`` or more behind the first one in which the condition is true; NaN
+    - ``first``: the value in the first row ``delay`` or more after the first one in which the condition is true; NaN
       when there is none. A millionth of a step may be missing to the delay.
     """
     reduced = np.empty(ends.size)
@@ -49,5 +49,5 @@ def reduce_rows(
 
 
 def largest(times: np.ndarray, values: np.ndarray, ends: np.ndarray) -> np.ndarray:
-    """The largest value of each flight (flights,), 0 for one without rows."""
+    """Return the largest value of each flight (flights,), 0 for one without rows."""
     return np.nan_to_num(reduce_rows(Rule(MAX, EVER, EVER, 0.0), times, values, values, ends))

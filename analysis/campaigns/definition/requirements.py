@@ -17,10 +17,10 @@ SUCCESS = "success"  # whether the trial is a success, for expressions of requir
 
 @dataclass(frozen=True)
 class Requirement:
-    """That ``share`` of all flights keep ``expression``, with ``confidence``: what [requirement.NAME] declares.
+    """Requirement of [requirement.NAME]: ``share`` of all flights keep ``expression``, with ``confidence``.
 
-    ``expression`` is over the metrics of a trial, and `SUCCESS`. ``metric`` is one whose tolerance bound is wanted,
-    the ``bound`` ("upper", "lower") that the share keeps with the confidence; None for none.
+    ``expression`` is over the metrics of a trial, and `SUCCESS`. ``metric`` is one with a tolerance bound, the
+    ``bound`` ("upper", "lower") that the share keeps with the confidence; None for none.
     """
 
     name: str
@@ -37,7 +37,7 @@ class Requirement:
 
 
 def read_requirements(table: Table, metrics: Collection[str], draws: Iterable[Draw]) -> tuple[Requirement, ...]:
-    """The requirements declared in the table [requirement]; ``metrics`` are the campaign's by name. Raises InputError.
+    """Read the requirements of the table [requirement]; ``metrics`` are the campaign's by name. Raises InputError.
 
     Verdicts are on independent trials, so draws that are designed for all trials together are refused.
     """
@@ -72,7 +72,7 @@ def _requirement(name: str, table: Table, metrics: Collection[str]) -> Requireme
 
 
 def _share(table: Table, key: str, value: object) -> float:
-    """A number between 0 and 1, or a text in per cent: "99.87 %"."""
+    """Read a number between 0 and 1, or a text in per cent: "99.87 %"."""
     written = value.strip() if isinstance(value, str) else ""
     percent = written.endswith("%")
     fraction = number(table, key, written[:-1] if percent else value) / (100.0 if percent else 1.0)

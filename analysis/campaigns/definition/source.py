@@ -49,13 +49,13 @@ class CampaignSource:
         return digest.hexdigest()
 
     def files(self) -> Iterator[CampaignSource]:
-        """This file and all that it extends."""
+        """Yield this file and all that it extends."""
         yield self
         for part in self.extends:
             yield from part.files()
 
     def table(self) -> Table:
-        """The merged content. A later file's entry replaces an earlier one of the same name.
+        """Return the merged content. A later file's entry replaces an earlier one of the same name.
 
         The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables, those of
         [set], [derive], [compare], [record], [group] and [success] are values, as are all in [lookup]. Raises
@@ -82,19 +82,20 @@ class CampaignSource:
 
 
 def read_source(raw: bytes, label: str, archive: SystemArchive | None = None) -> CampaignSource:
-    """A campaign's file with those that it extends, perhaps in an ``archive``. Raises InputError, for a cycle too."""
+    """Read a campaign's file with those that it extends, perhaps in an ``archive``. Raises InputError, for a cycle
+    too."""
     return _read_source(raw, label, archive, (), [label])
 
 
 def read_source_file(path: Path) -> CampaignSource:
-    """A campaign's file by its path, with those that it extends. Raises InputError."""
+    """Read a campaign's file by its path, with those that it extends. Raises InputError."""
     return read_source(read_input(path, "give a campaign's file", CAMPAIGN_BYTES), str(path))
 
 
 def _read_source(
     raw: bytes, label: str, archive: SystemArchive | None, chain: tuple[str, ...], files: list[str]
 ) -> CampaignSource:
-    """A file with those that it extends, which ``files`` collects; ``chain`` leads to it."""
+    """Read a file with those that it extends, which ``files`` collects; ``chain`` leads to it."""
     content = parse_toml(raw, label)
     names = content.get(EXTENDS, [])
     names = [names] if isinstance(names, str) else names
@@ -119,7 +120,7 @@ def _read_source(
 
 
 def _lookup_files(content: Mapping[str, object]) -> list[str]:
-    """The paths that the lookups of a file's content refer to."""
+    """Return the paths that the lookups of a file's content refer to."""
     lookups = content.get(LOOKUP)
     tables = lookups.values() if isinstance(lookups, Mapping) else ()
     files = [table[FILE].strip() for table in tables if isinstance(table, Mapping) and isinstance(table.get(FILE), str)]
@@ -127,7 +128,7 @@ def _lookup_files(content: Mapping[str, object]) -> list[str]:
 
 
 def _attach(name: str, origin: str, archive: SystemArchive | None) -> Attached:
-    """The file at a path relative to the file ``origin``, whose content may be missing."""
+    """Return the file at a path relative to the file ``origin``, whose content may be missing."""
     inside = None if archive is None else archive.name_of(origin)
     if archive is not None and inside is not None:
         path = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
@@ -137,7 +138,7 @@ def _attach(name: str, origin: str, archive: SystemArchive | None) -> Attached:
 
 
 def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes, str]:
-    """A file that the file ``origin`` extends, by its path relative to that, else a campaign of the system by name."""
+    """Find a file that ``origin`` extends, by its path relative to that, else a campaign of the system by name."""
     inside = None if archive is None else archive.name_of(origin)
     if archive is not None and inside is not None:
         path = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
@@ -159,7 +160,7 @@ def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes,
 
 
 def parse_toml(raw: bytes, label: str) -> dict[str, object]:
-    """The content of a TOML file. Raises InputError."""
+    """Parse the content of a TOML file. Raises InputError."""
     CAMPAIGN_BYTES.check(len(raw), label, "")
     try:
         text = raw.decode("utf-8")
@@ -233,7 +234,7 @@ TOKEN = re.compile(r"""\"{3}|\'{3}|"(?:[^"\\\n]|\\.)*"|'[^'\n]*'|#[^\n]*|[\[\]{}
 
 
 def key_lines(text: str) -> dict[str, int]:
-    """The line of each key by its name, ``draw.x.low``; parts in quotes without them. ``text`` is TOML."""
+    """Return the line of each key by its name, ``draw.x.low``; quoted names without quotes. ``text`` is TOML."""
     lines: dict[str, int] = {}
     prefix, position, number = "", 0, 1
     while position < len(text):
@@ -257,7 +258,7 @@ def _plain(name: str) -> str:
 
 
 def _value_end(text: str, position: int) -> int:
-    """The end of the line on which a value ends that begins at a position."""
+    """Return the end of the line on which a value ends that begins at a position."""
     depth = 0
     while position < len(text):
         if text[position] == "\n" and not depth:

@@ -27,11 +27,11 @@ def part_sweeps(options: SystemOptions) -> tuple[SystemOptions, dict[str, str]]:
 
 
 def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
-    """A campaign that draws swept parameters on a grid, with its own grids every combination of them.
+    """Replace swept parameters by draws on a grid, with the campaign's grids every combination of them.
 
-    ``sweeps`` are texts low:high:step by parameter, in its own unit; the values are low + k step, high included. They
-    take the place of the campaign's [set]; one sweep alone is what results are grouped by where the campaign groups by
-    nothing else. Raises InputError for a sweep that is none, or does not go with the campaign.
+    ``sweeps`` are texts low:high:step by parameter, in its unit; the values are low + k step, high included. They
+    replace those of the campaign's [set]; a single sweep also groups the results where the campaign has no group.
+    Raises InputError for a malformed sweep, or one that the campaign excludes.
     """
     if not sweeps:
         return campaign
@@ -61,7 +61,7 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
 
 
 def _ends(text: str) -> list[float]:
-    """The three numbers of a sweep; none where the text is no sweep."""
+    """Return the three numbers of a sweep; none where the text is no sweep."""
     try:
         ends = [float(part) for part in text.split(":")]
     except ValueError:

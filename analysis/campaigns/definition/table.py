@@ -45,7 +45,7 @@ class Table:
         return self.origin(place)[0], place
 
     def origin(self, name: str) -> tuple[str, int]:
-        """File and line of a place, or of the nearest one that it is part of; line 0 where none is known."""
+        """Return file and line of a key, or of the nearest one that contains it; line 0 where none is known."""
         parts = re.split(r"(?=[.\[])", name)
         nearest = ("".join(parts[:count]) for count in range(len(parts), 0, -1))
         return next((self.origins[part] for part in nearest if part in self.origins), (self.file, 0))
@@ -60,7 +60,7 @@ class Table:
                 raise self.error(key, "unknown key", f"allowed here: {', '.join(names)}")
 
     def get(self, key: str, kind: Callable[[Table, str, object], T], default: T = REQUIRED) -> T:
-        """The value of ``key`` read by ``kind`` (`text`, `number`, ...), or ``default`` where it is absent."""
+        """Return the value of ``key`` read by ``kind`` (`text`, `number`, ...), or ``default`` where it is absent."""
         if key in self.content:
             return kind(self, key, self.content[key])
         if default is REQUIRED:
@@ -68,7 +68,7 @@ class Table:
         return default
 
     def table(self, key: str) -> Table:
-        """The subtable ``key``; an empty one where it is absent."""
+        """Return the subtable ``key``; an empty one where it is absent."""
         value = self.content.get(key, {})
         if not isinstance(value, dict):
             raise self.error(key, "not a table", f"write [{self.place(key)}] and its keys below it")
@@ -104,7 +104,7 @@ class Table:
 
 
 def text(table: Table, key: str, value: object) -> str:
-    """A string that is not empty."""
+    """Read a string that is not empty."""
     if not isinstance(value, str) or not value.strip():
         raise table.error(key, f"{value!r} is not a text", 'write it in quotes: "..."')
     return value.strip()
@@ -117,7 +117,7 @@ def integer(table: Table, key: str, value: object) -> int:
 
 
 def bound(table: Table, key: str, value: object) -> float:
-    """A number, infinite ones included, or a text that is a constant expression, such as "-pi/4"."""
+    """Read a number, infinite ones included, or a text that is a constant expression, such as "-pi/4"."""
     if isinstance(value, str):
         formula = Expression(value, table.where(key))
         if formula.names:
@@ -129,7 +129,7 @@ def bound(table: Table, key: str, value: object) -> float:
 
 
 def number(table: Table, key: str, value: object) -> float:
-    """A finite number, or a text that is a constant expression."""
+    """Read a finite number, or a text that is a constant expression."""
     read = bound(table, key, value)
     if not math.isfinite(read):
         raise table.error(key, f"{value!r} is not finite", "write a finite number")
@@ -137,7 +137,7 @@ def number(table: Table, key: str, value: object) -> float:
 
 
 def sequence(kind: Callable[[Table, str, object], T]) -> Callable[[Table, str, object], tuple[T, ...]]:
-    """An array of at least one value, each of one kind."""
+    """Return a reader of an array of at least one value, each of one kind."""
 
     def read(table: Table, key: str, value: object) -> tuple[T, ...]:
         if not isinstance(value, list) or not value:
@@ -148,12 +148,12 @@ def sequence(kind: Callable[[Table, str, object], T]) -> Callable[[Table, str, o
 
 
 def numbers(table: Table, key: str, value: object) -> tuple[float, ...]:
-    """An array of at least one finite number."""
+    """Read an array of at least one finite number."""
     return sequence(number)(table, key, value)
 
 
 def names(table: Table, key: str, value: object) -> tuple[str, ...]:
-    """An array of at least one text, none of them twice."""
+    """Read an array of at least one text, none of them twice."""
     listed = sequence(text)(table, key, value)
     for name in listed:
         if listed.count(name) > 1:
@@ -162,7 +162,7 @@ def names(table: Table, key: str, value: object) -> tuple[str, ...]:
 
 
 def expression(table: Table, key: str, value: object) -> Expression:
-    """A text that is an expression, see `Expression`."""
+    """Read a text that is an expression, see `Expression`."""
     return Expression(text(table, key, value), table.where(key))
 
 

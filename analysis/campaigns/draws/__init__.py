@@ -1,1 +1,1 @@
-"""What is drawn for the trials of a campaign."""
+"""Samples of the trials of a campaign."""

@@ -1,4 +1,4 @@
-"""What sampling needs to know of a campaign: its draws with their distributions, and what is derived of them."""
+"""Declarations for sampling a campaign: its draws with their distributions, and its derived values."""
 
 from __future__ import annotations
 
@@ -41,17 +41,17 @@ class Independent(Distribution):
 
     @abstractmethod
     def sample(self, trials: int, source: np.random.Generator) -> list[np.ndarray]:
-        """The next ``trials`` values from a stream, an array (trials,) for each name that the draw fills.
+        """Draw the next ``trials`` values from a stream, an array (trials,) for each name that the draw fills.
 
-        Parts of any size give what one part of all gives.
+        Blocks of any size yield the values of one block of all.
         """
 
 
 class Design(Distribution):
     """A distribution whose draws are one design of all trials, of all draws with this distribution together.
 
-    ``alternative`` is the distribution with independent trials, ``is_periodic`` whether any part of the trials can be
-    made without the others.
+    ``alternative`` is the distribution with independent trials, ``is_periodic``: any block of trials can be drawn
+    without the others.
     """
 
     alternative: ClassVar[str]
@@ -60,7 +60,7 @@ class Design(Distribution):
     @classmethod
     @abstractmethod
     def design(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> Callable[[range], Columns]:
-        """What gives the columns of some trials, of ``draws`` in order of their names. Raises InputError."""
+        """Return a function of the columns of some trials, of ``draws`` in order of their names. Raises InputError."""
 
 
 class Continuous(Distribution):
@@ -76,7 +76,7 @@ class Continuous(Distribution):
 
     @abstractmethod
     def to_normals(self, columns: Sequence[np.ndarray]) -> np.ndarray:
-        """The inverse of `from_normals`; infinite at the ends of an interval."""
+        """Return the inverse of `from_normals`; infinite at the ends of an interval."""
 
     @abstractmethod
     def from_box(self, points: np.ndarray, sigmas: float) -> list[np.ndarray]:
@@ -84,7 +84,7 @@ class Continuous(Distribution):
 
     @abstractmethod
     def to_box(self, columns: Sequence[np.ndarray], sigmas: float) -> np.ndarray:
-        """The inverse of `from_box`; below 0 or above 1 outside of the box."""
+        """Return the inverse of `from_box`; below 0 or above 1 outside of the box."""
 
     @abstractmethod
     def ranges(self, sigmas: float) -> list[tuple[float, float]]:
@@ -142,12 +142,12 @@ class CampaignDraws(Protocol):
 
 
 def input_names(campaign: CampaignDraws) -> list[str]:
-    """The values that the draws fill, in their order."""
+    """Return the values that the draws fill, in their order."""
     return [name for draw in campaign.draws for name in draw.names]
 
 
 def designs_of(draws: Sequence[Draw]) -> dict[type[Design], list[Draw]]:
-    """The draws of each kind of design, in their order."""
+    """Return the draws of each kind of design, in their order."""
     groups: dict[type[Design], list[Draw]] = {}
     for draw in draws:
         if isinstance(draw.distribution, Design):
@@ -156,7 +156,7 @@ def designs_of(draws: Sequence[Draw]) -> dict[type[Design], list[Draw]]:
 
 
 def _number_text(value: Argument) -> str:
-    """A number, or numbers in brackets, shortened where they are many."""
+    """Format a number, or numbers in brackets, shortened where they are many."""
     if not isinstance(value, tuple):
         return f"{value:.10g}"
     inner = [_number_text(entry) for entry in value]

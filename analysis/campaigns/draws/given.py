@@ -1,4 +1,4 @@
-"""Draws that are given and not drawn: a trial for each row."""
+"""Samples supplied instead of drawn: a trial for each row."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class GivenDraws:
         return dict(self.columns) | {stream_column(name): values.astype(float) for name, values in self.streams.items()}
 
     def streams_of(self, trials: range, component: str) -> np.ndarray:
-        """The trials whose random streams a component flies with in these."""
+        """Return the trials whose random streams a component uses in these."""
         streams = self.streams.get(component, self.streams.get(ALL))
         return np.arange(trials.start, trials.stop) if streams is None else streams[trials.start : trials.stop]
 
@@ -68,12 +68,12 @@ class GivenDraws:
 
 
 def stream_column(component: str) -> str:
-    """The column that says whose random stream a component flies with."""
+    """Return the column that names the trial whose random stream a component uses."""
     return STREAMS if component == ALL else f"{STREAMS}.{component}"
 
 
 def stream_component(column: str) -> str | None:
-    """The component of a column of `stream_column`; None for another column."""
+    """Return the component of a column of `stream_column`; None for another column."""
     if column == STREAMS:
         return ALL
     return column.removeprefix(f"{STREAMS}.") if column.startswith(f"{STREAMS}.") else None
@@ -90,7 +90,7 @@ def part_streams(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarra
 
 
 def read_given(path: Path, campaign: CampaignDraws) -> GivenDraws:
-    """The draws of a campaign in a Parquet file, a row per trial, as draws.parquet of a batch. Raises InputError.
+    """Read the draws of a campaign in a Parquet file, a row per trial, as draws.parquet of a batch. Raises InputError.
 
     Columns ``streams_of.COMPONENT`` say with which trial's random stream a component flies in a row, ``streams_of``
     those of the others; without it that is the row's number. Derived values are not read: they are derived anew.
@@ -121,7 +121,7 @@ def read_given(path: Path, campaign: CampaignDraws) -> GivenDraws:
 
 
 def _check_columns(path: Path, schema: pyarrow.Schema, campaign: CampaignDraws) -> None:
-    """Refuse columns that are missing, unknown, given twice or of no numbers."""
+    """Refuse missing, unknown and duplicate columns, and columns without numbers."""
     import pyarrow
 
     sampled = input_names(campaign)
@@ -141,7 +141,7 @@ def _check_columns(path: Path, schema: pyarrow.Schema, campaign: CampaignDraws) 
 
 
 def _numbers(path: Path, table: pyarrow.Table, name: str) -> np.ndarray:
-    """A column as finite doubles."""
+    """Return a column as finite doubles."""
     values = np.ascontiguousarray(table[name].to_numpy(), dtype=np.float64)
     wrong = np.flatnonzero(~np.isfinite(values))
     if wrong.size:

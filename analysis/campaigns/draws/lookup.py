@@ -1,4 +1,4 @@
-"""A table of numbers by trial, made elsewhere for the inputs of these trials, and whether it is still that.
+"""Table of numbers by trial, computed elsewhere from the inputs of these trials, and its agreement with them.
 
 A row has the trial's number, the hash of its inputs and numbers; comments before them name the inputs:
 
@@ -43,7 +43,8 @@ def input_hashes(columns: InputColumns) -> list[str]:
 class LookupTable:
     """The ``columns`` of a table, arrays (trials,) by name, and the ``hashes`` of its trials' inputs.
 
-    ``inputs`` are the formulas of the inputs, a text for each name; ``command`` has made the table, "" if unknown.
+    ``inputs`` are the formulas of the inputs, a text for each name; ``command`` is the one that wrote the table, "" if
+    unknown.
     """
 
     columns: Mapping[str, np.ndarray]
@@ -96,9 +97,9 @@ def read_lookup_table(content: bytes, file: str) -> LookupTable:
 class Lookup:
     """Numbers of trials under a ``name`` that metrics can use: a ``column`` of a table.
 
-    The table is made for ``inputs``: by name one or more formulas over draws, derived values and parameters. ``file``
-    is its path as the campaign's file ``origin`` says it, ``label`` that of messages, ``content`` None where there is
-    no such file.
+    The table is computed from ``inputs``: by name one or more formulas over draws, derived values and parameters.
+    ``file`` is its path as the campaign's file ``origin`` says it, ``label`` that of messages, ``content`` None where
+    there is no such file.
     """
 
     name: str
@@ -146,7 +147,7 @@ class Lookup:
         }
 
     def check(self, columns: InputColumns, trials: range, variant: str) -> None:
-        """Refuse a table that was made for other inputs than these ``columns`` of a variant. Raises InputError."""
+        """Refuse a table computed from other inputs than these ``columns`` of a variant. Raises InputError."""
         different = sorted(self.table.inputs.keys() ^ self.inputs.keys())
         if different:
             problem = f"made with, or without, {', '.join(different)}, unlike [{self.element}.inputs]"

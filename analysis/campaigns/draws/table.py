@@ -1,8 +1,8 @@
 """The draws of all trials, from the root seed: as one table, or counted.
 
-In a table each draw has a random stream of its own, keyed by the seed and the name it fills, of which trial k uses
-the k-th portion: a trial's values depend neither on how many trials there are nor on what else
-is drawn. Grids, Latin hypercubes and Sobol sequences are designs of the whole table instead.
+In a table each draw has a separate random stream, keyed by the seed and the name it fills, of which trial k uses the
+k-th portion: a trial's values depend neither on how many trials there are nor on what else is drawn. Grids, Latin
+hypercubes and Sobol sequences are designs of the whole table instead.
 
 Counted draws need no table. Trials are divided into blocks of 1024, whatever shards there are. The values of a draw in
 a block come from Philox (Salmon et al. 2011) with the key of the draw's name and a counter that begins with the block's
@@ -28,11 +28,11 @@ class Draws(Protocol):
     """All drawn and derived values of a campaign, wherever they lie."""
 
     def of_first(self, trials: int) -> Draws:
-        """Those of the first ``trials`` trials."""
+        """Return the samples of the first ``trials`` trials."""
         ...
 
     def of_part(self, trials: range) -> DrawTable:
-        """Those of trials in a row, which are counted from 0 then."""
+        """Return the samples of consecutive trials, which are counted from 0 then."""
         ...
 
 
@@ -54,7 +54,7 @@ class DrawTable:
         return {name: column.item(trial) for name, column in self.columns.items()}
 
     def parameters(self, rows: slice) -> dict[str, np.ndarray]:
-        """The columns of some trials that are component parameters: those with a dot in their name, of draws."""
+        """Return the columns of some trials that are component parameters: those with a dot in their name, of draws."""
         return {
             name: column[rows]
             for name, column in self.columns.items()
@@ -68,7 +68,7 @@ def split_trials(trials: int, size: int) -> Iterator[range]:
 
 
 def draw_parts(campaign: CampaignDraws, size: int) -> Iterator[DrawTable]:
-    """The table of draws and derived values of a campaign, ``size`` trials at a time, columns in the file's order.
+    """Yield the table of draws and derived values, ``size`` trials at a time, columns in the file's order.
 
     Neither the size nor the order in which draws are declared changes values. Only designs are held whole. Raises
     InputError where the number of trials does not suit a design, or a table, or a derived value is not finite.
@@ -95,10 +95,10 @@ def draw_table(campaign: CampaignDraws) -> DrawTable:
 
 
 def table_of(campaign: CampaignDraws, drawn: Mapping[str, np.ndarray], trials: range | None = None) -> DrawTable:
-    """The table with these draws, an array (trials,) by name, what the campaign derives of them, and its lookups.
+    """Return the table with these draws, an array (trials,) by name, the campaign's derived values and its lookups.
 
-    ``trials`` are the numbers of their trials, by default all of the campaign. Raises InputError where a derived
-    value is not finite, or a lookup has fewer trials.
+    ``trials`` are the numbers of their trials, by default all of the campaign. Raises InputError where a derived value
+    is not finite, or a lookup has fewer trials.
     """
     numbers = range(campaign.trials) if trials is None else trials
     names = input_names(campaign)
@@ -136,11 +136,12 @@ class CountedDraws:
         self._independent = independent_draws(ordered)
 
     def of_first(self, trials: int) -> CountedDraws:
-        """Those of the first ``trials`` trials, which are the same in every campaign of as many or more."""
+        """Return the samples of the first ``trials`` trials, which are the same in every campaign of as many or
+        more."""
         return self
 
     def of_part(self, trials: range) -> DrawTable:
-        """Those of trials in a row, which are counted from 0 then. Raises InputError where one is not finite."""
+        """Return the samples of consecutive trials, counted from 0 then. Raises InputError where one is not finite."""
         first = trials.start // BLOCK
         blocks = [self._block(block) for block in range(first, -(-trials.stop // BLOCK))]
         rows = slice(trials.start - first * BLOCK, trials.stop - first * BLOCK)

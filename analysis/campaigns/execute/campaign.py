@@ -35,9 +35,9 @@ from .workers import in_threads, needs_children, worker_count
 
 @dataclass(frozen=True)
 class PreparedCampaign:
-    """A campaign that is ready to fly: every file of it read, in its folder if it has one (absolute).
+    """A campaign ready for simulation: every file of it read, in its folder if it has one (absolute).
 
-    ``plan`` is the plan as given, ``flown`` the same with the files that are stored in the folder; ``named`` is the
+    ``plan`` is the user's plan, ``flown`` the same with the files that are stored in the folder; ``named`` is the
     folder as its user names it.
     """
 
@@ -49,7 +49,7 @@ class PreparedCampaign:
     named: Path | None = None
 
     def of_first(self, trials: int) -> PreparedCampaign:
-        """The campaign of the first trials, which end with a shard; its folder holds no more either."""
+        """Return the campaign of the first trials, which end with a shard; its folder holds no more either."""
         if trials == self.manifest.trials:
             return self
         plan = self.plan.of_first(trials)
@@ -59,7 +59,7 @@ class PreparedCampaign:
 
     @property
     def provenance(self) -> Provenance:
-        """What its numbers depend on, apart from the trials themselves."""
+        """Inputs that its numbers depend on, apart from the trials themselves."""
         is_earlier = self.manifest.identities is None
         entries = provenance(self.flown if is_earlier else self.plan, self.systems)
         entries["manifest" if is_earlier else "batch"] = campaign_key(self.manifest)
@@ -78,17 +78,17 @@ class PreparedCampaign:
         return ShardStore(self.plan if self.folder is None else self.flown, self.stored)
 
     def shard_rows(self, shard: int) -> Mapping[str, TrialTable]:
-        """The trials of one shard that its folder holds, by variant."""
+        """Return the trials of one shard that its folder holds, by variant."""
         if self.folder is None:
             raise ValueError("a campaign without a folder holds no shards")
         return self.store().rows(self.numbering, range(shard, shard + 1))
 
     def has(self, shard: int) -> bool:
-        """True if its folder holds a shard. Raises InputError for a damaged one."""
+        """Return True if its folder holds a shard. Raises InputError for a damaged one."""
         return self.stored is not None and self.stored.has(shard, self.numbering.of(shard))
 
     def missing(self) -> list[int]:
-        """The shards that its folder does not hold."""
+        """Return the shards that its folder does not hold."""
         return [shard for shard in range(self.numbering.count) if not self.has(shard)]
 
     def discard_lost(self, shards: Iterable[int]) -> None:
@@ -104,12 +104,12 @@ class PreparedCampaign:
                     shard_path(self.folder, shard).unlink()
 
     def _has_lost(self, shard: int) -> bool:
-        """Whether a shard has such trials."""
+        """Return True if a shard has such trials."""
         columns = (columns for rows in self.shard_rows(shard).values() for columns in rows.parts("status"))
         return any(lost_status(status) for column in columns for status in column["status"])
 
     def check_campaign(self, shards: Iterable[int]) -> list[int]:
-        """Those of some shards that its folder does not hold.
+        """Return those of some shards that its folder does not hold.
 
         Raises InputError for a number that is none's, and where the elementary functions are not those of the campaign.
         """
@@ -135,7 +135,7 @@ def open_campaign(
     workers: int | None = None,
     elsewhere: str | None = None,
 ) -> PreparedCampaign:
-    """Check a plan and write down what it flies. Raises InputError before anything is written or flown.
+    """Check a plan and store it. Raises InputError before anything is written or flown.
 
     With ``output`` a campaign begins in that folder, in place of what is there, or goes on there with ``resume``; what
     flies are the files that the folder then holds, whatever becomes of their originals. ``elsewhere`` says who
@@ -162,7 +162,7 @@ def open_campaign(
 
 
 def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> PreparedCampaign:
-    """The campaign whose manifest lies in a folder; ``trust`` is what foreign FMUs may do. Raises InputError."""
+    """Open the campaign whose manifest is in a folder; ``trust`` is what foreign FMUs may do. Raises InputError."""
     named, folder = folder, folder.absolute()
     manifest = read_manifest(folder)
     plan = restore(folder, manifest, trust=trust)  # whose draws were looked at when the folder was made
@@ -170,7 +170,7 @@ def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> PreparedCampaign:
 
 
 def read_folder(folder: Path) -> CampaignFolder:
-    """The folder of a campaign that is whole, or still flying. Raises InputError for what is neither."""
+    """Read the folder of a campaign that is complete, or still running. Raises InputError for any other."""
     folder = folder.absolute()
     if (folder / SUMMARY).is_file():
         return CampaignFolder.complete(folder, read_summary(folder / SUMMARY))

@@ -69,7 +69,7 @@ class MetricEvaluator:
         self._keep_signals(group, trials, columns)
 
     def _keep_signals(self, group: FlightGroup, trials: range, columns: Columns) -> None:
-        """Copies of what the campaign keeps of flights over time: sampled signals, or everything of some trials."""
+        """Copy the stored time histories of flights: sampled signals, or everything of some trials."""
         record = self._campaign.record
         if record.traces == "none" and record.every is None:
             return

@@ -43,7 +43,7 @@ def fly_shards(
 
 
 def task_size(trials: int, workers: int, threads: bool) -> int:
-    """How many trials a worker flies at a time."""
+    """Return the number of trials that a worker simulates at a time."""
     return max(1, min(MOST_IN_THREAD if threads else MOST_IN_PROCESS, trials // (TASKS * workers)))
 
 
@@ -56,7 +56,7 @@ class ShardAssembler:
         self._pieces: dict[int, dict[str, list[TrialTable]]] = {}
 
     def add(self, shard: int, variant: str, trials: TrialTable) -> dict[str, TrialTable] | None:
-        """The trials of the shard by variant, if this was the last piece of it."""
+        """Add trials of a shard; return all by variant, if these were its last ones."""
         pieces = self._pieces.setdefault(shard, {name: [] for name in self._variants})
         pieces[variant].append(trials)
         flown = sum(len(piece) for parts in pieces.values() for piece in parts)

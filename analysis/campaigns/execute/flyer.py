@@ -26,7 +26,7 @@ AROUND = 4096  # trials whose draws are read together
 
 
 class TrialResult(NamedTuple):
-    """What one trial came to."""
+    """Result of one trial."""
 
     status: str
     message: str
@@ -36,9 +36,9 @@ class TrialResult(NamedTuple):
 
 
 class Flyer:
-    """Holds the simulations of a plan's variants; made once per worker, not shared between threads.
+    """Holds the simulations of a plan's variants; created once per worker, not shared between threads.
 
-    ``in_child``: all fly in children, also what may fly here. ``trials`` and ``workers`` are as in `Fusing`.
+    ``in_child``: all run in children, also those that may run here. ``trials`` and ``workers`` are as in `Fusing`.
     """
 
     def __init__(self, plan: BatchPlan, *, in_child: bool = False, trials: int | None = None, workers: int = 1) -> None:
@@ -53,7 +53,7 @@ class Flyer:
         self.halted = False
 
     def simulation(self, variant: str) -> tuple[BaseSimulation, VariantNames]:
-        """The simulation of a variant, made at its first use."""
+        """Return the simulation of a variant, opened at its first use."""
         if variant not in self._ready:
             with LOADING:
                 prepared = self.plan.prepare(self.variants[variant])
@@ -77,7 +77,7 @@ class Flyer:
         return self._ready[variant]
 
     def _log_of(self, variant: str) -> Log | None:
-        """Where the FMUs of a variant write, if they are asked to."""
+        """Return the log of a variant's FMUs, if they log."""
         if self.plan.watch.log is None:
             return None
         self._logs[variant] = Log(self.plan.watch.log)
@@ -85,7 +85,7 @@ class Flyer:
         return self._logs[variant]
 
     def values_for(self, trial: int) -> TrialSamples:
-        """What is drawn for a trial and those around it."""
+        """Return the samples of the block of trials that contains ``trial``."""
         if self._drawn is None or trial not in self._drawn.numbers:
             first = trial - trial % AROUND
             self._drawn = self.plan.values_of(range(first, min(first + AROUND, self.plan.campaign.trials)))
@@ -169,7 +169,7 @@ class Flyer:
     def _fly_recorded(
         self, variant: str, prepared: PreparedSystem, trial: int, names: VariantNames, wanted: set[str] | None
     ) -> Result:
-        """Return a trial with the wanted signals recorded, None for all."""
+        """Return a trial with these signals recorded, None for all."""
         faults, log, sampled = self.plan.list_faults(), self._log_of(variant), self.values_for(trial)
         with open_simulation(
             prepared,
@@ -220,9 +220,9 @@ class Flyer:
             simulation.announce(sampled.parameters(simulation.prepared, trial), sampled.faults_of(trial))
 
     def _is_to_be_repeated(self, simulation: BaseSimulation, flight: Flight) -> bool:
-        """Whether a flight that lost its process flies once more, in a fresh one: who dies has not always done it.
+        """Return True if a simulation that lost its process is repeated in a new one: its FMU may not be the cause.
 
-        An earlier flight may have harmed the process, and someone else may have killed it.
+        An earlier simulation may have harmed the process, and another program may have killed it.
         """
         is_lost = flight.status in LOST and not self.halted
         return is_lost and (flight.status == CRASHED or simulation.flights > 1)

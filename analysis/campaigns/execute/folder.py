@@ -18,7 +18,7 @@ from .identity import differences
 
 
 def begin(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> Manifest:
-    """A folder with a campaign's manifest, contents and draws, and none of the trials of another."""
+    """Write a folder with a campaign's manifest, contents and draws, and none of the trials of another."""
     for name in (FILE, SUMMARY):  # first, so that what is left of another campaign is no result any more
         (folder / name).unlink(missing_ok=True)
     clear(folder)
@@ -28,7 +28,7 @@ def begin(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: Ba
 
 
 def resume_folder(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> Manifest:
-    """A folder that holds this campaign already, or its first trials. Raises InputError for another one."""
+    """Resume a folder that holds this campaign already, or its first trials. Raises InputError for another one."""
     held = read_manifest(folder)
     manifest = replace(manifest, shard_size=held.shard_size)  # which followed from fewer trials
     difference = differences(held, manifest)
@@ -65,7 +65,7 @@ def _check_draws(folder: Path, held: Manifest, plan: BatchPlan) -> None:
 
 
 def cut(folder: Path, manifest: Manifest, plan: BatchPlan) -> Manifest:
-    """The folder of a campaign of fewer trials, those of the plan: whole shards, and the traces of these."""
+    """Cut the folder to a campaign of fewer trials, those of the plan: whole shards, and the traces of these."""
     manifest = replace(manifest, trials=plan.campaign.trials)
     numbering = Numbering(manifest.trials, manifest.shard_size)
     for path in (folder / FOLDER).glob("[0-9]*.parquet"):

@@ -1,4 +1,4 @@
-"""What a stored batch states of itself: what its numbers depend on, and units, types, expressions of its columns."""
+"""Metadata of a stored batch: inputs of its numbers, and units, types, expressions of its columns."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 
 
 def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Provenance:
-    """What a batch's numbers depend on; ``systems`` are the prepared ones by variant."""
+    """Return the inputs of a batch's numbers; ``systems`` are the prepared ones by variant."""
     first = next(iter(systems.values()))
     options = plan.options
     metadata: Provenance = {
@@ -105,7 +105,7 @@ def _metric(metric: Metric, signals: Mapping[str, SignalMetadata]) -> MetricMeta
 
 
 def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]:
-    """Unit, type and axis of every signal of any variant by name."""
+    """Return unit, type and axis of every signal of any variant by name."""
     signals: dict[str, SignalMetadata] = {}
     for prepared in systems.values():
         network = prepared.network

@@ -1,4 +1,4 @@
-"""A trial of a stored campaign flown again, of its folder alone, and whether it comes to what is stored."""
+"""Repeated trial of a stored campaign, from its folder alone, and its comparison with the stored result."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class ReplayedTrial:
 
     @property
     def is_cut_off(self) -> bool:
-        """Whether the flight ended before its end by a limit of wall-clock time, or by Ctrl-C."""
+        """True if the flight ended early by a limit of wall-clock time, or by Ctrl-C."""
         return self.outcome.status in CUT_OFF
 
 
@@ -81,7 +81,7 @@ def replay_plan(plan: BatchPlan, trial: int, configuration: str | None = None) -
 def _replay(
     plan: BatchPlan, prepared: PreparedSystem, variant: Variant, trial: int, campaign: PreparedCampaign | None
 ) -> ReplayedTrial:
-    """The flight of a trial; compared with what the folder of ``campaign`` has of it, if there is one."""
+    """Repeat a trial; compare it with the stored one in the folder of ``campaign``, if there is one."""
     flight, outcome = Flyer(plan).replay(variant.name, trial)
     stored = None if campaign is None else _read_stored(campaign, variant, trial)
     return ReplayedTrial(
@@ -113,7 +113,7 @@ def _variant_of(plan: BatchPlan, file: str | Path, name: str | None) -> Variant:
 
 
 def _read_stored(campaign: PreparedCampaign, variant: Variant, trial: int) -> TrialResult | None:
-    """What the folder says of a trial; None where its shard has not flown. Raises InputError for a damaged one."""
+    """Return the stored result of a trial; None where its shard is missing. Raises InputError for a damaged one."""
     shard = trial // campaign.numbering.size
     if not campaign.has(shard):
         return None
@@ -124,7 +124,7 @@ def _read_stored(campaign: PreparedCampaign, variant: Variant, trial: int) -> Tr
 
 
 def _differences(stored: TrialResult, flown: TrialResult) -> tuple[str, ...]:
-    """How two outcomes of one trial differ, to the last bit, a phrase each."""
+    """Return the differences of two outcomes of one trial, to the last bit, a phrase each."""
     if flown.status in CUT_OFF:
         return (f"status {stored.status!r} is stored, {flown.status!r} was flown: the rest is not compared",)
     pairs: dict[str, tuple[object, object]] = {

@@ -35,7 +35,7 @@ def run_batch(
     engine: str | None = None,
     elsewhere: Elsewhere | None = None,
 ) -> BatchResult:
-    """Fly every trial of every variant of a plan. Raises InputError before anything flies.
+    """Simulate every trial of every variant of a plan. Raises InputError before anything flies.
 
     ``workers`` is the number of parallel flights (default: one per processor), ``engine`` one of `ENGINES` (default:
     threads where the FMUs can fly in them); ``elsewhere`` flies in place of both. With ``output`` every shard is
@@ -48,7 +48,8 @@ def run_batch(
 
 
 def merge_rows(campaign: PreparedCampaign) -> Mapping[str, TrialTable]:
-    """The trials by variant of a campaign whose shards are in its folder. Raises InputError where some are missing."""
+    """Return the trials by variant of a campaign whose shards are in its folder. Raises
+    InputError where some are missing."""
     missing = campaign.missing()
     decision = _decision(campaign, missing)
     if missing and not decision.is_decided:
@@ -92,7 +93,7 @@ def fly_campaign(
 
 
 def _decision(campaign: PreparedCampaign, missing: Collection[int]) -> CampaignDecision:
-    """What the shards decide that lie in a campaign's folder."""
+    """Return the decision by the shards in a campaign's folder."""
     decision, store, numbering = CampaignDecision(campaign.plan), campaign.store(), campaign.numbering
     if campaign.plan.until_decided and campaign.folder is not None:
         for shard in sorted(set(range(numbering.count)) - set(missing)):
@@ -101,7 +102,7 @@ def _decision(campaign: PreparedCampaign, missing: Collection[int]) -> CampaignD
 
 
 def _rows(campaign: PreparedCampaign, store: ShardStore, decision: CampaignDecision) -> dict[str, TrialTable]:
-    """The trials of the shards that decide a campaign, or else of all, by variant."""
+    """Return the trials of the shards that decide a campaign, or else of all, by variant."""
     numbering = campaign.numbering
     if decision.shards is not None:
         numbering = replace(numbering, trials=numbering.of(decision.shards - 1).stop)

@@ -1,4 +1,4 @@
-"""Where the shards of a campaign go, into its folder or into memory, and the trials of a variant in them."""
+"""Destination of the shards of a campaign, its folder or memory, and the trials of a variant in them."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class ShardTable(TrialTable):
         return pyarrow.concat_tables(tables, promote_options="permissive").combine_chunks()
 
     def tables(self, names: Sequence[str]) -> Iterator[pyarrow.Table]:
-        """Some columns, a shard at a time. Raises InputError for a shard that is damaged."""
+        """Yield some columns, a shard at a time. Raises InputError for a shard that is damaged."""
         for shard in self._shards:
             yield self._read(shard, names).select(names)
 
@@ -83,7 +83,7 @@ class ShardStore:
             self._stored.write(shard, self._plan, trials)
 
     def rows(self, numbering: Numbering, shards: range | None = None) -> dict[str, TrialTable]:
-        """The trials of shards that are all there, of all or of some, by variant."""
+        """Return the trials of shards that are all there, of all or of some, by variant."""
         some = range(numbering.count) if shards is None else shards
         if self._stored is not None:
             files = [Shard(shard_path(self._stored.folder, shard), numbering.of(shard)) for shard in some]

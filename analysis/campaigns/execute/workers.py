@@ -26,7 +26,7 @@ WAITING = 4  # tasks that are handed out ahead, for each worker
 
 
 def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
-    """Whether trials fly in threads: as asked, or wherever they can. Raises InputError where they cannot."""
+    """Return True if trials run in threads: as requested, or wherever they can. Raises InputError where they cannot."""
     systems = list(systems)
     foreign = not all(map(may_load_here, systems))
     can = all(prepared.flies_in_threads for prepared in systems) and not foreign
@@ -44,12 +44,12 @@ def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
 
 
 def needs_children(workers: int, threads: bool, engine: str | None) -> bool:
-    """Whether trials that could fly in this process fly in children of the flight server."""
+    """Return True if trials that could run in this process run in children of the flight server."""
     return engine == "processes" or (workers > 1 and not threads)
 
 
 def worker_count(workers: int | None) -> int:
-    """The number of parallel flights: as asked for, or one per processor. Raises InputError."""
+    """Return the number of parallel simulations: as requested, or one per processor. Raises InputError."""
     count = workers if workers is not None else cpu_count()
     if count < 1:
         raise InputError("`workers`", str(count), "not a positive number", "give 1 or more")
@@ -100,7 +100,7 @@ class FlyerPool:
     def _hand_out(
         self, executor: ThreadPoolExecutor, function: Callable[..., Result], tasks: Iterator[tuple[int, tuple]]
     ) -> Iterator[tuple[int, Result]]:
-        """The results of tasks; so few at a time that all cost no memory."""
+        """Yield the results of tasks, few at a time to bound memory."""
         futures: dict[Future, int] = {}
         try:
             while True:

@@ -93,7 +93,7 @@ class CampaignFolder:
 
     @property
     def flown(self) -> int:
-        """How many trials of each variant are there."""
+        """Number of stored trials of each variant."""
         return sum(len(shard.trials) for shard in self.shards) if self._paths else 0
 
     @cached_property
@@ -140,7 +140,8 @@ class CampaignFolder:
         return {"batch": self.batch, "variant": variant, "trial": trial}
 
     def has(self, number: int, trials: range) -> bool:
-        """True if a shard is there, of this campaign and with these trials. Raises InputError for a damaged one."""
+        """Return True if a shard is there, of this campaign and with these trials. Raises InputError for a damaged
+        one."""
         return describe_columns(shard_path(self.folder, number)) == self._about(number, trials)
 
     def write(self, number: int, plan: BatchPlan, trials: Mapping[str, TrialTable]) -> None:

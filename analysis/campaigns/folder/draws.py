@@ -31,7 +31,8 @@ class StoredDraws:
         return replace(self, trials=trials)
 
     def of_part(self, trials: range) -> DrawTable:
-        """Those of trials in a row, which are counted from 0 then. Raises InputError where the file is damaged."""
+        """Return the samples of consecutive trials, counted from 0 then. Raises InputError where the file is
+        damaged."""
         with _open_draws(self.path) as file:
             ends = np.cumsum([file.metadata.row_group(group).num_rows for group in range(file.num_row_groups)])
             groups = range(
@@ -44,7 +45,7 @@ class StoredDraws:
 
 
 def read_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:
-    """The draws of a folder's first trials. Raises InputError where it does not hold them all."""
+    """Read the draws of a folder's first trials. Raises InputError where it does not hold them all."""
     path = folder / DRAWS
     with _open_draws(path) as file:
         there, rows = file.schema_arrow.names, file.metadata.num_rows

@@ -29,7 +29,7 @@ def shard_path(folder: Path, shard: int) -> Path:
 
 
 def trace_path(folder: Path, variant: str, trial: int) -> Path:
-    """Where a trial's trace lies; a variant named by the path of an FMU has that path's slashes replaced."""
+    """Return the path of a trial's trace; a variant named by the path of an FMU has that path's slashes replaced."""
     return folder / "traces" / variant.replace("/", "_") / f"{trial:06d}.parquet"
 
 
@@ -42,7 +42,7 @@ def clear(folder: Path) -> None:
 def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
     """Write the table of draws to ``folder``/draws.parquet, a row per trial, ``size`` of them a row group.
 
-    Draws that are made for each trial by itself have no table; files of trials hold them.
+    Draws of each trial by itself have no table; files of trials hold them.
     """
     if plan.is_counted:
         (folder / DRAWS).unlink(missing_ok=True)
@@ -62,9 +62,9 @@ def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
 
 
 def trial_table(plan: BatchPlan, trials: Mapping[str, TrialTable]) -> pyarrow.Table:
-    """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
+    """Return a row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
 
-    Every variant has the same trials, which are in a row.
+    Every variant has the same trials, which are consecutive.
     """
     numbers = next(iter(trials.values())).trial
     sampled = plan.values_of(range(int(numbers[0]), int(numbers[-1]) + 1))
@@ -76,7 +76,7 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, TrialTable]) -> pyarrow.Ta
 
 
 def with_draws(trials: TrialTable, sampled: TrialSamples) -> TrialTable:
-    """The trials with what is drawn for them and the campaign's faults, columns in the order of files."""
+    """Return the trials with their samples and the campaign's faults, columns in the order of files."""
     table = trials.table
     sampled_columns = {f"draw.{name}": values for name, values in sampled.table.columns.items()}
     for fault in sampled.faults:
@@ -87,7 +87,7 @@ def with_draws(trials: TrialTable, sampled: TrialSamples) -> TrialTable:
 
 
 def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> None:
-    """A table with a checksum on every page, so that a damaged file is found out when it is read.
+    """Write a table with a checksum on every page, so that a damaged file is detected when it is read.
 
     ``rows`` are those of a row group; None for one of all.
     """
@@ -103,7 +103,7 @@ NEW_FOLDER = "fly the batch again into an empty folder"
 
 
 def describe_columns(path: Path) -> object:
-    """What a file of a shard or trace says of itself; None where it says nothing, or is not there.
+    """Read the metadata of a file of a shard or trace; None where it has none, or is missing.
 
     Raises InputError for one that is damaged.
     """
@@ -111,7 +111,7 @@ def describe_columns(path: Path) -> object:
 
 
 def read_schema(path: Path) -> pyarrow.Schema:
-    """The columns of a parquet file. Raises InputError."""
+    """Read the columns of a parquet file. Raises InputError."""
     check_regular(path, NEW_FOLDER)
     try:
         with pyarrow.parquet.ParquetFile(path) as file:
@@ -121,14 +121,14 @@ def read_schema(path: Path) -> pyarrow.Schema:
 
 
 def trace_files(folder: Path, variant: str) -> dict[int, Path]:
-    """The files of a variant's traces by trial, in order, whichever batch they are of."""
+    """Return the files of a variant's traces by trial, in order, whichever batch they are of."""
     files = trace_path(folder, variant, 0).parent.glob("*.parquet")
     numbered = {int(path.stem): path for path in files if path.stem.isdecimal()}
     return dict(sorted(numbered.items()))
 
 
 def read_trace(path: Path, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
-    """The recorded signals of one trial, ``time`` (s) among them; of ``names`` those that there are, or all.
+    """Read the recorded signals of one trial, ``time`` (s) among them; of ``names`` those that exist, or all.
 
     Raises InputError.
     """
@@ -139,14 +139,14 @@ def read_trace(path: Path, names: Collection[str] | None = None) -> dict[str, np
 
 
 def unreadable(path: Path, error: Exception) -> InputError:
-    """What is said of a file that is damaged."""
+    """Return the error of a damaged file."""
     reason = str(error).split(": ")[-1] or type(error).__name__
     problem = f"cannot be read as parquet ({' '.join(reason.split())})"
     return InputError(path, "", problem, "remove it: the batch's command with `resume` flies what is missing")
 
 
 def about_of(schema: pyarrow.Schema) -> object:
-    """What a table says of itself; None where it says nothing."""
+    """Return the metadata of a table; None where it has none."""
     try:
         return json.loads((schema.metadata or {}).get(b"perilune", b"null"))
     except ValueError:
@@ -186,7 +186,7 @@ def check_texts(table: pyarrow.Table, name: str, path: Path) -> None:
 
 
 def read_table(path: Path, columns: Collection[str] | None = None, group: int | None = None) -> pyarrow.Table:
-    """A parquet file, or those of its ``columns`` that there are, or one of its row groups, checksums verified.
+    """Read a parquet file, or those of its ``columns`` that exist, or one of its row groups, checksums verified.
 
     Raises InputError.
     """
@@ -209,7 +209,7 @@ def check_names(names: Sequence[str], path: Path) -> None:
 
 
 def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
-    """A column as doubles, or whole numbers or booleans where it holds such. Raises InputError."""
+    """Return a column as doubles, or whole numbers or booleans where it holds such. Raises InputError."""
     kind = table.schema.field(name).type
     column = table[name]
     known = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)

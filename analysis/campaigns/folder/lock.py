@@ -19,9 +19,9 @@ FILE = ".lock"  # an empty database, whose lock ends with its process
 
 @contextmanager
 def lock_folder(folder: Path | None, *, alone: bool = False) -> Iterator[None]:
-    """Use a folder, together with others who use it or ``alone``; None is no folder, which nobody else has.
+    """Lock a folder, shared with other users or ``alone``; None is no folder, which nobody else has.
 
-    Raises InputError where others use it so that this cannot be. Warns where the file system has no locks.
+    Raises InputError where their use excludes this one. Warns where the file system has no locks.
     """
     with ExitStack() as entered:
         if folder is not None:

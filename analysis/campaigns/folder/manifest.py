@@ -1,4 +1,4 @@
-"""What a campaign flies, as one JSON file: everything that its numbers depend on, with contents under their SHA-256."""
+"""Content of a campaign, as one JSON file: all inputs of its numbers, with contents under their SHA-256."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class ResetDocument(TypedDict):
 
 
 class TableDocument(TypedDict):
-    """A table that was given: what its user calls it, the SHA-256 of the file, its content."""
+    """A table from the user: its label, the SHA-256 of the file, its content."""
 
     label: str
     sha256: str
@@ -59,9 +59,9 @@ class AttachedDocument(TypedDict):
 
 
 class SourceDocument(TypedDict, total=False):
-    """A campaign's file, with those that it extends; ``position`` is that of its own entries among theirs.
+    """A campaign's file, with those that it extends; ``position`` is that of its entries among theirs.
 
-    ``attached`` are the tables of its lookups, by their paths as it says them.
+    ``attached`` are the tables of its lookups, by their paths in it.
     """
 
     label: Required[str]
@@ -82,16 +82,15 @@ class CampaignDocument(SourceDocument, total=False):
 
 @dataclass(frozen=True)
 class Manifest:
-    """A campaign to be flown in shards; every value can be written as JSON.
+    """A campaign to be simulated in shards; every value can be written as JSON.
 
-    ``elsewhere`` are contents outside of the ``system``, by what asks for them.
-    ``options`` are the system options, ``faults`` the user's, ``series`` the inputs over time (label, sha256, content),
-    ``draws`` likewise those that are given instead of drawn, ``timeout`` is in s. ``fmus`` are hashes by variant and
-    component, ``resets`` the verdicts of reset tests by hash. ``until_decided`` says that it ends with the shard at
-    whose end its requirements are decided. ``shard_size`` is in trials, each of which every variant flies.
-    ``elementary_functions`` is their version: with another, results have other last bits. A campaign from before there
-    was one has None, and flew with those of the C library. ``identities`` are those of FMUs by hash, where
-    another FMU can be the same; a campaign from before there were any has None.
+    ``elsewhere`` are contents outside of the ``system``, by the key of their use. ``options`` are the system options,
+    ``faults`` the user's, ``series`` the inputs over time (label, sha256, content), ``draws`` likewise supplied ones,
+    ``timeout`` is in s. ``fmus`` are hashes by variant and component, ``resets`` the verdicts of reset tests by hash.
+    ``until_decided`` says that it ends with the shard at whose end its requirements are decided. ``shard_size`` is in
+    trials, each of which every variant has. ``elementary_functions`` is their version: with another, results have other
+    last bits. A campaign from before there was one has None, and used those of the C library. ``identities`` are those
+    of FMUs by hash, where another FMU can be the same; a campaign from before there were any has None.
     """
 
     perilune: str
@@ -121,7 +120,7 @@ class Manifest:
         return content
 
     def names(self) -> list[str]:
-        """The contents that it names, each once."""
+        """Return the contents that it names, each once."""
         tables = [table["content"] for table in (self.series, self.draws) if table is not None]
         return sorted({*self.system["files"].values(), *self.elsewhere.values(), *_contents(self.campaign), *tables})
 
@@ -130,13 +129,13 @@ class Manifest:
 
 
 def _contents(campaign: SourceDocument) -> list[str]:
-    """The contents of a campaign's file, of its tables, and of those that it extends."""
+    """Return the contents of a campaign's file, of its tables, and of those that it extends."""
     attached = (table["content"] for table in campaign.get("attached", {}).values())
     return [campaign["content"], *attached, *(name for part in campaign.get("extends", []) for name in _contents(part))]
 
 
 def read_manifest(folder: Path) -> Manifest:
-    """The manifest in a folder, which anyone may have written. Raises InputError."""
+    """Read the manifest in a folder, which anyone may have written. Raises InputError."""
     path = folder / FILE
     content = read_regular(path, WRITE, INPUT_BYTES.limit)
     for written in (folder / "trials", folder / "traces", *folder.glob("traces/*")):
@@ -193,7 +192,7 @@ def remove_contents(folder: Path) -> None:
 
 
 def content_path(folder: Path, name: str) -> Path:
-    """The path of a content, whose bytes are those of its name. Raises InputError."""
+    """Return the path of a content, whose bytes are those of its name. Raises InputError."""
     path = folder / name
     content = read_regular(path, COPY_AGAIN, INPUT_BYTES.limit)
     if content_name(content, path.suffix) != name:

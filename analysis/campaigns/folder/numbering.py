@@ -1,4 +1,4 @@
-"""Which trials make a shard, and how shards are named on a command line."""
+"""Division of trials into shards, and names of shards on a command line."""
 
 from __future__ import annotations
 
@@ -29,7 +29,8 @@ class Numbering:
 
 
 def shard_size(trials: int) -> int:
-    """The trials of a shard, from the campaign alone: neither machine nor workers change what a shard holds."""
+    """Return the trials of a shard, from the campaign alone: neither machine nor workers change the content of a
+    shard."""
     return min(max(-(-trials // PARTS), LEAST), MOST)
 
 
@@ -42,7 +43,7 @@ def spans(shards: Sequence[int]) -> str:
 
 
 def numbers_of(texts: Iterable[str]) -> list[int]:
-    """The shards that numbers and spans (A-B) name, rising, each once. Raises InputError."""
+    """Return the shards that numbers and spans (A-B) name, rising, each once. Raises InputError."""
     numbers: set[int] = set()
     for text in texts:
         first, dash, last = text.partition("-")

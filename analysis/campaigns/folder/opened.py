@@ -34,7 +34,7 @@ class OpenedResults:
 
     @property
     def provenance(self) -> Provenance:
-        """What the numbers depend on, as in summary.json: system, campaign, seed, hashes."""
+        """Inputs that the numbers depend on, as in summary.json: system, campaign, seed, hashes."""
         return self.source.provenance
 
     @property
@@ -44,12 +44,12 @@ class OpenedResults:
 
     @property
     def trials(self) -> int:
-        """How many trials the campaign has of each variant."""
+        """Number of the campaign's trials of each variant."""
         return int(self.provenance["trials"])
 
     @property
     def flown(self) -> int:
-        """How many of them are there; all, unless the campaign is still flying."""
+        """Number of stored ones; all, unless the campaign is still running."""
         return self.source.flown
 
     @cached_property
@@ -80,10 +80,10 @@ class OpenedResults:
     def arrow(
         self, columns: Sequence[str] | None = None, where: pyarrow.compute.Expression | None = None
     ) -> pyarrow.Table:
-        """A row per variant and trial, or those for which ``where`` is true; all ``columns``, or some.
+        """Return a row per variant and trial, or those for which ``where`` is true; all ``columns``, or some.
 
         ``where`` is an expression over any columns: ``pyarrow.compute.field("metric.miss") > 10``. Raises KeyError for
-        a column that there is not, InputError for a damaged shard.
+        a missing column, InputError for a damaged shard.
         """
         self._check(columns)
         with self._describe():
@@ -92,7 +92,8 @@ class OpenedResults:
     def batches(
         self, columns: Sequence[str] | None = None, where: pyarrow.compute.Expression | None = None
     ) -> Iterator[pyarrow.RecordBatch]:
-        """What `arrow` gives, in parts and in order; memory does not grow with the campaign. Raises as `arrow` does."""
+        """Yield the rows of `arrow` in batches and in order; memory does not grow with the
+        campaign. Raises as `arrow` does."""
         self._check(columns)
         names = self._schema.names if columns is None else list(columns)
         with self._describe():
@@ -104,7 +105,7 @@ class OpenedResults:
     def quantile(
         self, metric: str, share: float, variant: str | None = None, *, where: pyarrow.compute.Expression | None = None
     ) -> float:
-        """The least value of a metric that a ``share`` of the trials does not exceed: exact, in bounded memory.
+        """Return the least value of a metric that a ``share`` of the trials does not exceed: exact, in bounded memory.
 
         As the quantiles of summary.json: of all trials whose metric is not nan, infinite ones included; of those for
         which ``where`` is true, as in `arrow`. nan where there is none. ``variant`` may be left out where the campaign
@@ -123,7 +124,7 @@ class OpenedResults:
         return quantile(values, share)
 
     def traces(self, variant: str | None = None, names: Sequence[str] | None = None) -> Any:
-        """What a variant's flights recorded over time, an xarray.Dataset over (trial, time), nan after their ends.
+        """Return a variant's recorded signals over time, an xarray.Dataset over (trial, time), nan after their ends.
 
         Of ``names``, or all signals; their units are in ``attrs``. Raises KeyError for a signal or a variant that there
         is not, and where the campaign keeps no traces; ImportError without xarray.

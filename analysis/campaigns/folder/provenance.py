@@ -30,7 +30,7 @@ class MetricMetadata(TypedDict):
 
 
 class RecordMetadata(TypedDict):
-    """What trials store over time."""
+    """Trials' records over time."""
 
     every: int | None
     signals: list[str]
@@ -41,9 +41,9 @@ class RecordMetadata(TypedDict):
 class CampaignMetadata(TypedDict, total=False):
     """Properties of a batch that its numbers do not show.
 
-    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of given draws and a ``draw_scheme`` that is no table (each where
-    there is any), ``success`` (expression), ``signals`` that are recorded, ``targets`` (parameters target_position and
-    target_velocity by variant).
+    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of supplied draws and a ``draw_scheme`` that is no table (each
+    where there is any), ``success`` (expression), ``signals`` that are recorded, ``targets`` (parameters
+    target_position and target_velocity by variant).
     """
 
     group: str

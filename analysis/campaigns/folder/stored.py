@@ -46,7 +46,7 @@ class StoredBatch:
 
     @property
     def provenance(self) -> Provenance:
-        """What the campaign's numbers depend on."""
+        """Inputs that the campaign's numbers depend on."""
         return self.source.provenance
 
     @property
@@ -93,7 +93,7 @@ class StoredBatch:
 
 
 def read_batch(folder: Path) -> StoredBatch:
-    """The batch in a folder. Raises InputError for what is missing, damaged, or of two batches."""
+    """Read the batch in a folder. Raises InputError where files are missing, damaged, or of two batches."""
     for name in (SUMMARY, FOLDER):
         _check_there(folder, name)
     document = read_summary(folder / SUMMARY)
@@ -109,7 +109,7 @@ def read_batch(folder: Path) -> StoredBatch:
 
 
 def _draws(folder: Path, shards: Mapping[Shard, pyarrow.Table], is_counted: bool) -> dict[str, np.ndarray]:
-    """The draws of all trials: of their table or, where they were drawn without one, of the shards' first variant."""
+    """Return the draws of all trials: of their table or, without one, of the shards' first variant."""
     if not is_counted:
         _check_there(folder, DRAWS)
         sampled = read_table(folder / DRAWS)
@@ -132,7 +132,7 @@ def _check_there(folder: Path, name: str) -> None:
 def _variants(
     source: CampaignFolder, shards: Mapping[Shard, pyarrow.Table], draws: Mapping[str, np.ndarray]
 ) -> dict[str, TrialTable]:
-    """The trials by variant, with the draws that draws.parquet has of them."""
+    """Return the trials by variant, with the draws that draws.parquet has of them."""
     by_variant: dict[str, list[TrialTable]] = {variant: [] for variant in source.variants}
     is_sampled = "trial" in draws and {len(column) for column in draws.values()} == {source.provenance["trials"]}
     for shard, table in shards.items():
@@ -152,7 +152,7 @@ def _variants(
 
 
 def _column(draw: str) -> str:
-    """The column of the shards that repeats one of draws.parquet."""
+    """Return the column of the shards that repeats one of draws.parquet."""
     return "trial" if draw == "trial" else f"draw.{draw}"
 
 

@@ -37,7 +37,7 @@ def without_summary(document: SummaryDocument) -> Provenance:
 
 
 def read_summary(path: Path) -> SummaryDocument:
-    """The content of summary.json. Raises InputError for what is none, or of an older version."""
+    """Read the content of summary.json. Raises InputError for any other file, or one of an older version."""
     content = read_regular(path, NEW_FOLDER, INPUT_BYTES.limit)
     try:
         document = json.loads(content)
@@ -53,7 +53,7 @@ def read_summary(path: Path) -> SummaryDocument:
 
 
 def read_metrics(document: SummaryDocument, path: Path) -> tuple[Metric, ...]:
-    """The metrics of a campaign as summary.json declares them. Raises InputError."""
+    """Read the metrics of a campaign as summary.json declares them. Raises InputError."""
     try:
         return tuple(
             Metric(

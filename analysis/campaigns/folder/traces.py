@@ -1,4 +1,4 @@
-"""What flights of a variant have recorded over time, as one xarray.Dataset."""
+"""Records of a variant's flights over time, as one xarray.Dataset."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TIME = "time"
 
 
 def trace_dataset(results: CampaignFolder, variant: str, names: Sequence[str] | None = None) -> Any:
-    """The traces of one variant: a variable (trial, time) for each signal, with its unit.
+    """Return the traces of one variant: a variable (trial, time) for each signal, with its unit.
 
     Flights that ended earlier, or have no row at a time at which others have one, are nan there. Traces of other
     campaigns in the folder are left out. Raises ImportError without xarray, KeyError for a signal that no trace has and
@@ -53,7 +53,7 @@ def trace_dataset(results: CampaignFolder, variant: str, names: Sequence[str] | 
 
 
 def _paths(results: CampaignFolder, variant: str) -> dict[int, Path]:
-    """The traces of the variant's flown trials, by trial."""
+    """Return the traces of the variant's stored trials, by trial."""
     traces = results.traces(variant)
     return {trial: path for trial, path in traces.items() if any(trial in shard.trials for shard in results.shards)}
 

@@ -1,1 +1,1 @@
-"""Whether flights show that a required share of them keeps a requirement: statistics on counts and columns."""
+"""Evidence by flights for a required share of them to keep a requirement: statistics on counts and columns."""

@@ -21,7 +21,7 @@ FURTHER = (0, 1, 2)  # failures still to come for which the flights that are mis
 
 
 class Verdict(StrEnum):
-    """What a campaign says of a requirement."""
+    """Verdict of a campaign on a requirement."""
 
     MET = "met"
     NOT_MET = "not met"
@@ -42,12 +42,12 @@ class Decision:
 
 
 def risk_limit(confidence: float) -> float:
-    """The probability of a wrong verdict that a confidence permits."""
+    """Return the probability of a wrong verdict that a confidence permits."""
     return (1.0 - confidence) * (1.0 + ROUNDING)
 
 
 def consumer_risk(flights: int, failures: int, share: float) -> float:
-    """The risk of accepting: the probability of that many failures or fewer at the required share (Hanson and Beard).
+    """Return the risk of accepting: the probability of that many failures or fewer at the share (Hanson and Beard).
 
     No system with a smaller share has so few failures with a larger probability.
     """
@@ -55,7 +55,7 @@ def consumer_risk(flights: int, failures: int, share: float) -> float:
 
 
 def producer_risk(flights: int, failures: int, share: float) -> float:
-    """The risk of rejecting: the probability of that many failures or more at the required share.
+    """Return the risk of rejecting: the probability of that many failures or more at the required share.
 
     No system with a larger share has so many failures with a larger probability.
     """
@@ -63,11 +63,11 @@ def producer_risk(flights: int, failures: int, share: float) -> float:
 
 
 def decide_by_size(flights: int, failures: int, share: float, confidence: float) -> Verdict:
-    """The verdict on a campaign of a size that did not depend on what came of it.
+    """Decide a campaign whose size did not depend on its outcome.
 
     Met where the consumer's risk is at most 1 - ``confidence``, not met where the producer's is: Clopper and Pearson's
-    one-sided bounds of the share, at that confidence each, exclude the other side of the required one. Both would
-    be possible below a confidence of 0.5, which is refused by ValueError.
+    one-sided bounds of the share, at that confidence each, exclude the other side of the required one. Both would be
+    possible below a confidence of 0.5, which is refused by ValueError.
     """
     if not 0.5 <= confidence < 1.0:
         raise ValueError(f"a confidence of {confidence:g} is not in 0.5 to 1")
@@ -88,7 +88,7 @@ def acceptance_number(flights: int, share: float, confidence: float) -> int:
 
 
 def flights_needed(failures: int, share: float, confidence: float) -> int:
-    """The fewest flights that meet the requirement with that many failures."""
+    """Return the fewest flights that meet the requirement with that many failures."""
     risk = risk_limit(confidence)
     few, enough = failures, failures + 1  # with failures alone the risk is 1
     while consumer_risk(enough, failures, share) > risk:
@@ -110,16 +110,17 @@ class FixedSize:
         self.confidence = confidence
 
     def decision(self, kept: np.ndarray) -> Decision:
-        """The verdict on all flights, True where the requirement was kept."""
+        """Return the verdict on all flights, True where the requirement was kept."""
         flights, failures = len(kept), int(np.count_nonzero(~np.asarray(kept, dtype=bool)))
         verdict = decide_by_size(flights, failures, self.share, self.confidence)
         return Decision(verdict, flights, failures, consumer_risk(flights, failures, self.share))
 
     def count_permitted(self, flights: int) -> tuple[int, int]:
-        """How many of the flights count, all, and with how many failures they meet the requirement, -1 for none."""
+        """Return the number of flights that count, all, and the failures with which they meet
+        the requirement, -1 for none."""
         return flights, acceptance_number(flights, self.share, self.confidence)
 
     def flights_to_meet(self, flights: int, failures: int) -> dict[int, int]:
-        """How many flights one campaign would have needed besides, by failures in those."""
+        """Return the number of further flights one campaign would have needed, by failures in those."""
         needed = {more: flights_needed(failures + more, self.share, self.confidence) for more in FURTHER}
         return {more: max(0, number - flights) for more, number in needed.items()}

@@ -20,7 +20,8 @@ SPENT = 1.0 - 1e-9  # of the risk that is permitted: the rest is for rounding an
 
 
 def spending(flights: int, risk: float, half: int) -> float:
-    """How much of ``risk`` may be spent in the first ``flights``: half of it in ``half``, all in no finite number."""
+    """Return the share of ``risk`` to spend in the first ``flights``: half of it in ``half``, all in no finite
+    number."""
     return SPENT * risk * flights / (flights + half)
 
 
@@ -29,7 +30,7 @@ class Look:
     """One look: counts up to ``most`` stop.
 
     ``spent`` is the probability of having stopped at an earlier look, ``probabilities`` are of the counts from
-    ``lowest`` on that come to this look.
+    ``lowest`` on that reach this look.
     """
 
     flights: int
@@ -39,7 +40,7 @@ class Look:
     probabilities: np.ndarray
 
     def risk(self, count: int) -> float:
-        """The probability of having stopped before, or of a count here that is no larger."""
+        """Return the probability of having stopped before, or of a count here that is no larger."""
         return self.spent + float(self.probabilities[: max(0, count - self.lowest + 1)].sum())
 
 
@@ -55,7 +56,7 @@ class Boundary:
         self.looks: list[Look] = []
 
     def add(self, flights: int) -> Look:
-        """The next look, after so many flights in all."""
+        """Return the next look, after ``flights`` flights in all."""
         last = self.looks[-1] if self.looks else Look(0, -1, 0.0, 0, np.ones(1))
         start = max(last.lowest, last.most + 1)
         flown = flights - last.flights

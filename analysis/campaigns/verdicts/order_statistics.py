@@ -1,7 +1,7 @@
 """Exact order statistics of a column that is read in blocks, quantiles and tolerance bounds by them.
 
 Memory does not grow with the column. A double's bits, turned so that they order as the numbers do, are sixteen bits
-four times. Every time the values that begin as the wanted one are counted by their next sixteen bits, until one is
+four times. Every time the values that begin as the sought one are counted by their next sixteen bits, until one is
 left: radix selection.
 
 The p-quantile of n values, in tables, figures and verdicts, is their order statistic k = ceil(p n), the least value
@@ -9,10 +9,9 @@ that a fraction p of all does not exceed: the inverse of the empirical distribut
 American Statistician 50, definition 1; numpy's "inverted_cdf"). Values that are nan do not count, infinite ones do.
 
 A one-sided tolerance bound is what a share of all flights does not exceed, whatever they follow. The value that the
-share does not exceed is exceeded by a flight as often as a requirement with this share may fail. A bound that is the
-(k + 1)-th worst of the flights lies below that value only if k flights or fewer exceed it, so k are the failures with
-which the requirement is met (S. S. Wilks, Annals of Mathematical Statistics 12, 1941; Hanson and Beard,
-NASA/TP-2010-216447).
+share does not exceed is exceeded by a flight as often as a requirement with this share may fail. A bound that is the (k
++ 1)-th worst of the flights is below that value only if k flights or fewer exceed it, so k are the failures with which
+the requirement is met (S. S. Wilks, Annals of Mathematical Statistics 12, 1941; Hanson and Beard, NASA/TP-2010-216447).
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ SIGN = np.uint64(1 << 63)
 
 
 def order_statistics(column: Blocks, ranks: Sequence[int]) -> list[float]:
-    """The values of rank 0, the smallest, and so on; nan left out. Raises IndexError for a rank that there is not."""
+    """Return the values of rank 0, the smallest, and so on; nan left out. Raises IndexError for a missing rank."""
     held: list[np.ndarray] = []
     size = 0
     for values in column():
@@ -44,7 +43,7 @@ def order_statistics(column: Blocks, ranks: Sequence[int]) -> list[float]:
 
 
 def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
-    """The values of some ranks, by their bits from the highest: what they begin with, and their ranks among such."""
+    """Return the values of some ranks, by their bits from the highest: their prefix, and their ranks among such."""
     below, left = [0] * len(ranks), list(ranks)
     for place in range(64 - DIGIT, -1, -DIGIT):
         counts = {start: np.zeros(1 << DIGIT, dtype=np.int64) for start in below}
@@ -76,7 +75,8 @@ ROUNDING = 2.0**-51  # relative error of p n as doubles: 0.07 x 100 is 7.0000000
 
 
 def quantile_rank(fraction: float, count: int) -> int:
-    """The rank, from 0, of the ``fraction``-quantile of ``count`` values. Raises ValueError unless 0 <= fraction <= 1.
+    """Return the rank, from 0, of the ``fraction``-quantile of ``count`` values. Raises ValueError unless 0 <= fraction
+    <= 1.
 
     ``count`` must be 1 or more.
     """
@@ -112,11 +112,12 @@ def _ranks(fraction: float, counts: np.ndarray) -> np.ndarray:
 
 
 def tolerance_bound(column: Blocks, flights: int, permitted: int, upper: bool) -> float | None:
-    """The bound from the first ``flights`` values of a metric: their (``permitted`` + 1)-th largest, or smallest.
+    """Return the bound from the first ``flights`` values of a metric: their (``permitted`` + 1)-th largest, or
+    smallest.
 
-    ``permitted`` are the failures with which that many flights meet a requirement of the bound's share and
-    confidence; where it is negative the flights are too few and there is no bound, None. What is not finite
-    counts as worst: the bound is then infinite if the share cannot be had without it.
+    ``permitted`` are the failures with which that many flights meet a requirement of the bound's share and confidence;
+    where it is negative the flights are too few and there is no bound, None. What is not finite counts as worst: the
+    bound is then infinite if the share cannot be had without it.
     """
     if permitted < 0:
         return None

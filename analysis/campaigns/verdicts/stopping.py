@@ -1,9 +1,9 @@
 """Verdicts that hold however often a campaign is looked at, so that it may end with the first of them.
 
-Looking at 1771, 2991 and 4093 flights in turn, each with the figures of a campaign of that size alone, accepts a
-system at the limit in 17.8 % of campaigns and not in 10. `StoppingRule` shares the risk out over all looks there will
-ever be (`analysis.verdicts.boundary`), for each of the two verdicts by itself. It has no last look: a campaign that is
-still undecided at its end may be made longer.
+Looking at 1771, 2991 and 4093 flights in turn, each with the figures of a campaign of that size alone, accepts a system
+at the limit in 17.8 % of campaigns and not in 10. `StoppingRule` shares the risk out over all looks there will ever be
+(`analysis.verdicts.boundary`), for each of the two verdicts by itself. It has no last look: a campaign that is still
+undecided at its end may be extended.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class StoppingRule:
         self._next = self.look
 
     def looks(self, most: int) -> list[int]:
-        """The numbers of flights after which to look, up to ``most``."""
+        """Return the numbers of flights after which to look, up to ``most``."""
         self._extend(most)
         return [flights for flights in self._places if flights <= most]
 
@@ -60,16 +60,17 @@ class StoppingRule:
         return flights - self._look(self._not_met, flights).most
 
     def decide(self, flights: int, failures: int) -> Verdict:
-        """The verdict at a look that none came before; ValueError where there is no look."""
+        """Return the verdict at a look that none came before; ValueError where there is no look."""
         if failures <= self.acceptance_number(flights):
             return Verdict.MET
         return Verdict.NOT_MET if failures >= self.rejection_number(flights) else Verdict.UNDECIDED
 
     def decision(self, kept: np.ndarray) -> Decision:
-        """The first verdict on flights in order of trial, True where the requirement was kept; the rest is not seen.
+        """Return the first verdict on flights in order of trial, True where the requirement was kept; the rest is
+        ignored.
 
-        Undecided, it is of the last look, or of no flights where there was none. The consumer's risk is the
-        probability of having met the requirement at an earlier look, or with no more failures at this.
+        Undecided, it is of the last look, or of no flights where there was none. The consumer's risk is the probability
+        of having met the requirement at an earlier look, or with no more failures at this.
         """
         failed = np.flatnonzero(~np.asarray(kept, dtype=bool))
         last = failures = 0
@@ -81,12 +82,13 @@ class StoppingRule:
         return self._decision(Verdict.UNDECIDED, last, failures)
 
     def count_permitted(self, flights: int) -> tuple[int, int]:
-        """The last look in so many flights, and with how many failures it meets the requirement, -1 for none."""
+        """Return the last look in ``flights`` flights, and the failures with which it meets the
+        requirement, -1 for none."""
         last = max(self.looks(flights), default=0)
         return last, self.acceptance_number(last) if last else -1
 
     def flights_to_meet(self, flights: int, failures: int) -> dict[int, int]:
-        """How many more flights meet the requirement, by failures still to come."""
+        """Return the numbers of further flights that meet the requirement, by number of further failures."""
         by_failures = {}
         for more in FURTHER:
             analyses = (look for look in self._all_looks() if look >= flights)
@@ -128,5 +130,5 @@ def _round_look(flights: int) -> int:
 
 @lru_cache(maxsize=64)
 def stopping_rule(share: float, confidence: float) -> StoppingRule:
-    """The rule with looks as they are by default, its boundaries computed once."""
+    """Return the rule with looks as they are by default, its boundaries computed once."""
     return StoppingRule(share, confidence)

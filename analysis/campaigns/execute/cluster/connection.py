@@ -1,4 +1,4 @@
-"""The connection to a cluster: made and looked at before anything is written, left in the end."""
+"""Connection to a cluster: opened and checked before anything is written, left in the end."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ LARGEST = "1 TB"  # of what is sent, before dask says that it is large: it is se
 
 @contextmanager
 def cluster(address: str | None, *, workers: int | None = None, engine: str | None = None) -> Iterator[Cluster | None]:
-    """What flies on the workers of a dask scheduler at ``address`` (tcp://host:8786); None where none is asked for.
+    """Yield the executor on the workers of a dask scheduler at ``address`` (tcp://host:8786); None without an address.
+    ;; and refused beside it => and refused with it
 
     ``workers`` and ``engine`` are of this machine, and refused beside it. Raises InputError: where distributed is not
     installed, nobody answers, no worker is there, or one of them has another perilune.

@@ -1,4 +1,4 @@
-"""What a worker elsewhere is sent of a campaign, and whether it has the same perilune, without which bits differ."""
+"""Campaign as sent to a worker elsewhere, and its check for the same perilune, without which bits differ."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Identity = tuple[str, str]
 
 @cache
 def identity() -> Identity:
-    """The version of this perilune, and the SHA-256 of its sources."""
+    """Return the version of this perilune, and the SHA-256 of its sources."""
     total = hashlib.sha256()
     for room in ROOMS:
         place = (PACKAGE / room).resolve()  # a link in a checkout
@@ -66,7 +66,7 @@ class Sent:
 
 
 def make_sent(campaign: PreparedCampaign) -> Sent:
-    """A campaign as workers are sent it: from its folder, or what it has read where it has none. Raises InputError."""
+    """Return a campaign as workers receive it: from its folder, or from memory where it has none. Raises InputError."""
     manifest, folder = campaign.manifest, campaign.folder
     if folder is not None:
         contents = {name: content_path(folder / CONTENTS, name).read_bytes() for name in manifest.names()}
@@ -82,7 +82,7 @@ def make_sent(campaign: PreparedCampaign) -> Sent:
 
 
 def _draws(campaign: PreparedCampaign) -> bytes:
-    """The table of draws of a campaign without a folder, as a file."""
+    """Return the table of draws of a campaign without a folder, as a file."""
     with TemporaryDirectory() as place:
         write_draws(campaign.plan, Path(place), campaign.numbering.size)
         return (Path(place) / DRAWS).read_bytes()

@@ -24,10 +24,10 @@ WITHOUT_WORKERS = 60.0  # s that a campaign waits for workers to come back
 
 
 class Cluster:
-    """The workers of a scheduler that a client of distributed is connected to; called, it flies shards.
+    """The workers of a scheduler that a client of distributed is connected to; called, it simulates shards.
 
-    A task whose worker dies goes to another one, as often as the scheduler lets it, and is then given to it anew, in
-    two parts: a campaign ends only where all that is left are single trials that end one worker after the other.
+    A task whose worker dies goes to another one, as often as the scheduler permits, and is then submitted to it again,
+    in two halves: a campaign ends only where all remaining trials are single ones that end one worker after the other.
     """
 
     def __init__(self, client: Any, address: str) -> None:
@@ -63,11 +63,11 @@ class Cluster:
                 self._end(list(tasks.under_way), tasks.key)
 
     def _threads(self) -> int:
-        """How many flights the workers that are there can fly at once."""
+        """Return the number of simulations that the present workers can run at once."""
         return sum(self._client.nthreads().values())
 
     def _finish(self, under_way: dict[Any, Any]) -> Iterator[Any]:
-        """Those of some futures that are done, one at least. Raises WorkersDiedError where no worker is left."""
+        """Yield those of some futures that are done, one at least. Raises WorkersDiedError where no worker is left."""
         from distributed import wait
 
         seen = time.monotonic()

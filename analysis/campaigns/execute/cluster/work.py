@@ -1,6 +1,6 @@
-"""What a worker of a cluster does: keeps files by hash in a folder of its own, and flies parts of campaigns.
+"""Work of a cluster's worker: it keeps files by hash in its folder, and simulates portions of campaigns.
 
-Whatever flies here is restored from these files by the code that restores a campaign's folder.
+The campaign is restored from these files by the code that restores a campaign's folder.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def halt(key: str) -> None:
 
 @contextmanager
 def _flyer(sent: Sent, folder: Path) -> Iterator[Flyer]:
-    """A flyer that no other thread has."""
+    """Yield a flyer that no other thread has."""
     with _looking:
         loaded = _campaign(sent, folder)
         flyer = loaded.idle.pop() if loaded.idle else Flyer(loaded.plan, in_child=sent.in_child)
@@ -91,7 +91,7 @@ def _flyer(sent: Sent, folder: Path) -> Iterator[Flyer]:
 
 
 def _campaign(sent: Sent, folder: Path) -> _LoadedCampaign:
-    """A campaign as it was sent; others that no thread flies are freed where too many are kept, or can be."""
+    """Return a campaign as it was sent; others that no thread uses are freed where too many are kept, or can be."""
     if sent.key in _loaded:
         _loaded[sent.key] = _loaded.pop(sent.key)
         return _loaded[sent.key]
