@@ -124,11 +124,15 @@ Cell = Inline | Interval | Track | Bar | Digest | Judged | Faint | Lines | float
 
 
 class Head(NamedTuple):
-    """The heading of a column, or of the columns ``below`` it, with a ``note`` in a separate line."""
+    """The heading of a column, or of the columns ``below`` it, with a ``note`` in a separate line.
+
+    ``is_right``: aligned to the right, which a column of numbers always is.
+    """
 
     text: str
-    note: str = ""
+    note: Rich = ""
     below: Sequence[str] = ()
+    is_right: bool = False
 
 
 class Row(NamedTuple):
@@ -140,7 +144,7 @@ class Row(NamedTuple):
 
 
 class RowHeading(NamedTuple):
-    """The heading of the rows below it, over all columns."""
+    """The heading of the rows below it, over all columns; what stands out of ``title`` is `Strong`."""
 
     title: Rich
     note: Rich = ""

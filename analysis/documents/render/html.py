@@ -11,7 +11,7 @@ from ...reports.chart.panel import chart_panel, stack_panel, wide_figure
 from ...reports.common.page import write_page
 from ...reports.common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, swatch
 from ...reports.interactive.bundles import MISSING
-from ..cell import Cell, Head, Row, RowHeading, RowNote
+from ..cell import Cell, Head, Rich, Row, RowHeading, RowNote
 from ..model import Document, Figure, Medium, Table, select
 from .cell_markup import cell_class, cell_markup, is_number, legend_swatch, rich_markup
 from .diagram import diagram_svg
@@ -42,7 +42,7 @@ class HeadCell(NamedTuple):
     """A cell of a table's head, over ``columns`` columns and ``rows`` rows."""
 
     text: str
-    note: str
+    note: Rich
     is_number: bool
     columns: int = 1
     rows: int = 1
@@ -72,7 +72,11 @@ def lay_out(table: Table) -> TableLayout:
     plain = [row for row in table.rows if not isinstance(row, RowHeading | RowNote)]
     columns = sum(max(1, len(head.below)) for head in heads)
     contents = [row.content if isinstance(row, Row) else row for row in plain]
-    numeric = [all(is_number(row[column]) for row in contents) and bool(contents) for column in range(columns)]
+    right = [head.is_right for head in heads for _ in head.below or [""]]
+    numeric = [
+        is_right or (bool(contents) and all(is_number(row[column]) for row in contents))
+        for column, is_right in enumerate(right)
+    ]
     starts = [sum(max(1, len(each.below)) for each in heads[:index]) for index in range(len(heads))]
     has_two = any(head.below for head in heads)
     upper = [

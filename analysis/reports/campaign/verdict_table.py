@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from markupsafe import Markup
 
@@ -18,7 +18,8 @@ from ...campaigns.verdicts.acceptance import Verdict
 from ..figures.words import range_text
 
 MEDIAN = "p50"
-CLASSES = {Verdict.MET: "pass", Verdict.NOT_MET: "fail", Verdict.UNDECIDED: "not-applicable"}
+Grade = Literal["pass", "fail", "not-applicable"]
+GRADES: dict[Verdict, Grade] = {Verdict.MET: "pass", Verdict.NOT_MET: "fail", Verdict.UNDECIDED: "not-applicable"}
 Worst = Callable[[str, Metric, MetricLimits], tuple[int, float]]
 
 
@@ -47,14 +48,14 @@ class Cell(NamedTuple):
 
 
 class VerdictRow(NamedTuple):
-    """A variant: its summary, ``is_best`` of its success, numbers by metric, its verdict in words and as a class."""
+    """A variant: its summary, ``is_best`` of its success, numbers by metric, its verdict in words and its grade."""
 
     variant: str
     entry: VariantSummary
     is_best: bool
     numbers: list[Cell]
     verdict: str
-    kind: str
+    grade: Grade
 
 
 @dataclass(frozen=True)
@@ -109,12 +110,12 @@ def _best(numbers: Mapping[str, float | None], better: int) -> set[str]:
     return {name for name, number in known.items() if number == max(known.values())}
 
 
-def _verdict(requirements: Mapping[str, RequirementVerdict]) -> tuple[str, str]:
-    """The verdict on all requirements in words, and its class."""
+def _verdict(requirements: Mapping[str, RequirementVerdict]) -> tuple[str, Grade]:
+    """Return the verdict on all requirements in words, and its grade."""
     by_verdict: dict[Verdict, list[str]] = {}
     for name, each in requirements.items():
         by_verdict.setdefault(each.verdict, []).append(name)
     if not by_verdict or list(by_verdict) == [Verdict.MET]:
-        return ("met" if by_verdict else ""), CLASSES[Verdict.MET]
+        return ("met" if by_verdict else ""), GRADES[Verdict.MET]
     bad = [verdict for verdict in (Verdict.NOT_MET, Verdict.UNDECIDED) if verdict in by_verdict]
-    return "; ".join(f"{verdict}: {', '.join(by_verdict[verdict])}" for verdict in bad), CLASSES[bad[0]]
+    return "; ".join(f"{verdict}: {', '.join(by_verdict[verdict])}" for verdict in bad), GRADES[bad[0]]

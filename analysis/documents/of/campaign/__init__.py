@@ -1,0 +1,1 @@
+"""Results of campaigns as documents: batches, and the tables that comparisons share with them."""

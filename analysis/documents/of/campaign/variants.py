@@ -1,0 +1,63 @@
+"""Rows of variants: their names with the styles of their lines, trials and success rates by group."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ....campaigns.summary import Interval, Summary, SummaryRow, summary_rows
+from ....reports.common.colours import Look
+from ... import cell
+from ...cell import Cell, Head, LegendEntry, Percentage, Quantity
+from ...model import Table
+
+
+def variant_rows(summary: Summary) -> list[SummaryRow]:
+    """Return a row per variant, over all its trials."""
+    return [row for row in summary_rows(summary) if row.group is None]
+
+
+def group_rows(summary: Summary) -> list[SummaryRow]:
+    """Return a row per variant and group of its trials, groups of a variant together."""
+    return [row for row in summary_rows(summary) if row.group is not None]
+
+
+def variant_heads(by: str | None) -> list[str | Head]:
+    """Return the headings of `variant_cells`; trials are grouped ``by`` it, if they are."""
+    return ["variant"] if by is None else ["variant", Head(by, is_right=True)]
+
+
+def variant_cells(row: SummaryRow, by: str | None, styles: Mapping[str, Look]) -> list[Cell]:
+    """Return a row's variant and, where trials are grouped, its group."""
+    name = variant_cell(row.variant, styles)
+    return [name] if by is None else [name, row.group]
+
+
+def variant_cell(variant: str, styles: Mapping[str, Look]) -> Cell:
+    """Return a variant's name, with the look of its lines if it has one."""
+    return LegendEntry(styles[variant], [variant]) if variant in styles else variant
+
+
+def interval_cell(ends: Interval) -> cell.Interval:
+    """Return an interval of a rate, in per cent."""
+    low, high = ends
+    return cell.Interval(Percentage(low), Percentage(high))
+
+
+def interval_head(confidence: float) -> str:
+    """Return the heading of intervals of rates."""
+    return f"{100 * confidence:g} % interval"
+
+
+def success_table(rows: Sequence[SummaryRow], by: str | None = None) -> Table:
+    """Return trials and success probability of each row, which are those of groups ``by`` a draw, if there are."""
+    heads = (*variant_heads(by), "trials", "success, %", interval_head(rows[0].entry.confidence))
+    body = [
+        (
+            *variant_cells(row, by, {}),
+            Quantity(row.entry.trials),
+            Percentage(row.entry.success_rate),
+            interval_cell(row.entry.success_interval),
+        )
+        for row in rows
+    ]
+    return Table(heads, body, style="", is_grouped=by is not None)
