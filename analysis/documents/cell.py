@@ -23,6 +23,13 @@ class Quantity(NamedTuple):
     decimals: int | None = None
 
 
+class Displayed(NamedTuple):
+    """A number with the text of it that is no multiple of the exact SI value: a factor in dB, a complex number."""
+
+    text: str
+    exact: float | complex
+
+
 class Percentage(NamedTuple):
     """A fraction, displayed in per cent without the sign, which its column states."""
 
@@ -82,7 +89,7 @@ class Judged(NamedTuple):
     """A verdict as a word, coloured by its grade."""
 
     verdict: str
-    grade: Literal["pass", "fail", "not-applicable"]
+    grade: Literal["pass", "fail", "withheld", "not-applicable"]
 
 
 class Strong(NamedTuple):
@@ -110,7 +117,7 @@ class LegendEntry(NamedTuple):
     lines: Sequence[str]
 
 
-Inline = str | Quantity | Percentage | Code | CommandLine | Link | Strong | LegendEntry
+Inline = str | Quantity | Displayed | Percentage | Code | CommandLine | Link | Judged | Strong | Faint | LegendEntry
 Rich = str | Sequence[Inline]  # a sentence; its numbers keep their exact values in a page
 
 
@@ -120,19 +127,20 @@ class Phrase(NamedTuple):
     content: Sequence[Inline]
 
 
-Cell = Inline | Interval | Track | Bar | Digest | Judged | Faint | Lines | float | bool | Phrase | None
+Cell = Inline | Interval | Track | Bar | Digest | Lines | float | bool | Phrase | None
 
 
 class Head(NamedTuple):
     """The heading of a column, or of the columns ``below`` it, with a ``note`` in a separate line.
 
-    ``is_right``: aligned to the right, which a column of numbers always is.
+    A column of ``numbers`` is aligned to the right though some cells are words, as without this one of numbers alone;
+    ``names`` remain in one line, a column of ``sentences`` is not narrowed.
     """
 
     text: str
     note: Rich = ""
     below: Sequence[str] = ()
-    is_right: bool = False
+    column: Literal["", "numbers", "names", "sentences"] = ""
 
 
 class Row(NamedTuple):

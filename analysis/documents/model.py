@@ -60,10 +60,11 @@ class Printed:
 
 @dataclass(frozen=True)
 class Note:
-    """An aid to read a figure or a table, which only a page needs."""
+    """An aid to read a figure or a table, which only a page needs; ``style``: on ``paper`` or on a ``screen`` only."""
 
     kind: ClassVar[str] = "note"
     content: Rich
+    style: Literal["", "paper", "screen"] = ""
 
 
 @dataclass(frozen=True)
@@ -132,6 +133,7 @@ class Table:
     listed: int = 20
     style: Literal["board", "", "tight", "tight verdicts", "replays", "signals"] = "board"
     is_grouped: bool = False
+    is_printed: bool = True
 
 
 @dataclass(frozen=True)
@@ -212,19 +214,25 @@ class ForScript:
 
 @dataclass(frozen=True)
 class Group:
-    """Nodes below a small ``heading`` inside a section; at ``level`` 4 inside a group."""
+    """Nodes below a small ``heading`` inside a section; at ``level`` 4 inside a group.
+
+    With an ``anchor``, to which links lead, it is set off as an article. ``is_printed``: on paper, too.
+    """
 
     kind: ClassVar[str] = "group"
-    heading: str
+    heading: Rich
     nodes: Sequence[Node]
     level: Literal[3, 4] = 3
+    anchor: str = ""
+    is_printed: bool = True
 
 
 @dataclass(frozen=True)
 class Fold:
     """Nodes that few readers need, behind their ``summary``.
 
-    ``is_open``: a page has it open at first. ``is_listed``: a terminal lists the nodes, too.
+    ``is_open``: a page has it open at first; ``is_printed``: it is open on paper. ``is_listed``: a terminal lists the
+    nodes, too.
     """
 
     kind: ClassVar[str] = "fold"
@@ -232,6 +240,23 @@ class Fold:
     nodes: Sequence[Node]
     is_open: bool = False
     is_listed: bool = False
+    is_printed: bool = False
+
+
+@dataclass(frozen=True)
+class Tile:
+    """Nodes of one place in a row; one that ``is_wide`` fills the row."""
+
+    nodes: Sequence[Node]
+    is_wide: bool = False
+
+
+@dataclass(frozen=True)
+class Tiles:
+    """Nodes next to each other where a page has room for them, each tile as wide as its content."""
+
+    kind: ClassVar[str] = "tiles"
+    tiles: Sequence[Tile]
 
 
 @dataclass(frozen=True)
@@ -278,6 +303,7 @@ Node = (
     | ForScript
     | Group
     | Fold
+    | Tiles
     | Only
     | SystemFigures
     | History

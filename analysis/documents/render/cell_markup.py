@@ -17,7 +17,9 @@ from ..cell import (
     Code,
     CommandLine,
     Digest,
+    Displayed,
     Faint,
+    Inline,
     Interval,
     Judged,
     LegendEntry,
@@ -61,6 +63,8 @@ def cell_markup(cell: Cell) -> Markup:
             return legend_swatch(cell) + Markup(", ").join(map(breakable, lines))
         case Interval(low, high):
             return Markup("{} to {}").format(cell_markup(low), cell_markup(high))
+        case Displayed(text, exactly):
+            return with_exact(repr(exactly).strip("()"), text)
         case Percentage(fraction):
             return with_exact(repr(fraction), percent(fraction))
         case Track():
@@ -74,11 +78,19 @@ def cell_markup(cell: Cell) -> Markup:
 
 
 def rich_markup(content: Rich, *, is_sentence: bool = False) -> Markup:
-    """Return a sentence as markup; ``is_sentence``: with a capital letter and a full stop."""
+    """Return a sentence as markup; ``is_sentence``: with a capital letter and a full stop, unless a verdict ends it."""
     inline = [content] if isinstance(content, str) else list(content)
     if is_sentence and isinstance(inline[0], str):
         inline[0] = inline[0][:1].upper() + inline[0][1:]
-    return Markup("").join(map(cell_markup, inline)) + (escape(".") if is_sentence else Markup(""))
+    stop = "." if is_sentence and not isinstance(inline[-1], Judged) else ""
+    return Markup("").join(map(_inline_markup, inline)) + escape(stop)
+
+
+def _inline_markup(part: Inline) -> Markup:
+    """Return a part of a sentence; a verdict has its colour there, which in a table is that of its cell."""
+    if isinstance(part, Judged):
+        return Markup('<span class="verdict {}">{}</span>').format(part.grade, part.verdict)
+    return cell_markup(part)
 
 
 def is_number(cell: Cell) -> bool:
@@ -91,20 +103,20 @@ def is_number(cell: Cell) -> bool:
     return not isinstance(cell, str | Code | CommandLine | Digest | Judged | Lines | Phrase | LegendEntry | Track | Bar)
 
 
-def cell_class(cell: Cell, is_numeric: bool) -> str:
-    """Return the class of a cell in a column of numbers, ``is_numeric``, or of others."""
+def cell_class(cell: Cell, column: str) -> str:
+    """Return the class of a cell in a ``column`` of this class."""
     match cell:
         case Code(_, is_long=True):
             return "long"
         case Phrase() | LegendEntry():
-            return "who"
+            return column or "who"
         case Digest():
             return "hash"
         case Judged(_, grade):
             return f"verdict {grade}"
         case Track():
             return "interval"
-    return "n" if is_numeric else ""
+    return column
 
 
 def legend_swatch(entry: LegendEntry) -> Markup:

@@ -17,6 +17,7 @@ from .cell_markup import cell_class, cell_markup, is_number, legend_swatch, rich
 from .diagram import diagram_svg
 
 TEMPLATE = Path(__file__).with_name("document.html")
+COLUMNS = {"": "", "numbers": "n", "names": "who", "sentences": "long"}  # classes of the settings of a column
 
 
 def write_document(document: Document, path: Path) -> None:
@@ -39,11 +40,11 @@ def write_document(document: Document, path: Path) -> None:
 
 
 class HeadCell(NamedTuple):
-    """A cell of a table's head, over ``columns`` columns and ``rows`` rows."""
+    """A cell of a table's head, over ``columns`` columns and ``rows`` rows; ``kind`` is its class."""
 
     text: str
     note: Rich
-    is_number: bool
+    kind: str
     columns: int = 1
     rows: int = 1
 
@@ -70,28 +71,39 @@ def lay_out(table: Table) -> TableLayout:
     """Return a table with the classes and extents of its cells."""
     heads = [head if isinstance(head, Head) else Head(head) for head in table.heads]
     plain = [row for row in table.rows if not isinstance(row, RowHeading | RowNote)]
-    columns = sum(max(1, len(head.below)) for head in heads)
     contents = [row.content if isinstance(row, Row) else row for row in plain]
-    right = [head.is_right for head in heads for _ in head.below or [""]]
-    numeric = [
-        is_right or (bool(contents) and all(is_number(row[column]) for row in contents))
-        for column, is_right in enumerate(right)
-    ]
+    declared = [COLUMNS[head.column] for head in heads for _ in range(max(1, len(head.below)))]
+    kinds = [kind or _kind_of([row[column] for row in contents]) for column, kind in enumerate(declared)]
     starts = [sum(max(1, len(each.below)) for each in heads[:index]) for index in range(len(heads))]
     has_two = any(head.below for head in heads)
     upper = [
-        HeadCell(head.text, head.note, numeric[start], max(1, len(head.below)), 2 if has_two and not head.below else 1)
+        HeadCell(
+            head.text,
+            head.note,
+            _head_kind(kinds[start]),
+            max(1, len(head.below)),
+            2 if has_two and not head.below else 1,
+        )
         for head, start in zip(heads, starts, strict=True)
     ]
     lower = [
-        HeadCell(text, "", numeric[start + index])
+        HeadCell(text, "", _head_kind(kinds[start + index]))
         for head, start in zip(heads, starts, strict=True)
         for index, text in enumerate(head.below)
     ]
-    return TableLayout([upper, lower] if has_two else [upper], _body(table, numeric), columns)
+    return TableLayout([upper, lower] if has_two else [upper], _body(table, kinds), len(kinds))
 
 
-def _body(table: Table, numeric: Sequence[bool]) -> list[BodyRow]:
+def _kind_of(column: Sequence[Cell]) -> str:
+    """Return the class of a column whose heading does not say which."""
+    return "n" if column and all(map(is_number, column)) else ""
+
+
+def _head_kind(kind: str) -> str:
+    return kind if kind == "n" else ""
+
+
+def _body(table: Table, kinds: Sequence[str]) -> list[BodyRow]:
     body: list[BodyRow] = []
     above: Cell = None
     for row in table.rows:
@@ -107,7 +119,7 @@ def _body(table: Table, numeric: Sequence[bool]) -> list[BodyRow]:
         first = content[0]
         is_new = not table.is_grouped or first != above
         above = first
-        classes = [cell_class(cell, is_numeric) for cell, is_numeric in zip(content, numeric, strict=True)]
+        classes = [cell_class(cell, kind) for cell, kind in zip(content, kinds, strict=True)]
         displayed = [first if is_new else "", *content[1:]]
         starts_group = is_first or (table.is_grouped and is_new)
         body.append(BodyRow(list(zip(classes, displayed, strict=True)), anchor, starts_group))

@@ -56,13 +56,16 @@ def plot_figures(figures: Sequence[Figure]) -> Plot:
     """Return figures next to each other as one of matplotlib's, with their legends."""
     from ...reports.chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
 
+    panes = [(each, chart) for each in figures for chart in (each.chart, each.below) if chart is not None]
+    is_stacked = len(panes) > len(figures)
+    labels = ["" if chart is each.below else each.label for each, chart in panes]
     return plot_charts(
-        [each.chart for each in figures],
-        max(each.height for each in figures),
+        [chart for _, chart in panes],
+        max(each.height for each in figures) / (2.0 if is_stacked else 1.0),
         HALF_WIDTH,
-        columns=min(2, len(figures)),
-        titles=[": ".join(filter(None, (each.label, each.chart.title))) for each in figures],
-        legends=[[curve.name for curve in each.chart.curves] if each.legend else [] for each in figures],
+        columns=1 if is_stacked else min(2, len(figures)),
+        titles=[": ".join(filter(None, (label, chart.title))) for label, (_, chart) in zip(labels, panes, strict=True)],
+        legends=[[curve.name for curve in chart.curves] if each.legend else [] for each, chart in panes],
     )
 
 

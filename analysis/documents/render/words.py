@@ -12,6 +12,7 @@ from ..cell import (
     Code,
     CommandLine,
     Digest,
+    Displayed,
     Faint,
     Head,
     Interval,
@@ -35,7 +36,7 @@ from ..model import Document, KeyNumbers, Table, Verdict
 def cell_text(cell: Cell) -> str:
     """Return a cell as text; a quantity in its displayed unit. A drawing has none."""
     match cell:
-        case Code(text) | CommandLine(text) | Digest(text) | Link(text) | Judged(text):
+        case Code(text) | CommandLine(text) | Digest(text) | Displayed(text) | Link(text) | Judged(text):
             return text
         case Phrase(content):
             return rich_text(content)

@@ -23,7 +23,7 @@ def group_rows(summary: Summary) -> list[SummaryRow]:
 
 def variant_heads(by: str | None) -> list[str | Head]:
     """Return the headings of `variant_cells`; trials are grouped ``by`` it, if they are."""
-    return ["variant"] if by is None else ["variant", Head(by, is_right=True)]
+    return ["variant"] if by is None else ["variant", Head(by, column="numbers")]
 
 
 def variant_cells(row: SummaryRow, by: str | None, styles: Mapping[str, Look]) -> list[Cell]:
