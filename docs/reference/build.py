@@ -19,6 +19,7 @@ from .diagrams import add_diagrams
 from .formulas import typeset
 from .links import broken_links
 from .pages import TOP, derived_pages, reference_navigation
+from .snippets import insert_files
 
 DOCS = TOP / "docs"
 SETTINGS = DOCS / "site" / "site.toml"
@@ -43,14 +44,15 @@ def build_site(output: Path, sources: Path) -> None:
     """
     for folder in (sources, output):
         shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(DOCS, sources / "docs", ignore=shutil.ignore_patterns("*.py", "*.jinja", "__pycache__", "figures"))
+    left_out = shutil.ignore_patterns("*.py", "*.jinja", "__pycache__", "figures", "files")
+    shutil.copytree(DOCS, sources / "docs", ignore=left_out)
     for name, text in derived_pages().items():
         path = sources / "docs" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
     add_diagrams(sources / "docs")
     for path in (sources / "docs").rglob("*.md"):
-        path.write_text(typeset(path.read_text(encoding="utf-8")), encoding="utf-8")
+        path.write_text(typeset(insert_files(path.read_text(encoding="utf-8"))), encoding="utf-8")
     settings = site_settings()
     written = {path.relative_to(sources / "docs").as_posix() for path in (sources / "docs").rglob("*.md")}
     for name in sorted(written - set(pages_of(settings["nav"]))):

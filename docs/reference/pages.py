@@ -10,6 +10,7 @@ from perilune.fmus_src.catalogue import KINDS, catalogue
 from perilune.fmus_src.export.judge.subset_table import LANGUAGE_PAGE
 
 from .blocks import block_page
+from .catalogues import format_navigation, format_pages
 from .interface import interface_pages
 from .kernel import kernel_page
 from .lists import catalogue_page, kind_of, slots_page
@@ -28,6 +29,7 @@ def derived_pages() -> dict[str, str]:
     pages["reference/kernel.md"] = kernel_page()
     pages["reference/blocks/index.md"] = catalogue_page()
     pages |= {f"reference/blocks/{name}.md": block_page(block) for name, block in catalogue().items()}
+    pages |= {f"reference/formats/{name}": text for name, text in format_pages().items()}
     pages |= {f"reference/python/{name}": text for name, text in interface_pages().items()}
     return pages
 
@@ -43,6 +45,7 @@ def reference_navigation() -> list[dict[str, Any]]:
         {"Blocks": blocks},
         {"Slots": "reference/slots.md"},
         {LANGUAGE_PAGE: "reference/kernel.md"},
+        {"Tables": format_navigation()},
         {
             "Python": [
                 {"Flying and studying": "reference/python/flying.md"},

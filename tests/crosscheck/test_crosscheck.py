@@ -15,10 +15,11 @@ from scipy.spatial.transform import Rotation
 from crosscheck.__main__ import CASES, HEADS, QUANTITIES, row_of
 from crosscheck.case import ATTITUDE, MASS, POSITION, RATE, WHEEL_SPEED, Case
 from crosscheck.table import angles_between, at_common_times, differences, read_table, write_table
+from docs.reference.catalogues import format_pages
 from perilune.common.paths import ROOT
 
 FOLDER = ROOT / "crosscheck"
-PAGE = (ROOT / "docs" / "concepts" / "crosscheck.md").read_text(encoding="utf-8")
+PAGE = format_pages()["crosscheck.md"]
 
 
 def case_of(name):
@@ -105,7 +106,7 @@ def test_each_case_states_itself_and_has_both_sides(name):
 def test_the_page_has_every_case():
     for name in CASES:
         assert f"| {case_of(name).title} | {case_of(name).verifies} |" in PAGE
-    table = PAGE.partition("## Differences")[2].partition("\n- ")[0]
+    table = PAGE.partition("## Differences")[2].partition("\n## ")[0]
     rows = [
         [cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines() if line.startswith("|")
     ]

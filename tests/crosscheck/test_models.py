@@ -15,10 +15,11 @@ from crosscheck.__main__ import MODELS
 from crosscheck.comparison import HEADS, Comparison, comparison_row, relative_differences
 from crosscheck.space.points import attitudes, directions, points
 from crosscheck.table import rows_table
+from docs.reference.catalogues import format_pages
 from perilune.common.paths import ROOT
 
 FOLDER = ROOT / "crosscheck" / "models"
-PAGE = (ROOT / "docs" / "concepts" / "crosscheck.md").read_text(encoding="utf-8")
+PAGE = format_pages()["crosscheck.md"]
 
 
 def case_of(name):
@@ -42,7 +43,7 @@ def test_each_comparison_states_itself_and_has_both_sides(name):
 
 
 def test_the_page_has_every_comparison():
-    table = PAGE.partition("## Models at the same inputs")[2].partition("\n\n- ")[0]
+    table = PAGE.partition("## Models at the same inputs")[2].partition("\n## ")[0]
     lines = [line for line in table.splitlines() if line.startswith("|")]
     entries = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
     assert tuple(entries[0]) == HEADS

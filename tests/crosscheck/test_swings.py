@@ -14,10 +14,11 @@ from crosscheck.__main__ import SWINGS
 from crosscheck.space.hub import hub_of, steiner
 from crosscheck.space.surroundings import surroundings
 from crosscheck.swing import HEADS, TENTH, Swing, swing_differences, swing_row
+from docs.reference.catalogues import format_pages
 from perilune.common.paths import ROOT
 
 FOLDER = ROOT / "crosscheck" / "swings"
-PAGE = (ROOT / "docs" / "concepts" / "crosscheck.md").read_text(encoding="utf-8")
+PAGE = format_pages()["crosscheck.md"]
 
 
 def case_of(name):
@@ -37,7 +38,7 @@ def test_each_swing_has_both_sides(name):
 
 
 def test_the_page_has_every_swing():
-    table = PAGE.partition("## Modes")[2].partition("\n\n- ")[0]
+    table = PAGE.partition("## Modes")[2].partition("\n## ")[0]
     lines = [line for line in table.splitlines() if line.startswith("|")]
     entries = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
     assert tuple(entries[0]) == HEADS

@@ -9,10 +9,10 @@ import pytest
 import perilune
 from perilune.analysis.cli import main
 from perilune.common.paths import ROOT
-from tests.support.documented import saved_files
+from tests.support.documented import page_text, saved_files
 
 pytest.importorskip("Basilisk", reason="`make basilisk` installs it")
-GUIDE = ROOT / "docs" / "guides" / "basilisk.md"
+GUIDE = page_text("docs/guides/basilisk.md")
 EXAMPLE = ROOT / "examples" / "basilisk_moon_lander.py"
 MU = 3.986004418e14
 
@@ -21,7 +21,7 @@ MU = 3.986004418e14
 def exported(tmp_path_factory):
     """A folder with both FMUs."""
     folder = tmp_path_factory.mktemp("basilisk")
-    ((name, text),) = saved_files(GUIDE.read_text(encoding="utf-8"))
+    ((name, text),) = saved_files(GUIDE)
     (folder / name).write_text(text)
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
@@ -31,7 +31,7 @@ def exported(tmp_path_factory):
 
 
 def test_the_guide_has_forty_lines():
-    ((_, text),) = saved_files(GUIDE.read_text(encoding="utf-8"))
+    ((_, text),) = saved_files(GUIDE)
     assert len([line for line in text.splitlines() if line.strip()]) <= 40
 
 

@@ -7,6 +7,7 @@ import shlex
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from docs.reference.snippets import insert_files
 from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.common.paths import ROOT
 
@@ -81,6 +82,6 @@ def saved_files(text: str) -> Iterator[tuple[str, str]]:
 
 
 def page_text(place: str) -> str:
-    """Return the text of a page; nothing for the examples of a verb."""
+    """Return the text of a page with the files that it shows; nothing for the examples of a verb."""
     path = Path(ROOT / place)
-    return path.read_text(encoding="utf-8") if path.is_file() else ""
+    return insert_files(path.read_text(encoding="utf-8")) if path.is_file() else ""

@@ -1,4 +1,4 @@
-"""docs/campaigns.md: its example is a campaign, and it names all there is."""
+"""docs/campaigns.md: its examples are campaigns; the reference of keys names all there is."""
 
 import re
 from pathlib import Path
@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 import perilune
+from docs.reference.catalogues import format_pages
 from perilune.analysis.campaigns.definition.campaign import TRACES
 from perilune.analysis.campaigns.definition.distributions import DISTRIBUTIONS
 from perilune.analysis.campaigns.definition.expressions import FUNCTIONS
@@ -33,7 +34,8 @@ def test_the_example_is_a_campaign(parse):
 
 
 def test_every_word_is_documented():
-    words = set(re.findall(r"[a-z_0-9]+", " ".join(re.findall(r"`([^`\n]+)`", TEXT))))
+    page = format_pages()["campaign.md"]
+    words = set(re.findall(r"[a-z_0-9]+", " ".join(re.findall(r"`([^`\n]+)`", page))))
     keys = {key for kind in DISTRIBUTIONS.values() for key in kind.keys}
     assert {*DISTRIBUTIONS, *keys, *REDUCTIONS, *REDUCTION_OF, *TRACES, *FUNCTIONS, *KINDS, *KEYS, *SCATTER} <= words
     assert {*REQUIREMENT, *SIDES} <= words
@@ -49,7 +51,7 @@ def test_the_requirements_of_the_example(campaign):
 def test_the_faults_of_the_example_fly(fmus, tmp_path):
     """In each trial the jets of one axis fail when the draws say: the plant is given no pulses of those commanded."""
     path = tmp_path / "failures.toml"
-    (example,) = (text for text in EXAMPLES if "[fault." in text)
+    (example,) = (text for text in EXAMPLES if "[fault]" in text)
     record = '[record]\ntraces = "all"\n[success]\nexpression = "1"\n'
     path.write_text(f'system = "orbital_attitude"\ntrials = 3\nseed = 1\n{example}{record}')
     batch = perilune.batch("orbital_attitude", str(path), workers=1, flavour="native", stop_time=120.0)

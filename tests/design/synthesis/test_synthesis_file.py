@@ -1,6 +1,6 @@
 """The TOML file of a synthesis.
 
-Truth: the keys as documented; every mistake in one line that names the file and the place; docs/synthesis.md
+Truth: the keys as documented; every mistake in one line that names the file and the place; the reference of keys
 and the fields of the settings name the same keys with the same defaults.
 """
 
@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from docs.reference.catalogues import format_pages
 from perilune.analysis.campaigns.definition.file import read_campaign
 from perilune.analysis.design.laws.law import find_law, read_law
 from perilune.analysis.design.synthesis.search_settings import SearchSettings
@@ -51,14 +52,15 @@ def test_published_numbers_are_the_defaults():
 
 
 def test_every_key_is_documented_with_its_default_and_range():
+    page = format_pages()["search.md"]
     for name, default in asdict(SearchSettings()).items():
-        (row,) = re.findall(rf"^\| `{name}` .*\|$", DOCS, re.MULTILINE)
+        (row,) = re.findall(rf"^\| `{name}` .*\|$", page, re.MULTILINE)
         assert f"| {str(default).lower()} |" in row
         if name in LIMITS:
             low, high = LIMITS[name]
             assert f"{low:g} to {high:g}" in row
     for name in ("component", "fmu", "law", "step", "stop_time", "objectives"):
-        assert re.search(rf"^\|.*`{name}`.* \|", DOCS, re.MULTILINE)
+        assert re.search(rf"^\|.*`{name}`.* \|", page, re.MULTILINE)
 
 
 def test_the_example_in_the_docs_is_a_synthesis(tmp_path):

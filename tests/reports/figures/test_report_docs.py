@@ -1,8 +1,9 @@
-"""docs/reports.md names all that a system can ask of its page."""
+"""The reference of figures names all that a system can ask of its page."""
 
 import re
 from pathlib import Path
 
+from docs.reference.catalogues import format_pages
 from perilune.analysis.reports.common.colours import HUES
 from perilune.analysis.reports.figures.history_readers import BAND, CURVE
 from perilune.analysis.reports.figures.reading import BUDGET, FOLDED, GROUP, READERS
@@ -13,16 +14,15 @@ from perilune.analysis.reports.figures.scene.reader import KINDS, SCENE, SPHERE
 from perilune.analysis.reports.figures.signal_reader import ROWS
 from perilune.common.paths import ROOT, SYSTEMS
 
-WORDS = set(
-    re.findall(r"[A-Za-z_]+", " ".join(re.findall(r"`([^`\n]+)`", Path(ROOT, "docs", "reports.md").read_text())))
-)
+PAGE = format_pages()["report.md"]
+WORDS = set(re.findall(r"[A-Za-z_]+", " ".join(re.findall(r"`([^`\n]+)`", PAGE))))
 
 
 def test_every_element_and_attribute_is_documented():
     assert {*READERS, BUDGET, GROUP, FOLDED, *BAND, *CURVE, *ROWS} <= WORDS
     assert {*SCENE, *KINDS, *BODY, *JETS, *NOZZLE, *SHAPES, GROUND} <= WORDS
     assert {*SPHERE, *PANEL, *ARROW_REQUIRED, *ARROW_OPTIONAL, *HUES} <= WORDS
-    assert f"{ARROW:g} of the view's height" in Path(ROOT, "docs", "reports.md").read_text()
+    assert f"{ARROW:g} of the view's height" in PAGE
 
 
 def test_every_shape_has_a_script():

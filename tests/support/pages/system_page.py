@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from perilune.common.paths import ROOT
+from tests.support.documented import page_text
 
-PAGE = (ROOT / "docs" / "write_a_system.md").read_text(encoding="utf-8")
+PAGE = page_text("docs/write_a_system.md")
 EXAMPLES = re.findall(r"```(\w+)\n(.*?)```", PAGE, re.DOTALL)
 SSD, SSV, SHORT = "SystemStructure.ssd", "nominal.ssv", "holding/system.toml"
 PLANT_ALTITUDE = '<ssd:Connector name="altitude" kind="output"><ssc:Real unit="m"/></ssd:Connector>'

@@ -1,4 +1,4 @@
-"""The rules of units, a test for each row of their table in docs/concepts/conventions.md, by the row's name.
+"""The rules of units, a test for each row of their table in the reference, by the row's name.
 
 Truth: FMI 2.0 and 3.0 (units, attributes of variables) and SSP 1.0 (connections, mappings): 10 degC are 283.15 K, a
 difference of 10 degC is one of 10 K and of 18 degF; SI's factors; pencil and paper.
@@ -14,12 +14,12 @@ import pytest
 from lxml import etree
 
 import perilune
+from docs.reference.catalogues import format_pages
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import read_run
 from perilune.analysis.reports.figures.signal_reader import SignalReader
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError
-from perilune.common.paths import ROOT
 from tests.support.builders import (
     UNITS,
     component,
@@ -35,7 +35,6 @@ from tests.support.builders import (
 from tests.support.foreign.passing import build_passing, passing_fmu
 from tests.support.locks import made_once
 
-TABLE = (ROOT / "docs" / "concepts" / "conventions.md", "### Units of FMUs and systems")
 RELATIVE = "degC relativeQuantity=true"
 TYPED = "- declaredType=Difference"
 LINEAR = '<ssc:LinearTransformation factor="2" offset="7"/>'
@@ -82,8 +81,7 @@ def slug(row):
 
 
 def test_the_table_and_the_tests_have_the_same_rows():
-    page, heading = TABLE
-    lines = page.read_text().partition(heading)[2].partition("\n## ")[0].splitlines()
+    lines = format_pages()["standards.md"].partition("## Units\n")[2].partition("\n## ")[0].splitlines()
     rows = [line.split("|")[1].strip() for line in lines if line.startswith("|")][2:]
     tests = [name for name in globals() if name.startswith("test_")]
     assert tests[1:] == [slug(row) for row in rows]

@@ -1,0 +1,36 @@
+"""A multilayer perceptron in numpy."""
+
+from itertools import pairwise
+
+import numpy as np
+
+
+def layers(sizes, weights):
+    """Matrices and offsets of each layer, from one vector of weights."""
+    parts, start = [], 0
+    for inputs, outputs in pairwise(sizes):
+        end = start + inputs * outputs
+        parts.append((weights[start:end].reshape(inputs, outputs), weights[end : end + outputs]))
+        start = end + outputs
+    return parts
+
+
+def evaluate(parts, x):
+    """Outputs for inputs x, one row each: tanh in the hidden layers."""
+    for matrix, offset in parts[:-1]:
+        x = np.tanh(x @ matrix + offset)
+    return x @ parts[-1][0] + parts[-1][1]
+
+
+def frame(dr):
+    """Rows: towards the target on the ground, to the left of it, up."""
+    forward = dr * [1.0, 1.0, 0.0]
+    forward /= np.linalg.norm(forward)
+    up = np.array([0.0, 0.0, 1.0])
+    return np.array([forward, np.cross(up, forward), up])
+
+
+def features(dr, dv, gravity):
+    """Inputs of the network, without the site's direction and without units."""
+    length = np.linalg.norm(dr)
+    return np.concatenate([[dr[2] / length], frame(dr) @ dv / np.sqrt(gravity * length)])

@@ -1,0 +1,71 @@
+"""Pages of the keys of files and of annotations: the tables of docs/reference/formats, one file a page."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from perilune.analysis.design.synthesis.search_settings import SearchSettings
+from perilune.analysis.design.synthesis.synthesis_file import LIMITS
+from perilune.common.bounds import BOUNDS
+
+from .markdown import table
+
+FORMATS = Path(__file__).parent / "formats"
+
+
+def format_pages() -> dict[str, str]:
+    """Markdown by file name, to lie in reference/formats."""
+    pages = {f"{name}.md": _page(content) for name, content in _catalogues().items()}
+    return pages | {"bounds.md": bounds_page()}
+
+
+def format_navigation() -> list[dict[str, str]]:
+    """Titles and pages in the order of the names."""
+    titles = {name: content["title"] for name, content in _catalogues().items()} | {"bounds": "Bounds"}
+    return [{title: f"reference/formats/{name}.md"} for name, title in sorted(titles.items())]
+
+
+def bounds_page() -> str:
+    """The bounds of `common/bounds.py`."""
+    rows = [[f"`{bound.variable}`", f"{bound.default:g} {bound.unit}", bound.subject] for bound in BOUNDS]
+    text = (
+        "Files and options are checked before memory is taken for them. An environment variable changes a bound. "
+        "Other limits cannot be changed: XML is 256 elements deep at most (libxml2's limit), names in TOML have "
+        "100 parts, its integers 64 bits, and numbers are finite doubles. Files are regular files: pipes, devices and "
+        "folders in their place are not opened."
+    )
+    return "\n\n".join(["# Bounds", text, table(["variable", "at most", ""], rows)]) + "\n"
+
+
+def _catalogues() -> dict[str, Any]:
+    return {path.stem: tomllib.loads(path.read_text(encoding="utf-8")) for path in sorted(FORMATS.glob("*.toml"))}
+
+
+def _page(content: Mapping[str, Any]) -> str:
+    parts = [f"# {content['title']}", content["text"].strip()]
+    for section in content["section"]:
+        parts += [f"## {section['title']}", *_section(section)]
+    return "\n\n".join(parts) + "\n"
+
+
+def _section(section: Mapping[str, Any]) -> Iterator[str]:
+    if "text" in section:
+        yield section["text"].strip()
+    rows = [[*row, *_searched(row[0])] if section.get("search") else row for row in section.get("rows", ())]
+    if rows:
+        yield table(section["columns"], rows)
+    if "table" in section:
+        yield section["table"].strip()
+    if "notes" in section:
+        yield section["notes"].strip()
+
+
+def _searched(key: str) -> list[str]:
+    """Default and range of a key of a search, from its declaration."""
+    name = key.strip("`")
+    low, high = LIMITS.get(name, (None, None))
+    limits = "true or false" if low is None else f"{low:g} to {high:g}"
+    return [str(getattr(SearchSettings(), name)).lower(), limits]
