@@ -14,15 +14,9 @@ from typing import Any
 
 from perilune.analysis.cli import main
 from perilune.fmus_src.export.compilers import local_platform
-from perilune.fmus_src.roles import ROLES
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "write_your_own.md").read_text(encoding="utf-8")
-
-
-def test_the_names_with_a_role_are_those_of_the_code() -> None:
-    rows = [f"| `{role.name}` | {role.declared} | {role.effect} |" for role in ROLES]
-    assert "\n".join(["| variable | declared as | effect |", "| --- | --- | --- |", *rows, ""]) in PAGE
 
 
 def test_the_example_is_built_and_lands(tmp_path: Path, monkeypatch: Any, capsys: Any) -> None:

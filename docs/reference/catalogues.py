@@ -10,10 +10,12 @@ from typing import Any
 from perilune.analysis.design.synthesis.search_settings import SearchSettings
 from perilune.analysis.design.synthesis.synthesis_file import LIMITS
 from perilune.common.bounds import BOUNDS
+from perilune.fmus_src.roles import ROLES
 
 from .markdown import table
 
 FORMATS = Path(__file__).parent / "formats"
+ROLE_HEAD = ("variable", "declared as", "effect")
 
 
 def format_pages() -> dict[str, str]:
@@ -54,9 +56,13 @@ def _page(content: Mapping[str, Any]) -> str:
 def _section(section: Mapping[str, Any]) -> Iterator[str]:
     if "text" in section:
         yield section["text"].strip()
-    rows = [[*row, *_searched(row[0])] if section.get("search") else row for row in section.get("rows", ())]
-    if rows:
-        yield table(section["columns"], rows)
+    match section.get("derived"):
+        case "roles":
+            yield table(ROLE_HEAD, [[f"`{role.name}`", role.declared, role.effect] for role in ROLES])
+        case "search":
+            yield table(section["columns"], [[*row, *_searched(row[0])] for row in section["rows"]])
+        case None if "rows" in section:
+            yield table(section["columns"], section["rows"])
     if "table" in section:
         yield section["table"].strip()
     if "notes" in section:

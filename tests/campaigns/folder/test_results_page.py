@@ -76,16 +76,6 @@ def test_quantiles_of_both_ways(shown, columns):
     assert actual == np.quantile(good, 0.95, method="inverted_cdf")
 
 
-def test_failures_by_group(shown, columns):
-    expected = []
-    for limit in np.arange(4500.0, 8001.0, 500.0):
-        for k, name in enumerate(("analytic_guidance", "astar_guidance")):
-            here = columns["draw.allocation.maximum_thrust"][k] == limit
-            failures = int(np.sum(~columns["success"][k][here].astype(bool)))
-            expected += [(limit, name, failures)] if failures else []
-    assert list(shown["failures"].itertuples(index=False, name=None)) == expected
-
-
 def test_pairs_on_the_same_trials(shown, columns):
     analytic, astar = columns["success"].astype(bool)
     longer = columns["metric.flight_time"][1] - columns["metric.flight_time"][0]

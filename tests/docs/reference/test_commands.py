@@ -46,7 +46,6 @@ ELSEWHERE = {
     "LD_PRELOAD=": "of a host of the reader's own",
     "perilune run earth_pointing --parameters ideal.ssv": "tests/docs/test_earth_pointing_steps.py flies both",
     "perilune diff coarse.parquet fine.parquet": "likewise",
-    "python -m tests.fuzz": "hours of random inputs; tests/fuzz/test_documents.py tries a thousand of each",
 }
 # Commands by what is in them, and why only `make long` carries them out.
 TAKES_LONG = {
