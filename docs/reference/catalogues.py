@@ -15,18 +15,22 @@ from perilune.fmus_src.roles import ROLES
 from .markdown import table
 
 FORMATS = Path(__file__).parent / "formats"
+FOLDERS = Path(__file__).parents[2] / "tests" / "folders.toml"
 ROLE_HEAD = ("variable", "declared as", "effect")
 
 
 def format_pages() -> dict[str, str]:
     """Markdown by file name, to lie in reference/formats."""
     pages = {f"{name}.md": _page(content) for name, content in _catalogues().items()}
-    return pages | {"bounds.md": bounds_page()}
+    return pages | {"bounds.md": bounds_page(), "folders.md": folders_page()}
 
 
 def format_navigation() -> list[dict[str, str]]:
     """Titles and pages in the order of the names."""
-    titles = {name: content["title"] for name, content in _catalogues().items()} | {"bounds": "Bounds"}
+    titles = {name: content["title"] for name, content in _catalogues().items()} | {
+        "bounds": "Bounds",
+        "folders": "Folders",
+    }
     return [{title: f"reference/formats/{name}.md"} for name, title in sorted(titles.items())]
 
 
@@ -40,6 +44,14 @@ def bounds_page() -> str:
         "folders in their place are not opened."
     )
     return "\n\n".join(["# Bounds", text, table(["variable", "at most", ""], rows)]) + "\n"
+
+
+def folders_page() -> str:
+    """Return the folders of the sources with their contents, from the list by which their imports are checked."""
+    folders = tomllib.loads(FOLDERS.read_text(encoding="utf-8"))
+    rows = [[f"`{folder}`", contents] for folder, contents in folders.items()]
+    text = "A file imports from its own folder and from those below it; [architecture](../../architecture.md) shows how."
+    return "\n\n".join(["# Folders", text, table(["folder", "contents"], rows)]) + "\n"
 
 
 def _catalogues() -> dict[str, Any]:

@@ -9,7 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from perilune.common.paths import ROOT, shipped_fmu
+from docs.reference.catalogues import format_pages
+
+from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from tests.support.lengths import either
@@ -17,7 +19,7 @@ from tests.support.native.building import NATIVE
 
 from .documented_rules import RULES, WINDOWS, broken_rules
 
-PAGE = (ROOT / "docs" / "guides" / "importers.md").read_text(encoding="utf-8")
+PAGE = format_pages()["importers.md"]
 
 
 @pytest.mark.usefixtures("fmus")

@@ -15,8 +15,9 @@ import pytest
 
 from perilune import modal
 from perilune.common.paths import ROOT
+from tests.support.documented import page_text
 
-PAGE = (ROOT / "docs" / "modal_synthesis.md").read_text(encoding="utf-8")
+PAGE = page_text("docs/modal_synthesis.md")
 BLOCKS = re.findall(r"```python\n(.*?)```\n(?:```text\n(.*?)```\n)?", PAGE, re.DOTALL)
 NUMBER = re.compile(r"[-+]?\d+\.?\d*(?:e[-+]\d+)?")
 

@@ -94,7 +94,6 @@ TAKES_LONG = {
     "--optimum": "direct multiple shooting; those with what they print take 2 s",
     "--direct": "a direct method; likewise",
     "perilune worst robot_rendezvous": "a hundred linearisations",
-    "modal_comparison": "two minutes of random plants",
     "lunar_landing --parameters noisy.ssv --use": "320 s of flight with all sensors and a table of it",
     "lunar_landing --report": "320 s of flight and its page",
     "entry_attitude --report": "a flight through air and its page",
