@@ -14,9 +14,9 @@ from typing import Any
 
 from perilune.analysis.cli import main
 from perilune.fmus_src.export.compilers import local_platform
+from tests.support.documented import page_text
 
-ROOT = Path(__file__).parents[1]
-PAGE = (ROOT / "docs" / "write_your_own.md").read_text(encoding="utf-8")
+PAGE = page_text("docs/write_your_own.md")
 
 
 def test_the_example_is_built_and_lands(tmp_path: Path, monkeypatch: Any, capsys: Any) -> None:

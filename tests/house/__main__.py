@@ -25,7 +25,7 @@ MEASURES = (
     ("pictures in git", size.pictures, "under 100 kB each"),
     ("campaign TOML", size.campaigns, "<= 3000 lines"),
     ("in the wheel for the project only", size.project_only, "0 lines"),
-    ("documentation", size.documentation, "<= 45000 words"),
+    ("documentation", size.documentation, "<= 50000 words"),
     ("longest Python file", size.longest_file, "hardly any over 300"),
 )
 

@@ -30,6 +30,7 @@ from perilune.common.paths import ROOT
 from perilune.fmus_src.catalogue import catalogue
 from release.archives import build_sdist, require_same_bytes
 from release.state import Release
+from tests.support.documented import page_text
 from tests.support.installed import build_wheel, copy_of_checkout
 from tests.support.lengths import LONG
 
@@ -202,7 +203,7 @@ def test_a_new_system_and_a_new_block_without_a_compiler(installed, perform):
 
 
 def test_an_own_guidance_without_a_compiler(installed, perform, tmp_path):
-    page = (ROOT / "docs" / "write_your_own.md").read_text(encoding="utf-8")
+    page = page_text("docs/write_your_own.md")
     (tmp_path / "linear_guidance.py").write_text(re.findall(r"```python\n(.*?)```", page, re.DOTALL)[0])
     done = installed.run("export", "linear_guidance.py", cwd=tmp_path)
     assert (done.returncode, done.stdout) == (0, "build/fmus/python/linear_guidance.fmu\n")

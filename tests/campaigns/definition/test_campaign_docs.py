@@ -1,7 +1,6 @@
 """docs/campaigns.md: its examples are campaigns; the reference of keys names all there is."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 
@@ -17,8 +16,9 @@ from perilune.analysis.campaigns.definition.requirements import KEYS as REQUIREM
 from perilune.analysis.campaigns.definition.requirements import SIDES
 from perilune.analysis.campaigns.draws.table import draw_table
 from perilune.analysis.options.fault import KINDS
+from tests.support.documented import page_text
 
-TEXT = (Path(__file__).parents[3] / "docs" / "campaigns.md").read_text(encoding="utf-8")
+TEXT = page_text("docs/campaigns.md")
 
 
 EXAMPLES = re.findall(r"```toml\n(.*?)```", TEXT, re.DOTALL)

@@ -6,7 +6,6 @@ and the fields of the settings name the same keys with the same defaults.
 
 import re
 from dataclasses import asdict
-from pathlib import Path
 
 import pytest
 
@@ -17,9 +16,10 @@ from perilune.analysis.design.synthesis.search_settings import SearchSettings
 from perilune.analysis.design.synthesis.synthesis_file import LIMITS, read_synthesis
 from perilune.common.errors import InputError
 from perilune.common.paths import LAWS
+from tests.support.documented import page_text
 from tests.support.laws.campaign_text import CAMPAIGN, TEXT
 
-DOCS = (Path(__file__).parents[3] / "docs" / "synthesis.md").read_text(encoding="utf-8")
+DOCS = page_text("docs/synthesis.md")
 
 
 def read(tmp_path, text):

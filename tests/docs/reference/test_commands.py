@@ -127,6 +127,7 @@ FAILS = (  # exit status 1
     "perilune stability flexible_slew",  # one of its points is unstable
     "perilune replay results 7 --configuration network_operator_guidance",  # a limit of the system
     "--fault 'gyros.measured_angular_velocity[1]=bias:1e-4@100..200'",
+    "perilune diff here.parquet there.parquet",  # of a fault
 )
 # What begins the work of a verb, once all that it was given has been looked at.
 WORK = {
