@@ -44,7 +44,7 @@ def build_site(output: Path, sources: Path) -> None:
     """
     for folder in (sources, output):
         shutil.rmtree(folder, ignore_errors=True)
-    left_out = shutil.ignore_patterns("*.py", "*.jinja", "__pycache__", "figures", "files")
+    left_out = shutil.ignore_patterns("*.py", "*.jinja", "__pycache__", "figures", "files", "formats")
     shutil.copytree(DOCS, sources / "docs", ignore=left_out)
     for name, text in derived_pages().items():
         path = sources / "docs" / name
