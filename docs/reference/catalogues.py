@@ -50,7 +50,9 @@ def folders_page() -> str:
     """Return the folders of the sources with their contents, from the list by which their imports are checked."""
     folders = tomllib.loads(FOLDERS.read_text(encoding="utf-8"))
     rows = [[f"`{folder}`", contents] for folder, contents in folders.items()]
-    text = "A file imports from its own folder and from those below it; [architecture](../../architecture.md) shows how."
+    text = (
+        "A file imports from its own folder and from those below it; [architecture](../../architecture.md) shows how."
+    )
     return "\n\n".join(["# Folders", text, table(["folder", "contents"], rows)]) + "\n"
 
 

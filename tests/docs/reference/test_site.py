@@ -6,6 +6,7 @@ Truth: the built files, read by lxml; a browser that opens them as files.
 from __future__ import annotations
 
 import re
+from functools import cache
 from itertools import pairwise
 
 import pytest
@@ -13,6 +14,7 @@ from lxml import html
 
 from docs.reference.build import SETTINGS, build_site
 from docs.reference.links import broken_links
+from docs.reference.pages import derived_pages
 from perilune.analysis.reports.diagram.elk import MISSING
 from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.common.paths import ROOT
@@ -20,6 +22,7 @@ from perilune.fmus_src.catalogue import catalogue
 from tests.support.documented import PAGES
 from tests.support.pages.browser import find_browser, start
 
+DERIVED = re.compile(r"docs/(reference/.*\.md)$")
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([\w-]+))?\)")
 SEARCH = """<script>
 setTimeout(() => document.querySelector(".md-search button").click(), 1500);
@@ -36,6 +39,12 @@ setTimeout(() => {
 </script></body>"""
 
 
+@cache
+def site_pages() -> dict[str, str]:
+    """Return the derived pages, once."""
+    return derived_pages()
+
+
 def anchors(text: str) -> set[str]:
     """Of the headings of a page, as GitHub and the site make them."""
     headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
@@ -49,10 +58,14 @@ def test_links_between_pages(page):
     for target, anchor in LINK.findall(text):
         path = page if not target else (page.parent / target).resolve()
         assert path.is_relative_to(ROOT), target
-        derived = DERIVED.get(path.relative_to(ROOT / "docs").as_posix()) if path.is_relative_to(ROOT / "docs") else None
-        assert path.is_file() or derived, target
+        derived = DERIVED.match(path.relative_to(ROOT).as_posix())
+        if derived:
+            assert derived[1] in site_pages(), target
+        else:
+            assert path.is_file(), target
         if anchor:
-            assert anchor in anchors(derived or path.read_text(encoding="utf-8")), f"{target}#{anchor}"
+            content = site_pages()[derived[1]] if derived else path.read_text(encoding="utf-8")
+            assert anchor in anchors(content), f"{target}#{anchor}"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
