@@ -1,11 +1,11 @@
 """The variational genetic algorithm: a population of variations of a basic solution in Pareto's order.
 
-Source: Diveev 2010 and Diveev, Pupkov and Sofronova 2013 for the search over variations, Gray code, parents
-that mate the likelier the fewer dominate them, four children that replace the worst, and the renewal of
-the basis. Parents dominated by L1 and L2 mate with probability max (1 + alpha L)/(1 + L). Filled in here: variations are
-sampled where they apply, after the earlier ones; half of the random parameters are uniform, half differ from the basis
-in up to three bits; 16 couples are evaluated together; children with objectives equal to a member's are rejected; ties
-are decided by the distance from the ideal point in units of the Pareto set's extent; elites keep their basis.
+Source: Diveev 2010 and Diveev, Pupkov and Sofronova 2013 for the search over variations, Gray code, parents that mate
+the likelier the fewer dominate them, four children that replace the worst, and the renewal of the basis. Parents
+dominated by L1 and L2 mate with probability max (1 + alpha L)/(1 + L). Filled in here: variations are sampled where
+they apply, after the earlier ones; half of the random parameters are uniform, half differ from the basis in up to
+three bits; 16 couples are evaluated together; children with objectives equal to a member's are rejected; ties are
+decided by the distance from the ideal point in units of the Pareto set's extent; elites keep their basis.
 """
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+"""A sensor of velocity with noise."""
+
 from perilune import Block, Input, Output, Parameter, State
 from perilune.fmus_src.mathlib.rng import normals, seed_streams
 
@@ -20,7 +22,8 @@ class NoisyVelocity(Block):
         self.measure()
 
     def measure(self) -> None:
-        self.measured_velocity = self.velocity + self.sigma * normals(self.generator)
+        error = normals(self.generator)
+        self.measured_velocity = self.velocity + self.sigma * error
 
     def step(self, t: float, h: float) -> None:
         self.measure()
