@@ -14,7 +14,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import perilune
-from docs.reference.catalogues import format_pages
+from docs.reference.formats.pages import format_pages
 from perilune.analysis.cli import main
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.pages.system_page import MISTAKES, PAGE, SSD, write_system

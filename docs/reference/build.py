@@ -12,6 +12,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from docs.files import insert_files
 from perilune.common.errors import InputError
 from perilune.common.paths import BUILD, PACKAGE
 
@@ -19,7 +20,6 @@ from .diagrams import add_diagrams
 from .formulas import typeset
 from .links import broken_links
 from .pages import TOP, derived_pages, reference_navigation
-from .snippets import insert_files
 
 DOCS = TOP / "docs"
 SETTINGS = DOCS / "site" / "site.toml"

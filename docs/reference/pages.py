@@ -10,7 +10,7 @@ from perilune.fmus_src.catalogue import KINDS, catalogue
 from perilune.fmus_src.export.judge.subset_table import LANGUAGE_PAGE
 
 from .blocks import block_page
-from .catalogues import format_navigation, format_pages
+from .formats.pages import format_navigation, format_pages
 from .interface import interface_pages
 from .kernel import kernel_page
 from .lists import catalogue_page, kind_of, slots_page

@@ -12,7 +12,7 @@ import zipfile
 
 import pytest
 
-from docs.reference.catalogues import bounds_page
+from docs.reference.formats.pages import bounds_page
 from perilune.analysis.runtime.ssp.archive import open_system
 from perilune.common.bounds import ARCHIVE_ENTRIES, BOUNDS
 from perilune.common.errors import InputError

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from crosscheck.__main__ import CASES, HEADS, QUANTITIES, row_of
 from crosscheck.case import ATTITUDE, MASS, POSITION, RATE, WHEEL_SPEED, Case
 from crosscheck.table import angles_between, at_common_times, differences, read_table, write_table
-from docs.reference.catalogues import format_pages
+from docs.reference.formats.pages import format_pages
 from perilune.common.paths import ROOT
 
 FOLDER = ROOT / "crosscheck"

@@ -15,7 +15,7 @@ from crosscheck.__main__ import MODELS
 from crosscheck.comparison import HEADS, Comparison, comparison_row, relative_differences
 from crosscheck.space.points import attitudes, directions, points
 from crosscheck.table import rows_table
-from docs.reference.catalogues import format_pages
+from docs.reference.formats.pages import format_pages
 from perilune.common.paths import ROOT
 
 FOLDER = ROOT / "crosscheck" / "models"

@@ -14,7 +14,7 @@ from crosscheck.__main__ import SWINGS
 from crosscheck.space.hub import hub_of, steiner
 from crosscheck.space.surroundings import surroundings
 from crosscheck.swing import HEADS, TENTH, Swing, swing_differences, swing_row
-from docs.reference.catalogues import format_pages
+from docs.reference.formats.pages import format_pages
 from perilune.common.paths import ROOT
 
 FOLDER = ROOT / "crosscheck" / "swings"

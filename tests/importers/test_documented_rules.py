@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from docs.reference.catalogues import format_pages
+from docs.reference.formats.pages import format_pages
 from perilune.common.paths import shipped_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.native_fmu import build_native_fmu

@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from docs.reference.snippets import insert_files
+from docs.files import insert_files
 from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.common.paths import ROOT
 

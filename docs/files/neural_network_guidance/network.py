@@ -7,19 +7,19 @@ import numpy as np
 
 def layers(sizes, weights):
     """Matrices and offsets of each layer, from one vector of weights."""
-    parts, start = [], 0
+    stack, start = [], 0
     for inputs, outputs in pairwise(sizes):
         end = start + inputs * outputs
-        parts.append((weights[start:end].reshape(inputs, outputs), weights[end : end + outputs]))
+        stack.append((weights[start:end].reshape(inputs, outputs), weights[end : end + outputs]))
         start = end + outputs
-    return parts
+    return stack
 
 
-def evaluate(parts, x):
+def evaluate(stack, x):
     """Outputs for inputs x, one row each: tanh in the hidden layers."""
-    for matrix, offset in parts[:-1]:
+    for matrix, offset in stack[:-1]:
         x = np.tanh(x @ matrix + offset)
-    return x @ parts[-1][0] + parts[-1][1]
+    return x @ stack[-1][0] + stack[-1][1]
 
 
 def frame(dr):

@@ -42,12 +42,12 @@ x, y = (x - centre) / scale, (y - middle) / spread
 
 def misfit(weights):
     """Mean square of the residual commands, and its gradient by back-propagation."""
-    parts, values = layers(SIZES, weights), [x]
-    for matrix, offset in parts[:-1]:
+    stack, values = layers(SIZES, weights), [x]
+    for matrix, offset in stack[:-1]:
         values.append(np.tanh(values[-1] @ matrix + offset))
-    left = values[-1] @ parts[-1][0] + parts[-1][1] - y
+    left = values[-1] @ stack[-1][0] + stack[-1][1] - y
     back, gradient = 2.0 * left / len(x), []
-    for (matrix, _), value in zip(reversed(parts), reversed(values), strict=True):
+    for (matrix, _), value in zip(reversed(stack), reversed(values), strict=True):
         gradient = [(value.T @ back).ravel(), back.sum(0), *gradient]
         back = (back @ matrix.T) * (1.0 - value**2)
     return np.mean(np.sum(left**2, axis=1)), np.concatenate(gradient)

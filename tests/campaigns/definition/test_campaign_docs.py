@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 import perilune
-from docs.reference.catalogues import format_pages
+from docs.reference.formats.pages import format_pages
 from perilune.analysis.campaigns.definition.campaign import TRACES
 from perilune.analysis.campaigns.definition.distributions import DISTRIBUTIONS
 from perilune.analysis.campaigns.definition.expressions import FUNCTIONS

@@ -9,7 +9,7 @@ from dataclasses import asdict
 
 import pytest
 
-from docs.reference.catalogues import format_pages
+from docs.reference.formats.pages import format_pages
 from perilune.analysis.campaigns.definition.file import read_campaign
 from perilune.analysis.design.laws.law import find_law, read_law
 from perilune.analysis.design.synthesis.search_settings import SearchSettings

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from docs.reference.catalogues import format_pages
+from docs.reference.formats.pages import format_pages
 from perilune.analysis.reports.common.colours import HUES
 from perilune.analysis.reports.figures.history_readers import BAND, CURVE
 from perilune.analysis.reports.figures.reading import BUDGET, FOLDED, GROUP, READERS

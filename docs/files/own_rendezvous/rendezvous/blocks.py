@@ -57,14 +57,14 @@ class RelativeMotion(Block):
     delta_v = Output(0.0, unit="m/s", description="spent by the jets")
     state = State(Motion)
 
-    def publish(self) -> None:
+    def set_outputs(self) -> None:
         self.position = self.state.position
         self.range = norm(self.state.position)
         self.speed = norm(self.state.velocity)
 
     def initialize(self) -> None:
         self.state = Motion(position=self.initial_position, velocity=self.initial_velocity)
-        self.publish()
+        self.set_outputs()
 
     def derivatives(self, t: float, s: Motion, thrust: Vector3) -> Motion:
         """Rates under an acceleration by thrust (m/s2)."""
@@ -74,7 +74,7 @@ class RelativeMotion(Block):
         thrust = self.force / self.mass
         self.state = runge_kutta_4(self.derivatives, t, self.state, h, thrust)
         self.delta_v = self.delta_v + h * norm(thrust)
-        self.publish()
+        self.set_outputs()
 
 
 class RangeBearing(Block):
@@ -169,11 +169,11 @@ class RelativeNavigation(Block):
         if regular:
             self.status = 0
             gain = self.covariance @ h.T @ inverted
-            kept = identity(6) - gain @ h
+            complement = identity(6) - gain @ h
             azimuth = self.azimuth - atan2(-p.x, -p.y)
             elevation = self.elevation - atan2(-p.z, across)
             self.estimate = self.estimate + gain @ matrix([self.range - distance], [azimuth], [elevation])
-            self.covariance = kept @ self.covariance @ kept.T + gain @ r @ gain.T
+            self.covariance = complement @ self.covariance @ complement.T + gain @ r @ gain.T
         self.position = self.estimate[POSITION, 0]
         self.velocity = self.estimate[VELOCITY, 0]
 

@@ -14,7 +14,7 @@ import pytest
 from lxml import etree
 
 import perilune
-from docs.reference.catalogues import format_pages
+from docs.reference.formats.pages import format_pages
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import read_run
 from perilune.analysis.reports.figures.signal_reader import SignalReader

@@ -12,10 +12,10 @@ from perilune.analysis.design.synthesis.synthesis_file import LIMITS
 from perilune.common.bounds import BOUNDS
 from perilune.fmus_src.roles import ROLES
 
-from .markdown import table
+from ..markdown import table
 
-FORMATS = Path(__file__).parent / "formats"
-FOLDERS = Path(__file__).parents[2] / "tests" / "folders.toml"
+FORMATS = Path(__file__).parent
+FOLDERS = Path(__file__).parents[3] / "tests" / "folders.toml"
 ROLE_HEAD = ("variable", "declared as", "effect")
 
 
