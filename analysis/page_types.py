@@ -19,8 +19,8 @@ import msgspec
 import numpy as np
 
 from ..common.paths import ROOT
-from .reports.campaign.embedded_flights import RecordedDocument
-from .reports.campaign.embedded_trials import TrialsDocument
+from .documents.of.batch.embedded_flights import RecordedDocument
+from .documents.of.batch.embedded_trials import TrialsDocument
 from .reports.common import colours
 from .reports.common.colours import FAINT, GRID, INK, SHADES, SHIP
 from .reports.interactive.charts import Chart

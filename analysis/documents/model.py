@@ -25,6 +25,7 @@ from typing import Any, ClassVar, Literal
 
 from markupsafe import Markup
 
+from ..reports.chart.write_svg import TrialPositions, no_trials
 from ..reports.common.colours import Look
 from ..reports.diagram.diagram import Diagram as BlockDiagram
 from ..reports.figures.section import Section as SystemFigure
@@ -142,7 +143,7 @@ class Figure:
 
     ``is_wide``: as wide as the page; ``is_narrow``: three in a row of a wide page, not two. ``below`` is a second chart
     over the same abscissa. ``look``: that of what the label names. ``legend`` is that of this figure alone.
-    ``is_printed``: on paper, too.
+    ``is_printed``: on paper, too. ``trials`` returns the positions of marks of trials.
     """
 
     label: str
@@ -157,15 +158,20 @@ class Figure:
     look: Look | None = None
     is_printed: bool = True
     is_reduced: bool = False  # a page has only envelopes of its curves
+    trials: TrialPositions = no_trials
 
 
 @dataclass(frozen=True)
 class Figures:
-    """Figures next to each other with one legend; ``draw`` them only where they show."""
+    """Figures next to each other with one legend; ``draw`` them only where they show.
+
+    ``is_in_order``: entries of the legend are for the first lines of each figure, which may have no names.
+    """
 
     kind: ClassVar[str] = "figures"
     draw: Callable[[], Sequence[Figure]]
     legend: Sequence[LegendEntry] = ()
+    is_in_order: bool = False
 
 
 @dataclass(frozen=True)
@@ -201,7 +207,10 @@ class Scene:
 
 @dataclass(frozen=True)
 class ForScript:
-    """A document by ``name`` that the page's script ``bundle`` reads, and the nodes that only make sense with it."""
+    """A document by ``name`` that the page's script ``bundle`` reads, and the nodes that only make sense with it.
+
+    Without a name there are only nodes.
+    """
 
     kind: ClassVar[str] = "for_script"
     name: str
@@ -329,7 +338,9 @@ class Section:
 class Document:
     """A result for its readers: ``summary`` first, then sections.
 
-    ``json`` is what programs read; its keys are part of the interface. ``has_contents``: a page lists its sections.
+    ``json`` is what programs read, or a function that returns it; its keys are part of the interface.
+    ``has_contents``: a page lists its sections. ``page_sections`` composes those that only a page has, after the rest.
+    ``in_degrees`` are the quantities that a page displays in degrees.
     """
 
     title: str
@@ -337,6 +348,8 @@ class Document:
     sections: Sequence[Section]
     json: object
     has_contents: bool = False
+    in_degrees: str = "Angles"
+    page_sections: Callable[[], Sequence[Section]] = tuple
 
 
 def nodes_of(document: Document, medium: Medium) -> list[Node]:

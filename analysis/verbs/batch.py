@@ -15,28 +15,25 @@ from ..campaigns.execute import results
 from ..campaigns.execute.campaign import open_campaign
 from ..campaigns.execute.cluster.connection import cluster
 from ..campaigns.execute.runner import fly_campaign
-from ..campaigns.summary import CONFIDENCE, summary_rows
 from ..campaigns.summary_text import select_metrics
-from ..campaigns.tables import requirement_rows, who_cells, who_heads
+from ..documents.model import Document
+from ..documents.of.batch.batch import batch_document
 from ..options.declared.campaigns import BATCH, BatchOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
 from ..traceability.campaign_task import write_task
-from .common.campaign_text import campaign_problems, campaign_requirements, status_meanings, worst_lines
+from .common.campaign_text import campaign_problems, campaign_requirements
 from .common.campaigns import name_foreign, read_campaign, resume_hint
+from .common.documented import Documented
 
 if TYPE_CHECKING:  # plots and pages are imported where they are made
     from matplotlib.figure import Figure as Plot
 
-    from ..reports.common.notebook import Grid
-
-MOST_PLOTTED = 6  # metrics, in a notebook
-
 
 @dataclass(repr=False)
-class BatchResult(results.BatchResult):
+class BatchResult(Documented, results.BatchResult):
     """All trials of all variants; ``summary`` has rates and statistics by variant, ``trials`` the numbers behind.
 
     ``requirements`` are those of the option ``require``, ``displayed`` the metrics of the option ``metrics``.
@@ -49,13 +46,9 @@ class BatchResult(results.BatchResult):
         rates = ", ".join(f"{name} {short_percent(entry.success_rate)} %" for name, entry in self.summary.items())
         return f"{type(self).__name__}({self.provenance['system']}, {self.plan.campaign.trials} trials: {rates})"
 
-    def to_json(self) -> dict[str, object]:
-        """Provenance and the summary of each variant."""
-        return self.content()
-
-    def lines(self) -> list[str]:
-        """What `perilune batch` prints."""
-        return [self.text(self.displayed), *worst_lines(self), *status_meanings(self.plan, self)]
+    def document(self) -> Document:
+        """Return the batch with verdicts on its variants, distributions, recorded simulations and failures."""
+        return batch_document(self, self.displayed)
 
     def problems(self) -> list[str]:
         """Failed simulations, requirements of the campaign and of ``require`` that are not met."""
@@ -88,12 +81,6 @@ class BatchResult(results.BatchResult):
             raise InputError("`trace`", str(path), "the batch has no folder, whose files it describes", "give `output`")
         write_task(self, Path(path))
 
-    def report(self, path: FilePath) -> None:
-        """Write the page of `perilune batch --report`: one HTML file."""
-        from ..reports.campaign.batch_report import write_batch_report
-
-        write_batch_report(self, Path(path), self.provenance["system"])
-
     def plot(self, *metrics: str) -> Plot:
         """Distributions of metrics over trials, variant next to variant; by default of all metrics that vary.
 
@@ -111,39 +98,6 @@ class BatchResult(results.BatchResult):
         if not selected:
             raise ValueError(f"{self.plan.campaign.file}: no metric that varies and is finite anywhere")
         return metric_plot(self, selected)
-
-    def _repr_html_(self) -> str:
-        from ..reports.campaign.distributions import metric_plot, sort_metrics
-        from ..reports.common.notebook import Grid, metric_grid, notebook_view
-
-        group, rows = self.plan.campaign.group, summary_rows(self.summary)
-        head = (*who_heads(group), "trials", "success, %", f"{100 * CONFIDENCE:g} % interval", "statuses")
-        rates = [
-            (
-                *who_cells(row, group),
-                str(row.entry.trials),
-                short_percent(row.entry.success_rate),
-                " to ".join(short_percent(end) for end in row.entry.success_interval),
-                ", ".join(f"{count} {status}" for status, count in row.entry.statuses.items()),
-            )
-            for row in rows
-        ]
-        selected = sort_metrics(self)[0][:MOST_PLOTTED]
-        plot = metric_plot(self, selected) if selected else None
-        faults = self.plan.fault_texts()
-        text = [Path(self.plan.campaign.file).name, f"with faults: {'; '.join(faults)}" if faults else ""]
-        metrics = [metric.name for metric in self.plan.campaign.metrics]
-        grids = [Grid(head, rates), self._requirement_grid(), metric_grid(rows, metrics, group)]
-        return notebook_view(self.provenance["system"], text, grids, plot)
-
-    def _requirement_grid(self) -> Grid:
-        from ..reports.common.notebook import Grid
-
-        rows = [
-            (f"{name}: {entry.text}", variant, entry.verdict, str(entry.flights), str(entry.failures))
-            for variant, name, entry in requirement_rows(self.summary)
-        ]
-        return Grid(("requirement", "variant", "verdict", "flights", "failures"), rows)
 
 
 @verb(BATCH)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,10 +16,10 @@ from ..campaigns.definition.expressions import Expression
 from ..campaigns.execute.campaign import read_folder
 from ..campaigns.execute.results import BatchResult
 from ..campaigns.folder.opened import OpenedResults
+from ..documents.of.campaign.stored import stored_document
 from ..options.option import FilePath
 from ..reports.campaign.distributions import distribution_plot
 from ..reports.common.colours import look
-from ..reports.common.notebook import Grid, notebook_view
 from ..runtime.flight.results import require_pandas
 
 if TYPE_CHECKING:
@@ -131,12 +130,9 @@ class StoredResults(OpenedResults):
         return distributions({"": self}, metrics or None)
 
     def _repr_html_(self) -> str:
-        rows = [(name, column.unit or "", column.meaning) for name, column in self.columns.items()]
-        there = f"{self.flown} of {self.trials} trials of {', '.join(self.variants)}"
-        named = " --configuration NAME" if len(self.variants) > 1 else ""
-        repeated = f"a trial again: perilune replay {shlex.quote(str(self.source.folder))} TRIAL{named}"
-        words = [f"{Path(self.provenance['campaign']).name}: {there}", str(self.source.folder), repeated]
-        return notebook_view(self.provenance["system"], words, [Grid(("column", "unit", "meaning"), rows)], None)
+        from ..documents.render.notebook import document_view
+
+        return document_view(stored_document(self))
 
 
 def open_results(folder: FilePath) -> StoredResults:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 from perilune import simulate
 from perilune.analysis.campaigns.definition.plan import BatchPlan, read_plan
 from perilune.analysis.campaigns.execute.results import BatchResult
 from perilune.analysis.campaigns.execute.runner import run_batch
-from perilune.analysis.reports.campaign.batch_report import write_batch_report
+from perilune.analysis.documents.of.batch.batch import batch_document
+from perilune.analysis.documents.render.html import write_document
 from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions
@@ -76,7 +78,8 @@ def write_files(landing: Result, sample: list[Result], batch: BatchResult, outpu
     print("Writing pages ...", flush=True)
     landing.write(output / "landing.csv")
     write_run_report(landing, output / "landing.html", f"Lunar landing: trial {LANDING} of campaign {CAMPAIGN}")
-    write_batch_report(batch, output / "comparison.html", "Lunar terminal guidance: three methods compared")
+    compared = replace(batch_document(batch), title="Lunar terminal guidance: three methods compared")
+    write_document(compared, output / "comparison.html")
     page = output / "index.html"
     write_demo_page(landing, sample, batch, page)
     return page

@@ -8,10 +8,15 @@ from pathlib import Path
 import numpy as np
 
 from perilune.analysis.campaigns.execute.results import BatchResult
-from perilune.analysis.reports.campaign.distributions import distribution_panels, legend_of, rates_figure
-from perilune.analysis.reports.campaign.embedded_trials import trials_document
-from perilune.analysis.reports.campaign.scatters import failure_panels, legend_of_outcomes
+from perilune.analysis.documents.of.batch.content import Content
+from perilune.analysis.documents.of.batch.distribution_sections import distribution_figures
+from perilune.analysis.documents.of.batch.embedded_trials import trials_document
+from perilune.analysis.documents.of.batch.scatters import failure_figures, outcome_marks
+from perilune.analysis.documents.render.cell_markup import rich_markup
+from perilune.analysis.documents.render.html import panel_of
+from perilune.analysis.reports.campaign.distributions import rates_figure
 from perilune.analysis.reports.common.page import write_page
+from perilune.analysis.reports.common.panels import swatch
 from perilune.analysis.runtime.flight.results import Result
 
 from .landing import landing_panels, vector
@@ -40,7 +45,8 @@ COMPARED = ("position_error", "velocity_error")
 def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, path: Path) -> None:
     """Write the page. Raises KeyError for a variant that the publication does not have."""
     target = np.array([landing.provenance["parameters"][f"guidance.target_position[{i}]"] for i in (1, 2, 3)])
-    campaign = batch.plan.campaign
+    campaign, content = batch.plan.campaign, Content(batch)
+    distributions = distribution_figures(content, [each for each in campaign.metrics if each.name in COMPARED])
     side, panels = landing_panels(landing, sample)
     write_page(
         path,
@@ -59,9 +65,9 @@ def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, p
         summary=batch.summary,
         published={name: PUBLISHED[name] for name in batch.summary},
         rates=rates_figure(batch, {name: PUBLISHED[name].success_rate for name in batch.summary}),
-        looks=legend_of(batch),
-        distributions=distribution_panels(batch, [m for m in campaign.metrics if m.name in COMPARED]),
-        failures=failure_panels(batch),
-        outcomes=legend_of_outcomes(),
+        looks=[(swatch(style), variant) for variant, style in content.styles.items()],
+        distributions=list(map(panel_of, distributions.draw())),
+        failures=list(map(panel_of, failure_figures(batch))),
+        outcomes=rich_markup(outcome_marks()),
         trials=trials_document(batch),
     )

@@ -65,8 +65,9 @@ def test_interfaces_have_names_of_their_own():
 
 
 def test_documents_of_templates_are_declared():
-    templates = [*(ROOT / "analysis" / "reports").rglob("*.html"), *(ROOT / "analysis" / "show").glob("*.html")]
-    named = {name for path in templates for name in re.findall(r'add_document\("(\w+)"', path.read_text("utf-8"))}
+    sources = [path for kind in ("html", "py") for path in (ROOT / "analysis").rglob(f"*.{kind}")]
+    adding = re.compile(r'(?:add_document|ForScript)\("(\w+)"')
+    named = {name for path in sources for name in adding.findall(path.read_text("utf-8"))}
     assert named == set(page_types.PageDocument.__annotations__) - {"columns", "packed", "figures"}
 
 

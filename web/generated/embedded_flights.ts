@@ -1,4 +1,4 @@
-// Written by build_web.py from analysis/reports/campaign/embedded_flights.py.
+// Written by build_web.py from analysis/documents/of/batch/embedded_flights.py.
 
 // A signal in a panel, and its colour.
 export interface PanelLine {

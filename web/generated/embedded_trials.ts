@@ -1,4 +1,4 @@
-// Written by build_web.py from analysis/reports/campaign/embedded_trials.py.
+// Written by build_web.py from analysis/documents/of/batch/embedded_trials.py.
 
 // A metric or a draw by the name of its column; numbers are in SI, times ``factor`` in ``unit``.
 export interface TrialQuantity {

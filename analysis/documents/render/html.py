@@ -27,6 +27,7 @@ def write_document(document: Document, path: Path) -> None:
         TEMPLATE,
         title=document.title,
         document=document,
+        sections=[*document.sections, *document.page_sections()],
         cell=cell_markup,
         rich=rich_markup,
         layout=lay_out,
@@ -128,14 +129,15 @@ def _body(table: Table, kinds: Sequence[str]) -> list[BodyRow]:
 
 def _rows(figures: Sequence[Figure]) -> list[tuple[str, list[tuple[Figure, Panel]]]]:
     """Return runs of figures of one width in order: ``wide``, or a kind of grid."""
-    return [(kind, [(figure, _panel(figure)) for figure in run]) for kind, run in groupby(figures, _kind)]
+    return [(kind, [(figure, panel_of(figure)) for figure in run]) for kind, run in groupby(figures, _kind)]
 
 
 def _kind(figure: Figure) -> str:
     return "wide" if figure.is_wide else "" if figure.is_narrow else "halves"
 
 
-def _panel(figure: Figure) -> Panel:
+def panel_of(figure: Figure) -> Panel:
+    """Return a figure with its drawings and its legend."""
     legend = [(legend_swatch(entry), ", ".join(entry.lines)) for entry in figure.legend]
     width = PANEL_WIDTH if figure.is_narrow else HALF_WIDTH
     named = (figure.name, figure.words)
@@ -152,6 +154,7 @@ def _panel(figure: Figure) -> Panel:
         figure.height,
         width,
         title=figure.chart.title,
+        trials=figure.trials,
         reduced=figure.is_reduced,
     )
     return panel._replace(legend=legend)

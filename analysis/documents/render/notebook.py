@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup
 
 from ...reports.common.notebook import Grid, notebook_view
-from ...reports.common.panels import HALF_WIDTH
+from ...reports.common.panels import HALF_WIDTH, PANEL_WIDTH
 from ..cell import Cell, LegendEntry
 from ..model import (
     Diagram,
@@ -30,7 +30,7 @@ from .words import cell_text, heads_of, number_line, rich_text, rows_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Plot
 
-PLOTTED = 4  # figures
+ROWS = 2  # of figures
 
 
 def document_view(document: Document) -> str:
@@ -41,31 +41,49 @@ def document_view(document: Document) -> str:
         for node in nodes
         if isinstance(node, Table)
     ]
-    figures = figures_of(document)
+    figures, key = figures_of(document), _key(nodes)
     words = [text for node in nodes for text in _words(node)]
-    return notebook_view(document.title, words, grids, plot_figures(figures) if figures else _plot_diagram(nodes))
+    return notebook_view(document.title, words, grids, plot_figures(figures, key) if figures else _plot_diagram(nodes))
 
 
 def figures_of(document: Document) -> list[Figure]:
     """Return the first figures of a document."""
     groups = (node for node in nodes_of(document, Medium.NOTEBOOK) if isinstance(node, Figures))
-    return list(islice((figure for group in groups for figure in group.draw()), PLOTTED))
+    figures = (figure for group in groups for figure in group.draw())
+    first = list(islice(figures, 1))
+    return [*first, *islice(figures, ROWS * _columns(first) - 1)] if first else []
 
 
-def plot_figures(figures: Sequence[Figure]) -> Plot:
-    """Return figures next to each other as one of matplotlib's, with their legends."""
+def _columns(figures: Sequence[Figure]) -> int:
+    """Return the number of figures in a row."""
+    return 3 if figures and figures[0].is_narrow else 2
+
+
+def _key(nodes: Sequence[Node]) -> list[str]:
+    """Return the legend of the first figures where it is that of their first lines."""
+    first = next((node for node in nodes if isinstance(node, Figures)), None)
+    if first is None or not first.is_in_order:
+        return []
+    return [", ".join(entry.lines) for entry in first.legend]
+
+
+def plot_figures(figures: Sequence[Figure], key: Sequence[str] = ()) -> Plot:
+    """Return figures next to each other as one of matplotlib's, with their legends; ``key`` is that of all."""
     from ...reports.chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
 
     panes = [(each, chart) for each in figures for chart in (each.chart, each.below) if chart is not None]
     is_stacked = len(panes) > len(figures)
-    labels = ["" if chart is each.below else each.label for each, chart in panes]
+    labels = [
+        "" if chart is each.below or chart.x.label.startswith(each.label) else each.label for each, chart in panes
+    ]
     return plot_charts(
         [chart for _, chart in panes],
         max(each.height for each in figures) / (2.0 if is_stacked else 1.0),
-        HALF_WIDTH,
-        columns=1 if is_stacked else min(2, len(figures)),
+        PANEL_WIDTH if figures[0].is_narrow else HALF_WIDTH,
+        columns=1 if is_stacked else min(_columns(figures), len(figures)),
         titles=[": ".join(filter(None, (label, chart.title))) for label, (_, chart) in zip(labels, panes, strict=True)],
         legends=[[curve.name for curve in chart.curves] if each.legend else [] for each, chart in panes],
+        key=key,
     )
 
 

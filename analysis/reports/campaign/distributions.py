@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from markupsafe import Markup
 
 from ....common.percent import percent
 from ...campaigns.definition.campaign import Metric
@@ -15,10 +14,9 @@ from ...campaigns.execute.results import BatchResult
 from ...campaigns.verdicts.order_statistics import quantiles
 from ..chart.axes import lane_axis, linear_axis, logarithmic_axis, ticked_axis
 from ..chart.lines import line
-from ..chart.panel import chart_panel, wide_figure
+from ..chart.panel import wide_figure
 from ..chart.symbols import mark, marker, marks
 from ..common.colours import INK, Look, look
-from ..common.panels import Panel, swatch
 from ..common.quantities import display_factor, label_with_unit
 from ..font.text import text_width
 from ..interactive.charts import NO_BOX, Chart, Drawing, Note
@@ -52,27 +50,6 @@ def sort_metrics(batch: BatchResult) -> tuple[list[Metric], list[tuple[Metric, f
         else:
             varying.append(metric)
     return varying, constant, empty
-
-
-def distribution_panels(batch: BatchResult, metrics: Sequence[Metric]) -> list[Panel]:
-    """Return the empirical cumulative distributions of metrics over all trials."""
-    styles = [look(index) for index in range(len(batch.rows))]
-    numbers = {metric: number for number, metric in enumerate(batch.plan.campaign.metrics)}
-    return [
-        chart_panel(
-            metric.name,
-            f"distribution-{numbers[metric]}",
-            f"Cumulative distribution of {metric.name}",
-            distribution_chart(metric, metric_values(batch, metric.name), styles),
-            title=CUMULATIVE,
-        )
-        for metric in metrics
-    ]
-
-
-def legend_of(batch: BatchResult) -> list[tuple[Markup, str]]:
-    """Return the variants with their line styles."""
-    return [(swatch(look(index)), variant) for index, variant in enumerate(batch.rows)]
 
 
 def distribution_chart(

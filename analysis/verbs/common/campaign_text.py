@@ -14,17 +14,15 @@ from ...campaigns.columns import describe_metrics
 from ...campaigns.definition.campaign import Metric
 from ...campaigns.definition.expressions import Expression
 from ...campaigns.definition.plan import BatchPlan
-from ...campaigns.execute.evaluation import worst_statuses
 from ...campaigns.execute.flyer import TrialResult
 from ...campaigns.execute.results import BatchResult
-from ...campaigns.judged import worst_trial
 from ...campaigns.lost_trials import lost_of
-from ...campaigns.plain_text import align_columns, short
+from ...campaigns.plain_text import align_columns
 from ...campaigns.summary import requirement_values, summarise
 from ...campaigns.tables import unmet_lines
 from ...campaigns.trials import TrialTable
 from ...commands.campaigns import replay_of_folder
-from ...runtime.flight.results import TIMED_OUT, with_meaning
+from ...runtime.flight.results import TIMED_OUT
 from .arguments import read_requirements, requirement_problems
 
 
@@ -73,26 +71,6 @@ def failure_lines(failures: Mapping[str, Failures], plan: BatchPlan, folder: Pat
     return lines
 
 
-def worst_lines(batch: BatchResult) -> list[str]:
-    """Return a line for each metric that a requirement bounds: its worst trial, and the command that replays it.
-
-    Lines are those of a stored campaign, whose folder the command reads. The first of several equal trials is named.
-    """
-    lines: dict[str, None] = {}
-    if batch.folder is None:
-        return []
-    for variant, entry in batch.summary.items():
-        for bound in (each.bound for each in entry.requirements.values() if each.bound is not None):
-            trial, value = worst_trial(
-                batch.rows[variant], bound.metric, np.negative if bound.side == "lower" else np.positive
-            )
-            unit = entry.metrics[bound.metric].unit
-            text = "none" if math.isnan(value) else f"{short(value)} {'' if unit == '1' else unit}".strip()
-            replay = replay_of_folder(batch.folder, batch.rows, variant, trial)
-            lines[f"{variant}: worst {bound.metric}, {text}: {replay}"] = None
-    return list(lines)
-
-
 def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Iterable[Metric]) -> list[str]:
     """What one trial of a variant came to: its status, whether it is a success, its metrics."""
     success = "success" if outcome.success else "no success"
@@ -103,18 +81,6 @@ def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Itera
         cells.append([f"  {metric.name}", text, "" if metric.unit == "1" else metric.unit])
     lines = [line.rstrip() for line in align_columns(cells)] if cells else []
     return [f"{variant}: trial {trial}: {outcome.status}, {success}", *lines]
-
-
-def status_meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
-    """What each status that a trial reported means, once, as its FMU says."""
-    meanings: dict[str, None] = {}
-    for variant in plan.campaign.variants():
-        texts = dict.fromkeys(text for text in result.summary[variant.name].statuses if worst_statuses(text))
-        if texts:
-            network = plan.prepare(variant).network
-            seen = {item: None for text in texts for item in worst_statuses(text).items()}
-            meanings |= {with_meaning(network, *item): None for item in seen}
-    return list(meanings)
 
 
 def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Expression]:

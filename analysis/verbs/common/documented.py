@@ -25,7 +25,8 @@ class Documented(ABC):
 
     def to_json(self) -> object:
         """Return the result as strict JSON, for other programs."""
-        return to_json(self.document().json)
+        json = self.document().json
+        return to_json(json() if callable(json) else json)
 
     def report(self, path: FilePath) -> None:
         """Write the page of the verb's option `report`: one HTML file."""

@@ -4,15 +4,14 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.run_report import write_run_report
 from tests.support.pages.browser import start
-from tests.support.pages.samples import mixed_batch, run_result
+from tests.support.pages.samples import mixed_batch, run_result, write_batch_page
 
 
 @pytest.mark.parametrize(
     ("write", "result"),
-    [(write_run_report, run_result), (write_batch_report, mixed_batch)],
+    [(write_run_report, run_result), (write_batch_page, mixed_batch)],
     ids=["run", "batch"],
 )
 def test_pages_render(browser, tmp_path, write, result):

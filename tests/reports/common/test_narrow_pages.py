@@ -9,12 +9,11 @@ from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_
 from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.documents.of.transfer import transfer_document
 from perilune.analysis.documents.render.html import write_document
-from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.run_report import write_run_report
 from tests.support.lengths import either
 from tests.support.pages.narrow import assert_legible
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses
-from tests.support.pages.samples import mixed_batch, run_result
+from tests.support.pages.samples import mixed_batch, run_result, write_batch_page
 
 
 def write_flight(page):
@@ -26,7 +25,7 @@ def write_figures_of_its_own(page):
 
 
 def write_batch(page):
-    write_batch_report(mixed_batch(), page, "Batch")
+    write_batch_page(mixed_batch(), page, "Batch")
 
 
 def write_plan(page):

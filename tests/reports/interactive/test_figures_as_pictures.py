@@ -23,14 +23,13 @@ from perilune.analysis.documents.of.differences import differences_document
 from perilune.analysis.documents.of.landing_bound import landing_bound_document
 from perilune.analysis.documents.of.transfer import transfer_document
 from perilune.analysis.documents.render.html import write_document
-from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.run_report import write_run_report
 from perilune.common.paths import ROOT
 from tests.documents.of.test_plan_pages import LANDER, LANDING
 from tests.support.lengths import either
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses
 from tests.support.pages.pictures.reading import read_page, reading
-from tests.support.pages.samples import mixed_batch, run_result
+from tests.support.pages.samples import mixed_batch, run_result, write_batch_page
 
 
 def write_run(request, page):
@@ -49,7 +48,7 @@ def write_mission(request, page):
 
 
 def write_batch(request, page):
-    write_batch_report(mixed_batch(), page, "Batch")
+    write_batch_page(mixed_batch(), page, "Batch")
 
 
 def write_comparison(request, page):
@@ -132,10 +131,19 @@ PAGES = either(KINDS | SHIPPED, KINDS)
 
 TEMPLATES = {
     "run_report.html": [write_run, write_own, write_mission, write_landing],
-    "batch_report.html": [write_batch, write_many_trials, write_recorded],
     "comparison.html": [write_comparison],
     "stability.html": [write_stability],
-    "document.html": [write_differences, write_rare, write_worst, write_sensitivity, write_transfer, write_bound],
+    "document.html": [
+        write_batch,
+        write_many_trials,
+        write_recorded,
+        write_differences,
+        write_rare,
+        write_worst,
+        write_sensitivity,
+        write_transfer,
+        write_bound,
+    ],
     "demo.html": [write_demo],
     "system.html": [],  # a block diagram, the same with scripts: tests/reports/diagram
     "show.html": [],  # without scripts it has no figure: tests/show

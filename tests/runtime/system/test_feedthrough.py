@@ -12,7 +12,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.reports.campaign.tables import replay_command
+from perilune.analysis.commands.campaigns import replay_command
 from perilune.analysis.runtime.system.feedthrough import Origin
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system

@@ -2,6 +2,7 @@
 
 import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -11,6 +12,8 @@ from perilune.analysis.campaigns.definition.table import Table
 from perilune.analysis.campaigns.execute.results import BatchResult
 from perilune.analysis.campaigns.folder.files import with_draws
 from perilune.analysis.campaigns.trials import TrialTable
+from perilune.analysis.documents.of.batch.batch import batch_document
+from perilune.analysis.documents.render.html import write_document
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions
 from tests.support.pages.comparison_samples import facts as metadata_of
@@ -149,3 +152,8 @@ def mixed_batch(trials: int = 40, text: str = DRAWS + METRICS) -> BatchResult:
     steady = [(True, float(source.lognormal(-3, 2)), float(source.normal())) for _ in range(trials)]
     shaky = [(bool(abs(x) < 0.6), float(10 ** (4 * abs(x) - 2)), 0.1) for x in offset]
     return batch_result({"steady": steady, "shaky": shaky}, text)
+
+
+def write_batch_page(batch: BatchResult, path: Path, title: str = "Batch") -> None:
+    """Write the page of a batch with a ``title``."""
+    write_document(replace(batch_document(batch), title=title), path)

@@ -1,1 +1,1 @@
-"""Results of campaigns as documents: batches, and the tables that comparisons share with them."""
+"""Tables and figures that documents of batches and of comparisons share; stored campaigns."""

@@ -8,6 +8,7 @@ from typing import Literal
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.statistics import QUANTILES, STATISTICS
 from ....campaigns.summary import SummaryRow
+from ....campaigns.tables import who_cells, who_heads
 from ....reports.common.colours import Look
 from ....reports.common.quantities import display_unit
 from ...cell import Cell, Code, Quantity, Row, RowHeading, Strong
@@ -35,6 +36,22 @@ def metric_table(
             body.append((*variant_cells(row, by, styles), *numbers, values.count))
     heads = (*variant_heads(by), *HEADINGS.values(), "trials")
     return Table(heads, body, style="tight", is_grouped=by is not None)
+
+
+def metric_summary(rows: Sequence[SummaryRow], metrics: Sequence[Metric], group: str | None) -> Table:
+    """Return statistics over successful trials with units, a row for each metric and row of the summary."""
+    body: list[Sequence[Cell]] = [
+        (
+            metric.name,
+            *who_cells(row, group),
+            *(Quantity(values.value(name), values.unit, is_bare=True) for name in STATISTICS),
+            display_unit(values.unit),
+        )
+        for metric in metrics
+        for row in rows
+        for values in [row.entry.metrics[metric.name]]
+    ]
+    return Table(("metric, successful trials", *who_heads(group), *STATISTICS, "unit"), body)
 
 
 def metric_heading(metric: Metric) -> RowHeading:

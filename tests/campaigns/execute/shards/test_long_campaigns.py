@@ -25,10 +25,9 @@ from perilune.analysis.campaigns.plotted_sample import FIRST, select_trials
 from perilune.analysis.campaigns.summary import summarise
 from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.cli import main
-from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from tests.support.campaigns.folders import bytes_of
 from tests.support.lengths import either
-from tests.support.pages.samples import mixed_batch
+from tests.support.pages.samples import mixed_batch, write_batch_page
 
 pytestmark = pytest.mark.usefixtures("fmus")
 SYSTEM = "lunar_terminal_guidance"
@@ -151,11 +150,11 @@ def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
     seen = np.count_nonzero(failed < 30) + 4
     assert shaky.note == f"the first 30 of 100 trials; those over two values {seen} of {failed.size} failures, too"
     assert result.plotted["steady"].note == "the first 30 of 100 trials; those over two values all failures, too"
-    write_batch_report(result, tmp_path / "page.html", "Long")
+    write_batch_page(result, tmp_path / "page.html", "Long")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert f"plots and rank correlations use {shaky.note}." in " ".join(page.split())
     monkeypatch.undo()
-    write_batch_report(whole, tmp_path / "whole.html", "Long")
+    write_batch_page(whole, tmp_path / "whole.html", "Long")
     assert "plots and rank correlations use" not in (tmp_path / "whole.html").read_text(encoding="utf-8")
     tables = [
         re.findall(r"<table.*?</table>", (tmp_path / name).read_text(), re.DOTALL)

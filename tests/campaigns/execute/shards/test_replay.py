@@ -18,8 +18,8 @@ from lxml import html
 import perilune
 from perilune.analysis.campaigns.folder.files import shard_path
 from perilune.analysis.cli import main
-from perilune.analysis.reports.campaign.batch_report import verdicts_of
-from perilune.analysis.reports.campaign.tables import extremes_to_replay, trials_to_replay
+from perilune.analysis.documents.of.batch.content import Content
+from perilune.analysis.documents.of.batch.replays import extremes_to_replay
 from perilune.analysis.runtime.flight import interruptible
 from perilune.common.paths import SYSTEMS
 
@@ -198,7 +198,7 @@ def test_pages_print_the_short_command_where_there_is_a_folder(folder, tmp_path,
     """As the user names it, and it flies."""
     monkeypatch.chdir(folder.parent)
     result = perilune.merge(folder.name)
-    rows = [*trials_to_replay(result, verdicts_of(result)), *extremes_to_replay(result)]
+    rows = [*Content(result).replays, *extremes_to_replay(result)]
     assert rows
     for row in rows:
         assert row.command == f"perilune replay campaign {row.trial} --configuration {row.variant}"

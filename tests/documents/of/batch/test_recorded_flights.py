@@ -7,8 +7,13 @@ import numpy as np
 import pytest
 
 from perilune.analysis.campaigns.trials import TrialTable
-from perilune.analysis.reports.campaign.embedded_flights import embedded_flights
-from perilune.analysis.reports.campaign.recorded_flights import FLIGHT_LIMIT, ROW_LIMIT, choose_flights, read_flights
+from perilune.analysis.documents.of.batch.embedded_flights import embedded_flights
+from perilune.analysis.documents.of.batch.recorded_flights import (
+    FLIGHT_LIMIT,
+    ROW_LIMIT,
+    choose_flights,
+    read_flights,
+)
 from tests.support.pages.samples import batch_result
 
 NAMES = ("ship.position[1]", "ship.position[2]", "ship.position[3]", "ship.mass", "ship.count")
@@ -67,7 +72,7 @@ def test_long_flights_are_thinned_alike_and_keep_their_ends():
 
 
 def test_a_panel_for_each_vector_and_a_column_for_each_signal(monkeypatch):
-    monkeypatch.setattr("perilune.analysis.reports.campaign.embedded_flights._declared_scene", lambda batch: None)
+    monkeypatch.setattr("perilune.analysis.documents.of.batch.embedded_flights._declared_scene", lambda batch: None)
     batch = traced_batch([True, True], {1: 5})
     embedded = embedded_flights(batch)
     panels = embedded.document["panels"]

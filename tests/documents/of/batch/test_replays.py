@@ -16,33 +16,31 @@ import perilune
 from perilune.analysis.campaigns.definition.campaign import Variant
 from perilune.analysis.cli import main
 from perilune.analysis.commands.campaigns import replay_command
+from perilune.analysis.documents.of.batch.content import Content
+from perilune.analysis.documents.of.batch.replays import extremes_to_replay
+from perilune.analysis.documents.render.cell_markup import cell_markup
+from perilune.analysis.documents.render.words import cell_text
 from perilune.analysis.options.fault import parse_fault
-from perilune.analysis.reports.campaign.batch_report import verdicts_of, write_batch_report
-from perilune.analysis.reports.campaign.tables import extremes_to_replay, trials_to_replay
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.series import read_series
 from tests.support.pages.checks import assert_self_contained, text_of
-from tests.support.pages.samples import DRAWS, METRICS, batch_result
+from tests.support.pages.samples import DRAWS, METRICS, batch_result, write_batch_page
 
 ONE = [(True, 0.1, 0.2), (False, 3.0, 0.1), (True, 0.3, 0.2), (False, math.nan, 0.1), *[(False, 2.0, 0.0)] * 2]
 TWO = [(True, 0.1, 0.0)] * 5 + [(True, 0.2, 0.0)]
 
 
-def plain(markup):
-    return html.fromstring(f"<p>{markup}</p>").text_content()
-
-
 def told(rows):
-    return [(row.variant, row.trial, list(map(str, row.reasons))) for row in rows]
+    return [(row.variant, row.trial, list(map(cell_markup, row.reasons))) for row in rows]
 
 
 def test_the_first_failures_and_where_a_metric_is_largest():
     """Three of the four failures of one; its tilt is largest in two trials, which tells of neither."""
     result = batch_result({"one": ONE, "two": TWO}, DRAWS + METRICS)
     ended = "stop_time (ship.status 2)"
-    actual = trials_to_replay(result, verdicts_of(result))
+    actual = Content(result).replays
     assert [(row.variant, row.trial) for row in actual] == [("one", 1), ("one", 3), ("one", 4), ("two", 5)]
-    reasons = [[plain(reason) for reason in row.reasons] for row in actual]  # miss is worst where it is no number
+    reasons = [[cell_text(reason) for reason in row.reasons] for row in actual]  # miss is worst where it is no number
     assert reasons == [[ended], [ended, "worst miss: not a number m"], [ended], ["worst miss: 0.2 m"]]
     assert len({row.anchor for row in actual}) == 4
     actual = extremes_to_replay(result)
@@ -58,7 +56,7 @@ def test_the_first_failures_and_where_a_metric_is_largest():
 def test_a_trial_in_which_two_metrics_are_largest_stands_once():
     rows = [(True, 1.0, 0.1), (True, 2.0, 0.2)]
     (actual,) = extremes_to_replay(batch_result({"default": rows}, DRAWS + METRICS))
-    assert [reason.partition(":")[0] for reason in actual.reasons] == ["miss", "tilt"]
+    assert [cell_text(reason).partition(":")[0] for reason in actual.reasons] == ["miss", "tilt"]
 
 
 def test_what_never_settles_is_largest():
@@ -69,20 +67,20 @@ def test_what_never_settles_is_largest():
 
 def test_nothing_to_fly_again(tmp_path):
     result = batch_result({"default": [(True, 0.0, 0.0)] * 3}, METRICS)
-    assert trials_to_replay(result, verdicts_of(result)) == extremes_to_replay(result) == []
-    write_batch_report(result, tmp_path / "page.html", "Calm")
+    assert Content(result).replays == extremes_to_replay(result) == []
+    write_batch_page(result, tmp_path / "page.html", "Calm")
     assert "Replay commands" not in text_of((tmp_path / "page.html").read_text(encoding="utf-8"))
 
 
 def test_they_are_on_the_page(tmp_path):
     result = batch_result({"one": ONE, "two": TWO}, DRAWS + METRICS)
-    write_batch_report(result, tmp_path / "page.html", "Again")
+    write_batch_page(result, tmp_path / "page.html", "Again")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert_self_contained(page)
-    for row in (*trials_to_replay(result, verdicts_of(result)), *extremes_to_replay(result)):
+    for row in (*Content(result).replays, *extremes_to_replay(result)):
         assert row.command in text_of(page)
     calm = batch_result({"two": TWO}, DRAWS + METRICS)
-    write_batch_report(calm, tmp_path / "calm.html", "Calm")
+    write_batch_page(calm, tmp_path / "calm.html", "Calm")
     assert "No failures: two." in text_of((tmp_path / "calm.html").read_text(encoding="utf-8"))
 
 

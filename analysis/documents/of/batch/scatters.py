@@ -1,29 +1,28 @@
-"""Scatter plots of successes and failures, a panel per variant: over declared metrics, and over influential inputs."""
+"""Scatter plots of successes and failures, a figure per variant: over declared metrics, and over influential inputs."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from markupsafe import Markup
 
-from ...campaigns.definition.campaign import Metric, Scatter
-from ...campaigns.draws.declared import input_names
-from ...campaigns.execute.results import BatchResult
-from ..chart.axes import linear_axis
-from ..chart.equal import Ends, to_scale
-from ..chart.marks import dashed_circle
-from ..chart.panel import POINTS, chart_panel
-from ..chart.symbols import mark, marker
-from ..chart.ticks import axis_ends
-from ..chart.write_svg import TrialPositions
-from ..common.colours import INK, VERMILION
-from ..common.page import exact
-from ..common.panels import PANEL_WIDTH, Panel, mark_swatch
-from ..common.quantities import display_factor, display_unit, label_with_unit, number
-from ..interactive.charts import NO_BOX, Chart, Dots
+from ....campaigns.definition.campaign import Metric, Scatter
+from ....campaigns.draws.declared import input_names
+from ....campaigns.execute.results import BatchResult
+from ....reports.chart.axes import linear_axis
+from ....reports.chart.equal import Ends, to_scale
+from ....reports.chart.marks import dashed_circle
+from ....reports.chart.panel import POINTS
+from ....reports.chart.symbols import mark, marker
+from ....reports.chart.ticks import axis_ends
+from ....reports.chart.write_svg import TrialPositions
+from ....reports.common.colours import INK, VERMILION
+from ....reports.common.panels import PANEL_WIDTH
+from ....reports.common.quantities import display_factor, label_with_unit, number
+from ....reports.interactive.charts import NO_BOX, Chart, Dots
+from ...cell import Inline, LegendEntry, Quantity, Rich
+from ...model import Figure, Figures, Node, Note
 
 SIDE = 3.4  # in, of a panel over metrics
 HEIGHT = 3.2  # in, of a panel over inputs
@@ -41,10 +40,10 @@ def outcome_dots(variant: str, names: tuple[str, str], success: np.ndarray, mini
     return [good, Dots(variant=variant, names=names, colour=VERMILION.lower(), size=CROSS * size, cross=True)]
 
 
-def legend_of_outcomes() -> Markup:
+def outcome_marks() -> list[Inline]:
     """Return the marks of successes and failures with their names."""
     success, failure = marker("o", DOT, SUCCESS), marker("x", CROSS, VERMILION, width=1.3)
-    return Markup("{}success {}failure").format(mark_swatch(success), mark_swatch(failure))
+    return [LegendEntry(success, ["success"]), " ", LegendEntry(failure, ["failure"])]
 
 
 def positions(x: np.ndarray, y: np.ndarray, success: np.ndarray) -> TrialPositions:
@@ -53,35 +52,34 @@ def positions(x: np.ndarray, y: np.ndarray, success: np.ndarray) -> TrialPositio
 
 
 def count_failures(variant: str, success: np.ndarray) -> str:
-    """Return the label of a panel: a variant with the number of its failures."""
+    """Return the label of a figure: a variant with the number of its failures."""
     return f"{variant}: {number(int(np.count_nonzero(~success)))} of {number(success.size)} failed"
 
 
-@dataclass(frozen=True)
-class ScatterFigure:
-    """A heading, a panel for each variant, and captions."""
-
-    title: str
-    panels: list[Panel]
-    notes: list[Markup]
+def scatter_title(scatter: Scatter) -> str:
+    """Return the heading of a declared scatter plot."""
+    return scatter.title or f"{scatter.y} vs. {scatter.x}"
 
 
-def scatter_figures(batch: BatchResult) -> list[ScatterFigure]:
-    """The plots of [scatter] in the order of the campaign."""
-    return [_scatter_figure(batch, scatter) for scatter in batch.plan.campaign.scatters]
-
-
-def _scatter_figure(batch: BatchResult, scatter: Scatter) -> ScatterFigure:
+def scatter_nodes(batch: BatchResult, scatter: Scatter) -> list[Node]:
+    """Return a declared scatter plot for each variant, and notes on its marks."""
     metrics = {metric.name: metric for metric in batch.plan.campaign.metrics}
     pair = (metrics[scatter.x], metrics[scatter.y])
     points = {
         variant: np.stack([sample.dots.metrics[metric.name] * display_factor(metric.unit) for metric in pair])
         for variant, sample in batch.plotted.items()
     }
-    title = scatter.title or f"{scatter.y} vs. {scatter.x}"
+    notes = _notes(scatter, pair[0], points)
+    return [Figures(partial(_scatter_figures, batch, scatter, pair, points)), *map(Note, notes)]
+
+
+def _scatter_figures(
+    batch: BatchResult, scatter: Scatter, pair: tuple[Metric, Metric], points: dict[str, np.ndarray]
+) -> list[Figure]:
+    title = scatter_title(scatter)
     ordinate = label_with_unit(pair[1].name, pair[1].unit)
     x_ends, y_ends = _limits(np.concatenate(list(points.values()), axis=1), _radius(scatter, pair[0]))
-    panels = []
+    figures = []
     for index, (variant, values) in enumerate(points.items()):
         success = batch.plotted[variant].dots.success
         chart_of = partial(scatter_chart, variant, success, scatter, pair)
@@ -89,18 +87,18 @@ def _scatter_figure(batch: BatchResult, scatter: Scatter) -> ScatterFigure:
             chart = to_scale(chart_of, x_ends, y_ends, POINTS * PANEL_WIDTH, POINTS * SIDE, title=ordinate)
         else:
             chart = chart_of(x_ends, y_ends)
-        panels.append(
-            chart_panel(
+        figures.append(
+            Figure(
                 count_failures(variant, success),
                 f"scatter-{scatter.name}-{index}",
                 f"{title}: {variant}",
                 chart,
                 SIDE,
-                title=ordinate,
+                is_narrow=True,
                 trials=positions(values[0], values[1], success),
             )
         )
-    return ScatterFigure(title, panels, _notes(scatter, pair[0], points))
+    return figures
 
 
 def scatter_chart(
@@ -113,6 +111,7 @@ def scatter_chart(
         NO_BOX,
         linear_axis(x_ends, 5, label=label_with_unit(pair[0].name, pair[0].unit)),
         linear_axis(y_ends, 6),
+        label_with_unit(pair[1].name, pair[1].unit),
         dots=outcome_dots(variant, columns, success, minimum_size=0.5),
         areas=[dashed_circle(radius, INK, 1.0)] if radius else [],
         curves=[mark(0.0, 0.0, marker("+", 8.0, INK))] if radius else [],
@@ -120,12 +119,12 @@ def scatter_chart(
 
 
 def _radius(scatter: Scatter, metric: Metric) -> float:
-    """The radius of the circle as displayed; 0 without one."""
+    """Return the radius of the circle as displayed; 0 without one."""
     return 0.0 if scatter.circle is None else display_factor(metric.unit) * scatter.circle
 
 
 def _limits(points: np.ndarray, radius: float) -> tuple[Ends, Ends]:
-    """Ends of both axes that contain all finite points and the circle."""
+    """Return ends of both axes that contain all finite points and the circle."""
     points = points[:, np.all(np.isfinite(points), axis=0)]
     circle = np.array([[-radius, radius]] * 2) if radius or not points.size else np.empty((2, 0))
     everything = np.concatenate([points, circle], axis=1)
@@ -135,22 +134,21 @@ def _limits(points: np.ndarray, radius: float) -> tuple[Ends, Ends]:
     return tuple(x), tuple(y)
 
 
-def _notes(scatter: Scatter, metric: Metric, points: dict[str, np.ndarray]) -> list[Markup]:
-    """The captions of the marks and of the circle, and the number of trials without a point."""
-    notes = [legend_of_outcomes()]
+def _notes(scatter: Scatter, metric: Metric, points: dict[str, np.ndarray]) -> list[Rich]:
+    """Return the captions of the marks and of the circle, and the number of trials without a point."""
+    notes: list[Rich] = [outcome_marks()]
     if scatter.circle is not None:
-        radius = exact(scatter.circle, metric.unit)
-        notes.append(Markup("Dashed: {} {} around the origin.").format(radius, display_unit(metric.unit)))
+        notes.append(["Dashed: ", Quantity(scatter.circle, metric.unit), " around the origin."])
     for variant, values in points.items():
         lacking = int(np.count_nonzero(~np.all(np.isfinite(values), axis=0)))
         if lacking:
-            text = Markup("{}: {} of {} trials have no finite value and are not plotted.")
-            notes.append(text.format(variant, number(lacking), number(values.shape[1])))
+            of = f"{number(lacking)} of {number(values.shape[1])} trials"
+            notes.append(f"{variant}: {of} have no finite value and are not plotted.")
     return notes
 
 
 def influence_on_success(batch: BatchResult, variant: str) -> dict[str, float]:
-    """The influence of each dispersed input on success, 0 to 1, largest first.
+    """Return the influence of each dispersed input on success, 0 to 1, largest first.
 
     It is the larger absolute correlation with success, of the input or of its distance from its mean; the latter sees
     failures at both ends. Inputs that do not vary and derived values are left out; so are all inputs without both
@@ -168,29 +166,29 @@ def influence_on_success(batch: BatchResult, variant: str) -> dict[str, float]:
     return dict(sorted(influence.items(), key=lambda item: -item[1]))
 
 
-def failure_panels(batch: BatchResult) -> list[Panel]:
+def failure_figures(batch: BatchResult) -> list[Figure]:
     """Return failures and successes over the two most influential inputs of each variant that has both."""
-    panels = []
+    figures = []
     for index, variant in enumerate(batch.rows):
         names = list(influence_on_success(batch, variant))[:2]
         if names:
             success = batch.plotted[variant].dots.success
-            panels.append(
-                chart_panel(
+            figures.append(
+                Figure(
                     count_failures(variant, success),
                     f"failures-{index}",
                     f"Failures of {variant} over {' and '.join(names)}",
                     failure_chart(batch, variant, names),
                     HEIGHT,
-                    title=names[1] if len(names) > 1 else "trial",
+                    is_narrow=True,
                     trials=positions(*_inputs(batch, variant, names), success),
                 )
             )
-    return panels
+    return figures
 
 
 def _inputs(batch: BatchResult, variant: str, names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
-    """Abscissas and ordinates of the trials over one or two inputs; over one the trial's number is the ordinate."""
+    """Return abscissas and ordinates of trials over two inputs; over one input the trial's number is the ordinate."""
     sample = batch.plotted[variant]
     draws = sample.dots.draws
     return draws[names[0]], draws[names[1]] if len(names) > 1 else sample.dots.trial.astype(float)
@@ -204,5 +202,6 @@ def failure_chart(batch: BatchResult, variant: str, names: Sequence[str]) -> Cha
         NO_BOX,
         linear_axis(axis_ends(x), 5, label=names[0]),
         linear_axis(axis_ends(y), 6),
+        names[1] if len(names) > 1 else "trial",
         dots=outcome_dots(variant, columns, batch.plotted[variant].dots.success, minimum_size=0.35),
     )

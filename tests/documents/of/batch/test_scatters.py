@@ -12,11 +12,12 @@ from dataclasses import replace
 import numpy as np
 from lxml import etree
 
-from perilune.analysis.reports.campaign.batch_report import write_batch_report
-from perilune.analysis.reports.campaign.scatters import scatter_figures
-from perilune.analysis.reports.campaign.tables import component_statuses
+from perilune.analysis.documents.of.batch.scatters import scatter_nodes, scatter_title
+from perilune.analysis.documents.of.campaign.statuses import component_statuses
+from perilune.analysis.documents.render.cell_markup import rich_markup
+from perilune.analysis.documents.render.html import panel_of
 from tests.support.pages.checks import assert_self_contained, parse, text_of
-from tests.support.pages.samples import DRAWS, batch_result
+from tests.support.pages.samples import DRAWS, batch_result, write_batch_page
 
 PLANE = """
 [metric.east]
@@ -49,21 +50,31 @@ def paths(figure):
     }
 
 
+def plotted(batch):
+    """The title of the only scatter plot of a batch, its panels and its notes as markup."""
+    (scatter,) = batch.plan.campaign.scatters
+    figures, *notes = scatter_nodes(batch, scatter)
+    return (
+        scatter_title(scatter),
+        list(map(panel_of, figures.draw())),
+        [str(rich_markup(each.content)) for each in notes],
+    )
+
+
 def test_every_finite_trial_has_its_mark():
-    (actual,) = scatter_figures(batch_result({"near": NEAR, "far": FAR[:1]}, DRAWS + CONTACTS))
-    assert actual.title == "Contact points"
-    assert [panel.label for panel in actual.panels] == ["near: 2 of 4 failed", "far: 0 of 1 failed"]
-    near, far = (paths(panel.figure.svg) for panel in actual.panels)
+    title, panels, notes = plotted(batch_result({"near": NEAR, "far": FAR[:1]}, DRAWS + CONTACTS))
+    assert title == "Contact points"
+    assert [panel.label for panel in panels] == ["near: 2 of 4 failed", "far: 0 of 1 failed"]
+    near, far = (paths(panel.figure.svg) for panel in panels)
     assert (near["#9a9a9a"].count("h0"), near["#d55e00"].count("M")) == (2, 2)  # a cross has two strokes
     assert (far["#9a9a9a"].count("h0"), far["#d55e00"]) == (1, "")
-    words = [str(note) for note in actual.notes]
-    assert words[1] == 'Dashed: <data value="10.0">10</data> m around the origin.'
-    assert words[2:] == ["near: 1 of 4 trials have no finite value and are not plotted."]
+    assert notes[1] == 'Dashed: <data value="10.0">10</data> m around the origin.'
+    assert notes[2:] == ["near: 1 of 4 trials have no finite value and are not plotted."]
 
 
 def test_the_circle_is_round_and_to_scale():
-    (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + CONTACTS))
-    root = etree.fromstring(actual.panels[0].figure.svg)
+    _, panels, _ = plotted(batch_result({"near": NEAR}, DRAWS + CONTACTS))
+    root = etree.fromstring(panels[0].figure.svg)
     wide, high = map(float, re.search(r"aspect-ratio:([\d.]+)/([\d.]+)", root.get("style")).groups())
     path = next(path for path in root.xpath("//*[@stroke='#222222']/@d") if path.count("M") > 30)
     starts = np.array([re.findall(NUMBER, stroke)[:2] for stroke in path.split("M")[1:]], dtype=float)
@@ -83,17 +94,17 @@ def test_the_circle_is_round_and_to_scale():
 
 def test_angles_are_in_degrees():
     requested = PLANE.format("rad", "rad", f"circle = {math.pi / 6}")
-    (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + requested))
-    assert actual.title == "north vs. east"
-    assert ">30</data> deg around the origin." in actual.notes[1]
-    assert "east, deg" in actual.panels[0].figure.svg
+    title, panels, notes = plotted(batch_result({"near": NEAR}, DRAWS + requested))
+    assert title == "north vs. east"
+    assert ">30</data> deg around the origin." in notes[1]
+    assert "east, deg" in panels[0].figure.svg
 
 
 def test_units_that_differ_and_nothing_finite(tmp_path):
-    (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + PLANE.format("m", "kg", "")))
-    assert "north, kg" in actual.panels[0].figure.svg
+    _, panels, _ = plotted(batch_result({"near": NEAR}, DRAWS + PLANE.format("m", "kg", "")))
+    assert "north, kg" in panels[0].figure.svg
     nothing = batch_result({"lost": [(False, math.nan, math.inf)] * 3}, DRAWS + CONTACTS)
-    write_batch_report(nothing, tmp_path / "page.html", "Lost")
+    write_batch_page(nothing, tmp_path / "page.html", "Lost")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert_self_contained(page)
     assert "lost: 3 of 3 trials have no finite value and are not plotted." in text_of(page)
@@ -101,12 +112,12 @@ def test_units_that_differ_and_nothing_finite(tmp_path):
 
 def test_statuses_are_counted_by_component_where_trials_saw_several(tmp_path):
     result = batch_result({"near": NEAR, "far": FAR}, DRAWS + CONTACTS)
-    assert component_statuses(result) == []  # the table of ends says it all
+    assert component_statuses(result.summary) == []  # the table of ends says it all
     texts = ["finished (hover.status 2, sequencer.status 4)", "finished (hover.status 2)", "finished", "stop_time"]
     result.summary["near"] = replace(result.summary["near"], statuses=Counter(texts))
     rows = [("near", "hover.status", 2, 2, 4), ("near", "sequencer.status", 4, 1, 4)]
-    assert [tuple(row) for row in component_statuses(result)] == rows
-    write_batch_report(result, tmp_path / "page.html", "Seen")
+    assert [tuple(row) for row in component_statuses(result.summary)] == rows
+    write_batch_page(result, tmp_path / "page.html", "Seen")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     (table,) = parse(page).xpath("//h3[text()='Statuses by component']/following-sibling::div[1]/table")
     cells = [[" ".join(cell.text_content().split()) for cell in row.xpath("td")] for row in table.xpath(".//tbody/tr")]

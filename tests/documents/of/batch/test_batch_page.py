@@ -1,4 +1,4 @@
-"""perilune.analysis.reports.campaign.batch_report"""
+"""The page of a batch."""
 
 import math
 import re
@@ -7,14 +7,22 @@ import numpy as np
 import pytest
 
 from perilune.analysis.campaigns.statistics import STATISTICS
-from perilune.analysis.reports.campaign.batch_report import write_batch_report
-from perilune.analysis.reports.campaign.scatters import failure_panels, influence_on_success
+from perilune.analysis.documents.of.batch.scatters import failure_figures, influence_on_success
+from perilune.analysis.documents.render.html import panel_of
 from tests.support.pages.checks import assert_self_contained, data_values, parse, section_of, text_of
-from tests.support.pages.samples import DIGEST, DRAWS, METRICS, batch_result, grouped_batch, mixed_batch
+from tests.support.pages.samples import (
+    DIGEST,
+    DRAWS,
+    METRICS,
+    batch_result,
+    grouped_batch,
+    mixed_batch,
+    write_batch_page,
+)
 
 
 def write(result, path):
-    write_batch_report(result, path, "Two ways")
+    write_batch_page(result, path)
     return path.read_text(encoding="utf-8")
 
 
@@ -147,7 +155,7 @@ def test_failures_at_both_ends_are_told_by_the_draw_that_causes_them(result):
 
 def test_scatter_counts_its_points(result):
     failed = sum(not good for good in result.trials["shaky"].success)
-    (panel,) = failure_panels(result)
+    (panel,) = map(panel_of, failure_figures(result))
     assert panel.label == f"shaky: {failed} of 40 failed"
     assert panel.figure.svg.count("h0") == 40 - failed  # a dot is a stroke without length
 

@@ -10,14 +10,14 @@ import math
 import numpy as np
 import pytest
 
-from perilune.analysis.reports.campaign.scatters import (
+from perilune.analysis.documents.of.batch.scatters import (
     _limits,
     _radius,
     failure_chart,
     influence_on_success,
     scatter_chart,
 )
-from tests.reports.campaign.test_scatters import CONTACTS, FAR, NEAR, PLANE
+from tests.documents.of.batch.test_scatters import CONTACTS, FAR, NEAR, PLANE
 from tests.support.pages.samples import DRAWS, batch_result, mixed_batch
 
 

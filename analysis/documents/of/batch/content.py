@@ -1,0 +1,72 @@
+"""Numbers of a batch that several sections of its document have, each computed once when a page needs it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from ....campaigns.columns import describe_metric
+from ....campaigns.definition.campaign import Campaign, Metric
+from ....campaigns.execute.results import BatchResult
+from ....campaigns.judged import worst_trial
+from ....reports.campaign.distributions import sort_metrics
+from ....reports.campaign.verdict_table import VerdictTable, verdict_table
+from ....reports.common.colours import Look, look
+from ..campaign.replays import Replay
+from .replays import trials_to_replay
+from .scatters import influence_on_success
+
+
+@dataclass(frozen=True)
+class Content:
+    """A batch with the looks of its variants, its metrics, verdicts, replays and influences."""
+
+    batch: BatchResult
+
+    @property
+    def campaign(self) -> Campaign:
+        """Campaign of the batch."""
+        return self.batch.plan.campaign
+
+    @cached_property
+    def metrics(self) -> list[Metric]:
+        """Metrics of the campaign with descriptions of what they are."""
+        described = self.batch.provenance["metrics"]
+        return [replace(each, description=describe_metric(described[each.name])) for each in self.campaign.metrics]
+
+    @cached_property
+    def styles(self) -> Mapping[str, Look]:
+        """Look of each variant's lines."""
+        return {variant: look(index) for index, variant in enumerate(self.batch.rows)}
+
+    @cached_property
+    def sorted_metrics(self) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
+        """Metrics that vary, constant ones, those without a finite value."""
+        return sort_metrics(self.batch)
+
+    @cached_property
+    def verdicts(self) -> VerdictTable:
+        """Verdicts on the variants, with the metrics that vary and are no truths."""
+        return verdict_table(
+            self.batch.summary,
+            [metric for metric in self.sorted_metrics[0] if not metric.expression.is_truth],
+            self.campaign.judged_expressions(),
+            lambda variant, metric, limits: worst_trial(self.batch.rows[variant], metric.name, limits.excess),
+        )
+
+    @cached_property
+    def judged(self) -> Sequence[Metric]:
+        """Metrics of success and requirements; all that vary where there are none."""
+        return [each.metric for each in self.verdicts.metrics] or self.sorted_metrics[0]
+
+    @cached_property
+    def replays(self) -> list[Replay]:
+        """First failures and worst trials."""
+        return trials_to_replay(self.batch, self.verdicts)
+
+    @cached_property
+    def influences(self) -> Mapping[str, Mapping[str, float]]:
+        """Influence of each dispersed input on success, by variant; of variants with failures and successes."""
+        influences = {variant: influence_on_success(self.batch, variant) for variant in self.batch.rows}
+        return {variant: values for variant, values in influences.items() if values}

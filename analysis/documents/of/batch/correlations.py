@@ -1,0 +1,94 @@
+"""Correlations of metrics and of success with dispersed inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from ....campaigns.draws.declared import input_names
+from ....campaigns.execute.results import BatchResult
+from ....reports.common.quantities import number
+from ....studies.sobol import rank_correlations
+from ...cell import Cell, Quantity
+from ...model import Figures, Missing, Node, Note, Section, Table
+from .content import Content
+from .scatters import failure_figures, outcome_marks
+
+MOST_INPUTS = 3  # of a metric
+
+
+class Driver(NamedTuple):
+    """A metric of a variant, and its most correlated inputs: their names and rank correlations."""
+
+    variant: str
+    metric: str
+    inputs: list[tuple[str, float]]
+
+
+def drivers(result: BatchResult) -> list[Driver]:
+    """Return a row for each metric of each variant that has a rank correlation, the largest first."""
+    names = input_names(result.plan.campaign)
+    rows = []
+    for variant, sample in result.plotted.items():
+        trials = sample.first
+        draws = {name: trials.draws[name] for name in names}
+        for metric, correlations in rank_correlations(draws, trials.metrics).items():
+            known = [(name, rho) for name, rho in correlations.items() if rho is not None]
+            known.sort(key=lambda item: -abs(item[1]))
+            if known:
+                rows.append(Driver(variant, metric, known[:MOST_INPUTS]))
+    return rows
+
+
+def driver_sections(content: Content) -> list[Section]:
+    """Return the inputs that each metric depends on most."""
+    rows = [
+        (each.variant, each.metric, ", ".join(f"{name} {number(rho, 2)}" for name, rho in each.inputs))
+        for each in drivers(content.batch)
+    ]
+    if not rows:
+        return []
+    heads = ("variant", "metric", "inputs, rank correlation")
+    note = Note(
+        "Spearman rank correlation over all trials with a finite value, up to three inputs. "
+        f"|\N{GREEK SMALL LETTER RHO}| < {_significant(content)} is not significant (5 %)."
+    )
+    nodes: list[Node] = [Table(heads, rows, style="", is_grouped=True), note]
+    return [Section("Correlation with dispersed inputs", nodes, is_folded=True)]
+
+
+def failure_section(content: Content) -> Section:
+    """Return failures over the inputs of most influence on success, and the influence of all."""
+    rates = {variant: entry.success_rate for variant, entry in content.batch.summary.items()}
+    nodes: list[Node] = []
+    for rate, text in ((1.0, "no failures"), (0.0, "all trials failed, so that no influence can be computed")):
+        variants = [variant for variant, each in rates.items() if each == rate]
+        if variants:
+            nodes.append(Missing(f"{text}: {', '.join(variants)}"))
+    if content.influences:
+        nodes += [
+            Figures(lambda: failure_figures(content.batch)),
+            Note([
+                *outcome_marks(), ", over the two most influential inputs of each variant, in the campaign's units."
+            ]),
+            _influence_table(content.influences, input_names(content.campaign)),
+            Note(
+                "Influence: larger absolute correlation with success, of the input or of its distance from its mean. "
+                f"Values below {_significant(content)} are not significant (5 %)."
+            ),
+        ]  # fmt: skip
+    elif any(0.0 < each < 1.0 for each in rates.values()):
+        nodes.append(Missing("no input is dispersed; there is no failure region"))
+    return Section("Failure region", nodes)
+
+
+def _influence_table(influences: Mapping[str, Mapping[str, float]], names: list[str]) -> Table:
+    rows: list[tuple[Cell, ...]] = [
+        (name, *(Quantity(each.get(name), digits=2) for each in influences.values())) for name in names
+    ]
+    return Table(("input", *influences), rows, style="")
+
+
+def _significant(content: Content) -> str:
+    """Return the correlation below which one is not significant (5 %)."""
+    return number(2.0 / content.batch.provenance["trials"] ** 0.5, 2)

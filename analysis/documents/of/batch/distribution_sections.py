@@ -1,0 +1,85 @@
+"""Empirical distributions of a batch's metrics: of those of success and requirements first, then of the others."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ....campaigns.definition.campaign import Metric
+from ....reports.campaign.distributions import CUMULATIVE, distribution_chart, metric_values
+from ....reports.common.colours import Look
+from ....reports.common.panels import PANEL_HEIGHT
+from ...cell import LegendEntry, Quantity
+from ...model import Figure, Figures, ForScript, Missing, Node, Note, Section
+from .content import Content
+from .embedded_trials import trials_document, trials_notes
+
+
+def distribution_section(content: Content) -> Section:
+    """Return the distributions of metrics of success and requirements, and the trials that marks stand for."""
+    batch = content.batch
+    samples = {variant: sample.note for variant, sample in batch.plotted.items() if sample.note}
+    nodes: list[Node] = [
+        ForScript("trials", "curves", trials_document(batch)),
+        *(
+            Note(
+                f"{variant}: plots and rank correlations use {text}. Tables, success probabilities and requirements "
+                "use all trials."
+            )
+            for variant, text in samples.items()
+        ),
+    ]
+    if content.judged:
+        nodes += [
+            distribution_figures(content, content.judged),
+            Note(
+                "Empirical cumulative distribution over all trials, including failures. A curve that ends below 100 % "
+                "has trials without a finite value. On logarithmic axes, values below the 1st percentile are drawn at "
+                "the left edge."
+            ),
+        ]
+    nodes.append(ForScript("", "curves", None, [Note(each) for each in trials_notes(batch)], "screen answers"))
+    if not content.metrics:
+        nodes.append(Missing("the campaign declares no metrics"))
+    return Section("Distributions", nodes)
+
+
+def other_distribution_sections(content: Content) -> list[Section]:
+    """Return the distributions of all other metrics, constant metrics and those without a finite value."""
+    varying, constant, empty = content.sorted_metrics
+    others = [metric for metric in varying if metric not in content.judged]
+    nodes: list[Node] = [
+        *([distribution_figures(content, others)] if others else []),
+        *(
+            Note([f"{metric.name} is ", Quantity(value, metric.unit), " in every trial of every variant."])
+            for metric, value in constant
+        ),
+        *(Missing(["", f"{metric.name} has no finite value in any trial"]) for metric in empty),
+    ]
+    return [Section("Other distributions", nodes, is_folded=True)] if nodes else []
+
+
+def distribution_figures(content: Content, metrics: Sequence[Metric]) -> Figures:
+    """Return the empirical distributions of metrics over all trials, with one legend."""
+    numbers = {metric: number for number, metric in enumerate(content.campaign.metrics)}
+
+    def draw() -> list[Figure]:
+        return [
+            distribution_figure(
+                metric, metric_values(content.batch, metric.name), content.styles, f"distribution-{numbers[metric]}"
+            )
+            for metric in metrics
+        ]
+
+    return Figures(draw, [LegendEntry(look, [variant]) for variant, look in content.styles.items()], is_in_order=True)
+
+
+def distribution_figure(
+    metric: Metric, samples: Mapping[str, np.ndarray], styles: Mapping[str, Look], name: str
+) -> Figure:
+    """Return the empirical distribution of a metric by variant; ``name`` is that of the figure."""
+    chart = replace(distribution_chart(metric, samples, list(styles.values())), title=CUMULATIVE)
+    words = f"Cumulative distribution of {metric.name}"
+    return Figure(metric.name, name, words, chart, PANEL_HEIGHT, is_narrow=True)

@@ -1,0 +1,38 @@
+"""The header of a batch's page: verdicts, lost trials, the success criterion, the command that repeats it."""
+
+from __future__ import annotations
+
+from ....campaigns.lost_trials import lost_of
+from ....commands.campaigns import batch_command
+from ...cell import Code, Quantity
+from ...model import KeyNumbers, Node, Repeat, Text
+from ..campaign.origin import condition_notes
+from ..campaign.replays import anchors_of
+from ..campaign.verdicts import verdict_nodes
+from .content import Content
+
+
+def header_nodes(content: Content) -> list[Node]:
+    """Return the verdicts on the variants and the conditions of the batch."""
+    campaign, provenance = content.campaign, content.batch.provenance
+    command = batch_command(content.batch.plan)
+    return [
+        *([Text(campaign.description.removesuffix("."), style="lead")] if campaign.description else []),
+        *verdict_nodes(content.verdicts, content.styles, anchors_of(content.replays)),
+        *(Text(["", line], style="fail") for line in lost_of(content.batch.summary)),
+        Text([
+            "success criterion: ", Code(campaign.success.text),
+            ". All variants use the same samples of the dispersed parameters",
+        ]),
+        *([Repeat(command)] if command else []),
+        KeyNumbers([
+            ("system", provenance["system"]),
+            ("variants", str(len(content.batch.summary))),
+            ("trials per variant", provenance["trials"]),
+            ("seed", provenance["seed"]),
+            ("communication step", Quantity(provenance["step"], "s")),
+            ("algorithm", provenance["algorithm"]),
+            ("perilune", provenance["perilune"]),
+        ]),
+        *condition_notes(provenance),
+    ]  # fmt: skip

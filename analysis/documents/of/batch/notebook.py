@@ -1,0 +1,52 @@
+"""Nodes of a batch in a notebook: success rates, requirements, statistics and distributions of metrics."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import PurePath
+
+from .....common.percent import short_percent
+from ....campaigns.summary import CONFIDENCE, SummaryRow, summary_rows
+from ....campaigns.tables import requirement_rows, who_cells, who_heads
+from ...cell import Cell
+from ...model import Node, Table, Text
+from ..campaign.metrics import metric_summary
+from ..campaign.variants import interval_head
+from .content import Content
+from .distribution_sections import distribution_figures
+
+
+def notebook_nodes(content: Content) -> list[Node]:
+    """Return the campaign's name, faults, tables of rates, requirements and metrics, and distributions."""
+    campaign, rows = content.campaign, summary_rows(content.batch.summary)
+    faults = content.batch.plan.fault_texts()
+    return [
+        Text(PurePath(campaign.file).name),
+        *([Text(f"with faults: {'; '.join(faults)}")] if faults else []),
+        _rate_table(rows, campaign.group),
+        _requirement_table(content),
+        metric_summary(rows, campaign.metrics, campaign.group),
+        *([distribution_figures(content, varying)] if (varying := content.sorted_metrics[0]) else []),
+    ]
+
+
+def _rate_table(rows: Sequence[SummaryRow], group: str | None) -> Table:
+    body: list[Sequence[Cell]] = [
+        (
+            *who_cells(row, group),
+            row.entry.trials,
+            short_percent(row.entry.success_rate),
+            " to ".join(short_percent(end) for end in row.entry.success_interval),
+            ", ".join(f"{count} {status}" for status, count in row.entry.statuses.items()),
+        )
+        for row in rows
+    ]
+    return Table((*who_heads(group), "trials", "success, %", interval_head(CONFIDENCE), "statuses"), body)
+
+
+def _requirement_table(content: Content) -> Table:
+    rows = [
+        (f"{name}: {entry.text}", variant, entry.verdict, entry.flights, entry.failures)
+        for variant, name, entry in requirement_rows(content.batch.summary)
+    ]
+    return Table(("requirement", "variant", "verdict", "flights", "failures"), rows)

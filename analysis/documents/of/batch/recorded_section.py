@@ -1,0 +1,22 @@
+"""Recorded simulations of a batch on its page: a scene of all, and signals of a pinned trial."""
+
+from __future__ import annotations
+
+from ....campaigns.execute.results import BatchResult
+from ...model import ForScript, Node, Note, Scene, Section
+from .embedded_flights import embedded_flights
+
+
+def recorded_sections(batch: BatchResult) -> list[Section]:
+    """Return the recorded simulations, which only scripts can show; nothing where the batch recorded none."""
+    embedded = embedded_flights(batch)
+    if embedded is None:
+        return []
+    pinned = Note("A pinned trial has its signals over time next to its numbers.")
+    nodes: list[Node] = [
+        *([Scene(embedded.scene.scene, notes=embedded.scene.notes)] if embedded.scene is not None else []),
+        Note(" ".join(embedded.notes)),
+        ForScript("", "curves", None, [pinned], "answers"),
+    ]
+    recorded = ForScript("recorded", "curves", embedded.document, nodes, anchor="flights")
+    return [Section("Recorded flights", [recorded], style="screen")]

@@ -1,0 +1,73 @@
+"""Trials of a batch worth a second look: first failures, worst trials of metrics with limits, maxima."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ....campaigns.execute.results import BatchResult
+from ....campaigns.trials import TrialTable
+from ....commands.campaigns import replay_command, replay_of_folder
+from ....reports.campaign.verdict_table import VerdictTable
+from ...cell import Cell
+from ..campaign.replays import FAILURES, Replay, value_reason, with_anchors, worst_reasons
+
+Reasons = list[tuple[int, Cell]]  # trials with a reason each
+
+
+def trials_to_replay(result: BatchResult, table: VerdictTable) -> list[Replay]:
+    """Return the first failures of each variant, and its worst trials of metrics with limits; rows have anchors."""
+    worst = {row.variant: worst_reasons(row, table.metrics) for row in table.rows}
+    return with_anchors(_replays(result, lambda result, variant: _failures(result, variant) + worst[variant]))
+
+
+def extremes_to_replay(result: BatchResult) -> list[Replay]:
+    """Return the trials with the maximum of a metric of a variant, each once."""
+    return _replays(result, _extremes)
+
+
+def _replays(result: BatchResult, choose: Callable[[BatchResult, str], Reasons]) -> list[Replay]:
+    replays: list[Replay] = []
+    for variant in result.plan.campaign.variants():
+        reasons: dict[int, list[Cell]] = {}
+        for trial, reason in choose(result, variant.name):
+            reasons.setdefault(trial, []).append(reason)
+        for trial, texts in reasons.items():
+            if result.folder is None:
+                command = replay_command(result.plan, variant, trial)
+            else:
+                command = replay_of_folder(result.folder, result.rows, variant.name, trial)
+            replays.append(Replay(variant.name, trial, texts, command))
+    return replays
+
+
+def _failures(result: BatchResult, variant: str) -> Reasons:
+    failures: Reasons = []
+    for part in result.rows[variant].parts("trial", "success", "status"):
+        for row in np.flatnonzero(~part["success"])[: FAILURES - len(failures)]:
+            failures.append((int(part["trial"][row]), str(part["status"][row])))
+        if len(failures) == FAILURES:
+            break
+    return failures
+
+
+def _extremes(result: BatchResult, variant: str) -> Reasons:
+    """Return the trial with the maximum of each metric, unless several trials have it."""
+    extremes: Reasons = []
+    for metric in result.plan.campaign.metrics:
+        maximum, trials = _maximum(result.rows[variant], f"metric.{metric.name}")
+        if len(trials) == 1:
+            extremes.append((trials[0], value_reason(metric, maximum)))
+    return extremes
+
+
+def _maximum(rows: TrialTable, column: str) -> tuple[float, list[int]]:
+    """Return the maximum of a column, nan counting as minus infinity, and up to two of the trials that have it."""
+    maximum, trials = -np.inf, list[int]()
+    for part in rows.parts("trial", column):
+        values = np.where(np.isnan(part[column]), -np.inf, part[column])
+        if values.max() > maximum:
+            maximum, trials = float(values.max()), []
+        trials += part["trial"][np.flatnonzero(values == maximum)[: 2 - len(trials)]].tolist()
+    return maximum, trials

@@ -1,0 +1,25 @@
+"""The document of a stored campaign in a notebook: its columns, and the command that replays a trial."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import PurePath
+
+from ....campaigns.folder.opened import OpenedResults
+from ...model import Document, Table, Text
+
+
+def stored_document(results: OpenedResults) -> Document:
+    """Return a campaign's folder: the number of its trials, their columns with units and meanings."""
+    rows = [(name, column.unit or "", column.meaning) for name, column in results.columns.items()]
+    trials = f"{results.flown} of {results.trials} trials of {', '.join(results.variants)}"
+    named = " --configuration NAME" if len(results.variants) > 1 else ""
+    folder = str(results.source.folder)
+    words = [
+        Text(f"{PurePath(results.provenance['campaign']).name}: {trials}"),
+        Text(folder),
+        Text(f"a trial again: perilune replay {shlex.quote(folder)} TRIAL{named}"),
+    ]
+    return Document(
+        results.provenance["system"], [*words, Table(("column", "unit", "meaning"), rows)], [], results.provenance
+    )
