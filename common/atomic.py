@@ -1,4 +1,4 @@
-"""Files that are whole or not there: written beside their place, then moved into it."""
+"""Atomic files, whole or absent: written next to their path, then moved to it."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ PARTIAL = ".partial"
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """A place to write ``path`` to, which takes its place when all is written; its folder is made.
+    """Yield a temporary path, which replaces ``path`` when all is written; its folder is created.
 
-    Whoever looks at ``path``, now or after a crash, finds the old content or the new one. Raises OSError naming
+    A reader of ``path``, now or after a crash, finds the old content or the new one. Raises OSError naming
     ``path`` where it cannot be written, a full disk for instance, with nothing left of it.
     """
     partial = path.with_name(f".{path.name}.{os.getpid()}{PARTIAL}")

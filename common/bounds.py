@@ -1,6 +1,6 @@
-"""How large files and flights may be, before memory is taken for them: all bounds, and how to change them.
+"""Bounds on the size of files and simulations before memory is allocated, and their environment variables.
 
-Whoever needs more sets the environment variable of a bound, PERILUNE_ and its name in capitals.
+A bound is changed by its environment variable, PERILUNE_ and its name in capitals.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ class ExcessError(InputError):
 
 @dataclass(frozen=True)
 class Bound:
-    """At most so many: ``default`` unless the environment says otherwise; ``subject`` is what is counted."""
+    """Upper bound: ``default`` unless the environment sets another; ``subject`` is the counted quantity."""
 
     name: str
     default: float
@@ -87,7 +87,7 @@ DOCUMENTS = (".ssd", ".ssv", ".ssm", ".ssb", ".xml")
 
 
 def bound_of(name: str) -> Bound:
-    """The bound of a file by what its name ends in."""
+    """Return the bound of a file by the ending of its name."""
     if name.endswith(DOCUMENTS):
         return XML_BYTES
     return CAMPAIGN_BYTES if name.endswith(".toml") else ARCHIVE_BYTES

@@ -1,4 +1,4 @@
-"""Python's garbage collector, which would walk again and again over what is only being made."""
+"""Control of Python's garbage collector, which would traverse large structures repeatedly during their creation."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def no_collection() -> Iterator[None]:
-    """What is made inside has no cycles, and the collector would walk over all of it again and again."""
+    """Disable the collector: objects created inside have no cycles, and it would traverse all of them repeatedly."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:

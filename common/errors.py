@@ -1,4 +1,4 @@
-"""What wrong input ends in, one line that says where, what and what to do, and what an exit status says."""
+"""Errors of wrong input, one line that says where, what and what to do, and exit statuses."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import Any
 
 
 class ExitStatus(IntEnum):
-    """Of any verb."""
+    """Exit status of any verb."""
 
     MET = 0  # done, and everything that was to hold does
     NOT_MET = 1  # done, and something is violated, withheld or not evaluated, or a flight did not finish
@@ -25,10 +25,10 @@ PARAMETER = re.compile(r"`(\w+)`")  # how a message marks the name of a paramete
 class InputError(ValueError):
     """Input that is wrong: a file, an option, a name.
 
-    ``file`` is where the input came from (a path, or a parameter such as `` `require` ``),
-    ``element`` the part of it that is wrong, ``problem`` what is wrong and ``remedy`` what to
-    do. Parameters stand between backquotes, in all four: Python shows their names, the command line
-    its options. The command line prints the error as one line and exits with status 2.
+    ``file`` is where the input came from (a path, or a parameter such as `` `require` ``), ``element`` the wrong
+    element of it, ``problem`` what is wrong and ``remedy`` what to do. Parameters stand between backquotes, in all
+    four: Python shows their names, the command line its options. The command line prints the error as one line and
+    exits with status 2.
     """
 
     def __init__(self, file: str | os.PathLike[str], element: str, problem: str, remedy: str) -> None:
@@ -43,11 +43,11 @@ class InputError(ValueError):
         return self.line({})
 
     def line(self, flags: Mapping[str, str]) -> str:
-        """The error in one line, each parameter called as ``flags`` say, or by its name."""
+        """Return the error in one line, each parameter called as ``flags`` say, or by its name."""
         return call_by_flags(self.text, flags)
 
     def lines(self, flags: Mapping[str, str]) -> list[str]:
-        """What the command line prints: one line, of `SeveralProblemsError` one for each."""
+        """Return the lines that the command line prints: one, of `SeveralProblemsError` one for each."""
         return [self.line(flags)]
 
     @property
@@ -79,12 +79,12 @@ class SeveralProblemsError(InputError):
         return "\n".join(self.texts)
 
     def lines(self, flags: Mapping[str, str]) -> list[str]:
-        """A line for each."""
+        """Return a line for each."""
         return [call_by_flags(text, flags) for text in self.texts]
 
 
 def call_by_flags(text: str, flags: Mapping[str, str]) -> str:
-    """A message with each parameter called as ``flags`` say, or by its name."""
+    """Return a message with each parameter called as ``flags`` say, or by its name."""
     return PARAMETER.sub(lambda match: flags.get(match[1], match[1]), text)
 
 
@@ -122,7 +122,8 @@ NEAR = 0.6  # of difflib's ratio, 1 for the same
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
-    """A remedy for an unknown name: the nearest of the known ones first, or all where there are few or none is near."""
+    """Return a remedy for an unknown name: the nearest of the known ones first, or all where
+    there are few or none is near."""
     names = sorted(set(known), key=_natural)
     if not names:
         return "there is none to choose from here"
@@ -142,5 +143,5 @@ def suggestion(name: str, known: Iterable[str]) -> str:
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
-    """What names are ordered by: x[2] before x[10]."""
+    """Return the sort key of names: x[2] before x[10]."""
     return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", name)]

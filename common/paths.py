@@ -1,7 +1,7 @@
-"""Where things lie: systems, laws, built FMUs beside the rooms in a checkout, inside the package where it is installed.
+"""Paths: systems, laws, built FMUs next to the rooms in a checkout, inside the package where it is installed.
 
-What is built or compiled on the way goes to `CACHE`, what a user builds to the working folder: an installed package is
-never written to.
+Files built or compiled on the way go to `CACHE`, a user's builds to the working folder: an installed package is never
+written to.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ CACHE = BUILD / "cache" if IS_CHECKOUT else user_cache_path("perilune", appautho
 
 
 def shipped_fmu(name: str, flavour: str) -> Path:
-    """The file that `build_fmus.py` writes for a block; it need not exist."""
+    """Return the file that `build_fmus.py` writes for a block; it need not exist."""
     return BUILD / "fmus" / flavour / f"{name}.fmu"
 
 
 def own_fmu(name: str, flavour: str) -> Path:
-    """The file that `perilune export` writes for a block of one's own, in the working folder; it need not exist."""
+    """Return the file that `perilune export` writes for a user's block, in the working folder; it need not exist."""
     return Path.cwd() / "build" / "fmus" / flavour / f"{name}.fmu"
 
 
 def own_fmus(name: str, flavour: str, system: Path | None) -> list[Path]:
-    """Where an FMU of one's own is looked for: in the working folder, then beside the folder of its ``system``."""
+    """Return the paths searched for a user's FMU: in the working folder, then next to the folder of its ``system``."""
     places = [own_fmu(name, flavour)]
     if system is not None:
         beside = system.resolve().parent / "build" / "fmus" / flavour / f"{name}.fmu"
@@ -44,5 +44,5 @@ def own_fmus(name: str, flavour: str, system: Path | None) -> list[Path]:
 
 
 def names_fmu(name: str | os.PathLike[str]) -> bool:
-    """Whether a name is that of an FMU's file; some tools write the suffix in capitals."""
+    """Return True if a name is that of an FMU's file; some tools write the suffix in capitals."""
     return os.fspath(name).lower().endswith(".fmu")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 
 def percent(fraction: float, decimals: int = 2) -> str:
-    """A fraction from 0 to 1 in %, without the sign, to so many decimals: ``99.50``.
+    """Format a fraction from 0 to 1 in %, without the sign, to ``decimals`` decimals: ``99.50``.
 
-    What is neither 0 nor 1 never reads as 0 or 100: it is ``< 0.01`` or ``> 99.99``.
+    Fractions other than 0 and 1 never read as 0 or 100: they are ``< 0.01`` or ``> 99.99``.
     """
     text, minimum = f"{100.0 * fraction:.{decimals}f}", 10.0**-decimals
     if fraction > 0.0 and float(text) == 0.0:
@@ -17,6 +17,6 @@ def percent(fraction: float, decimals: int = 2) -> str:
 
 
 def short_percent(fraction: float, decimals: int = 2) -> str:
-    """The same without zeros at the end, as a text has it: ``99.5``."""
+    """Format the same without zeros at the end, as in running text: ``99.5``."""
     text = percent(fraction, decimals)
     return text.rstrip("0").rstrip(".") if "." in text else text

@@ -37,7 +37,7 @@ class Stream:
 
     @property
     def is_cut(self) -> bool:
-        """Whether something was lost that a reader was there for: not where it has closed its end of a pipe."""
+        """True if output was lost that had a reader: not where it has closed its end of a pipe."""
         return self.error is not None and self.error.errno not in CLOSED
 
     def write(self, text: str) -> int:
@@ -90,7 +90,7 @@ _farewells: list[Callable[[], object]] = []
 
 
 def at_end(farewell: Callable[[], object]) -> None:
-    """Have something done when this process ends, by `leave` too; the last one first."""
+    """Register a function to call when this process ends, by `leave` too; the last one first."""
     _farewells.append(farewell)
     atexit.register(farewell)
 
@@ -98,7 +98,7 @@ def at_end(farewell: Callable[[], object]) -> None:
 def leave(status: int) -> NoReturn:
     """End the process at once with an exit status; what was written to standard output and error is not lost.
 
-    What `at_end` was given is done.
+    Functions of `at_end` are called.
     """
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:  # a process can be started without them

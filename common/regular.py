@@ -20,7 +20,7 @@ KINDS = {
 
 
 def is_regular(path: Path) -> bool:
-    """Whether a file is there, and no link; its folder may be one."""
+    """Return True if a file exists, and is no link; its folder may be one."""
     try:
         return stat.S_ISREG(path.lstat().st_mode)
     except OSError:
@@ -39,7 +39,7 @@ def check_folder(path: Path, remedy: str) -> None:
 
 
 def names_file(path: str | os.PathLike[str]) -> bool:
-    """Whether there is a regular file of a name, perhaps by a link; False for what cannot be a name."""
+    """Return True if there is a regular file of a name, perhaps by a link; False for text that cannot be a name."""
     try:
         return Path(path).is_file()
     except (OSError, ValueError):
@@ -47,13 +47,13 @@ def names_file(path: str | os.PathLike[str]) -> bool:
 
 
 def read_input(path: str | os.PathLike[str], remedy: str, bound: Bound) -> bytes:
-    """The content of a file that is given by its path, perhaps by a link; nothing else is opened. Raises InputError."""
+    """Read a file by its path, perhaps by a link; nothing else is opened. Raises InputError."""
     bound.check(_size(Path(path), remedy, follow_links=True), path, "")
     return _read(Path(path), remedy)
 
 
 def read_regular(path: Path, remedy: str, limit: float) -> bytes:
-    """The content of a regular file of at most so many bytes. Raises InputError."""
+    """Read a regular file of at most ``limit`` bytes. Raises InputError."""
     size = _size(path, remedy, follow_links=False)
     if size > limit:
         raise InputError(path, "", f"{size} bytes, at most {limit:.6g} are read", remedy)

@@ -1,4 +1,5 @@
-"""Folders for a while: they go with the process that made them or, should it be killed, when the next one makes one."""
+"""Temporary folders: removed with the process that created them or, should it be killed, when the next one creates
+one."""
 
 from __future__ import annotations
 
@@ -20,7 +21,7 @@ YOUNG = 60.0  # s, in which a folder may not be locked yet
 
 
 def make_folder() -> Path:
-    """A new folder among the temporary files; whoever made it removes it, or it goes with the process."""
+    """Create a temporary folder; its creator removes it, or it goes with the process."""
     return Path(tempfile.mkdtemp(dir=_folder()[0]))
 
 
@@ -32,7 +33,7 @@ def _remove_all() -> None:
 
 @cache
 def _folder() -> tuple[Path, FileLock]:
-    """The folder that has all of this process's, and its lock."""
+    """Return the folder that has all of this process's, and its lock."""
     folder = Path(tempfile.mkdtemp(prefix=PREFIX))
     _sweep(folder.stat().st_uid)
     at_end(_remove_all)

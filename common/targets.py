@@ -1,4 +1,4 @@
-"""Where a command's results go: looked at before anything flies, written each for itself at the end."""
+"""Destinations of a command's results: checked before any simulation, each written separately at the end."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ def check_encoding(option: str, name: str) -> None:
 
 
 def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), new_folders: int = 1) -> None:
-    """Refuse a file that cannot be written, before anything flies: writing is tried. Raises InputError.
+    """Refuse a file that cannot be written, before any simulation: writing is tried. Raises InputError.
 
-    ``new_folders`` are made at most, none of them in the root.
+    ``new_folders`` are created at most, none of them in the root.
     """
     if path is None:
         return
@@ -100,10 +100,9 @@ def _check_folder(option: str, path: Path, folder: Path, new_folders: int) -> No
 
 
 class Results:
-    """What a command writes: one that cannot be written keeps no other from it.
+    """Results of a command: one that cannot be written keeps no other from it.
 
-    Made before an FMU is loaded, since one may change the process's working folder, from which relative paths are
-    meant.
+    Created before an FMU is loaded, since one may change the process's working folder, to which paths are relative.
     """
 
     def __init__(self) -> None:
@@ -124,6 +123,6 @@ class Results:
             self.written.append(path)
 
     def say(self) -> None:
-        """Where the files are, on the terminal."""
+        """Print the paths of the files."""
         if self.written:
             print(f"written: {', '.join(map(str, self.written))}")

@@ -12,7 +12,7 @@ OMITTED = "omitted where empty"
 
 
 def optional(default: Any = None) -> Any:
-    """A field of a dataclass that JSON leaves out where it is None or an empty mapping; {} by `optional({})`."""
+    """Declare a field of a dataclass that JSON omits where it is None or an empty mapping; {} by `optional({})`."""
     if isinstance(default, dict):
         return field(default_factory=dict, metadata={OMITTED: True})
     return field(default=default, metadata={OMITTED: True})

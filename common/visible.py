@@ -12,23 +12,23 @@ BREAKS = re.compile("[\n\r\u2028\u2029]")
 
 
 def visible(text: str) -> str:
-    """The text with such characters as ``\\x1b`` or ``\\u202e``, which JSON reads, too."""
+    """Return the text with such characters as ``\\x1b`` or ``\\u202e``, which JSON reads, too."""
     return CONTROLS.sub(_escape, text)
 
 
 def on_one_line(text: str) -> str:
-    """The text with its line breaks escaped, so that a name of others does not write lines of its own."""
+    """Return the text with its line breaks escaped, so that foreign names do not write separate lines."""
     return BREAKS.sub(_escape, text)
 
 
 def visible_line(text: str, longest: int) -> str:
-    """At most so many characters of it, on one line: lines and columns become blanks."""
+    """Return at most ``longest`` characters of it, on one line: lines and columns become blanks."""
     line = visible(" ".join(text.split()))
     return line if len(line) <= longest else f"{line[:longest]} ..."
 
 
 def first_ones(lines: Sequence[str], limit: int, things: str = "") -> list[str]:
-    """At most so many lines, and one that counts the others, ``things``."""
+    """Return at most ``limit`` lines, and one that counts the others, ``things``."""
     more = f"and {len(lines) - limit} more {things}".rstrip()
     return [*lines[:limit], more] if len(lines) > limit else list(lines)
 
@@ -43,11 +43,11 @@ QUOTE = "'"  # what follows it is text to a spreadsheet
 
 
 def quote_formula(name: str) -> str:
-    """The name with a quote mark before it if it would be a formula, or would be read as a quoted one."""
+    """Return the name with a quote mark before it if it would be a formula, or would be read as a quoted one."""
     return f"{QUOTE}{name}" if name.lstrip(QUOTE).startswith(FORMULAS) else name
 
 
 def unquote_formula(text: str) -> str:
-    """The name that `quote_formula` was given; one that was never quoted is returned as it is."""
+    """Return the argument of `quote_formula`; a name that was never quoted is returned as it is."""
     is_quoted = text.startswith(QUOTE) and text.lstrip(QUOTE).startswith(FORMULAS)
     return text[1:] if is_quoted else text

@@ -33,7 +33,7 @@ UNREADABLE = (
 
 
 def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
-    """A zip archive of which nothing is unpacked yet; raises InputError for anything else."""
+    """Open a zip archive without unpacking it; raises InputError for anything else."""
     end = packed.rfind(END)
     if end >= 0:  # before zipfile makes an object of every entry; 65535 stands for as many or more
         ARCHIVE_ENTRIES.check(int.from_bytes(packed[end + 10 : end + 12], "little"), label, "archive")

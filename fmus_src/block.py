@@ -1,7 +1,7 @@
-"""How a component is declared: one class, its variables (`variables`) as class attributes.
+"""Declaration of a component: one class, its variables (`variables`) as class attributes.
 
-Everything else about a component (modelDescription.xml, connectors, C struct, tables in the
-docs) is derived from these declarations.
+Everything else about a component (modelDescription.xml, connectors, C struct, tables in the docs) is derived from these
+declarations.
 """
 
 from __future__ import annotations
@@ -81,7 +81,8 @@ class Block(DataFiles, HasExternalState):
 
     @classmethod
     def _check_redeclared(cls, name: str, value: Variable) -> None:
-        """Starts and bounds may be declared again, what a variable is may not: others connect to it."""
+        """Check a redeclaration: starts and bounds may change, the kind of a variable may not,
+        since others connect to it."""
         before = cls.variables.get(name)
         if before is not None and before.causality != value.causality:
             kinds = f"a {value.causality} here, of causality {before.causality} in what {cls.__name__} derives from"
@@ -148,7 +149,7 @@ class Block(DataFiles, HasExternalState):
 
 
 def _bundles_of(owner: type) -> dict[str, Connectors]:
-    """The bundles that a class itself has, by name."""
+    """Return the bundles that a class itself has, by name."""
     return {name: bundle for name, bundle in vars(owner).items() if isinstance(bundle, Connectors)}
 
 

@@ -1,4 +1,4 @@
-"""Bundles: ports that are connected together, declared once for all who give and who take them.
+"""Bundles: ports that are connected together, declared once for all sources and targets.
 
     class ThrustCommand(Bundle):
         thrust_acceleration = Port(0.0, unit="m/s2", description="thrust over mass")
@@ -7,7 +7,7 @@
     command = Outputs(ThrustCommand, direct=True)
     braking = Inputs(ThrustCommand, prefix="braking_", about="of the braking guidance:")
 
-Each member is a variable of its own, as ``braking_burn_duration``, which kernels read and assign as
+Each member is a separate variable, as ``braking_burn_duration``, which kernels read and assign as
 ``self.braking.burn_duration``. ``self.command = self.braking`` assigns them all.
 """
 
@@ -61,7 +61,7 @@ class Connectors(Generic[B]):
             variable.__set_name__(owner, full)
 
     def make(self, port: Port, description: str, start: Any) -> Input | Output:
-        """The variable of a member."""
+        """Create the variable of a member."""
         raise NotImplementedError
 
     def __get__(self, instance: Any, owner: type | None = None) -> B:
@@ -104,7 +104,7 @@ class _View:
 
 
 def _make_view(bundle: type[Bundle], names: dict[str, str]) -> type[_View]:
-    """A class of views, whose properties are the block's variables."""
+    """Return a class of views, whose properties are the block's variables."""
     members: dict[str, Any] = {member: _make_property(name) for member, name in names.items()}
     return type(bundle.__name__, (_View,), {"__slots__": (), "bundle": bundle, **members})
 

@@ -23,7 +23,7 @@ CLASS = re.compile(r"^class (\w+)", re.MULTILINE)
 
 
 def blocks_of(module: ModuleType) -> list[type[Block]]:
-    """The blocks that a module itself defines, in order of definition; interfaces are left out."""
+    """Return the blocks that a module itself defines, in order of definition; interfaces are left out."""
     blocks = [
         value
         for value in vars(module).values()
@@ -33,7 +33,7 @@ def blocks_of(module: ModuleType) -> list[type[Block]]:
 
 
 def is_shipped(block_class: type[Block]) -> bool:
-    """True if a block is of Perilune, false of a user's."""
+    """Return True if a block is of Perilune, false of a user's."""
     return block_class.__module__.startswith(f"{__package__}.")
 
 
@@ -61,7 +61,8 @@ def _catalogue() -> dict[str, type[Block]]:
 
 @cache
 def block_kinds() -> dict[str, str]:
-    """The kind of every block of the repository by FMU name, without importing a block; of its other classes, too."""
+    """Return the kind of every block of the repository by FMU name, without importing a block;
+    of its other classes, too."""
     return {
         snake_case(name): kind
         for kind in KINDS
@@ -71,7 +72,7 @@ def block_kinds() -> dict[str, str]:
 
 
 def blocks_in_file(path: Path) -> list[type[Block]]:
-    """The blocks defined in a Python file outside the repository.
+    """Return the blocks defined in a Python file outside the repository.
 
     Raises ValueError, with the file's name, when there is none or the file does not import.
     """

@@ -13,10 +13,11 @@ from .variables import DeclarationError, Variable
 
 
 class ExternalState:
-    """An object with state of its own: ``simulation = ExternalState("the plant as Basilisk simulates it")``.
+    """Object with internal state: ``simulation = ExternalState("the plant as Basilisk simulates it")``.
 
-    It is None until `initialize` assigns it, and again whenever the block is initialised or reset, so that no flight
-    sees what another one left. An FMU with one can neither save nor restore its state, and flies in another process.
+    It is None until `initialize` assigns it, and again whenever the block is initialised or reset, so that no
+    simulation depends on another one. An FMU with one can neither save nor restore its state, and runs in another
+    process.
     """
 
     def __init__(self, description: str) -> None:
@@ -30,7 +31,7 @@ class ExternalState:
 
 
 class HasExternalState:
-    """What a block inherits that may declare `ExternalState`: their names, and that all of them can be dropped."""
+    """Base of blocks that may declare `ExternalState`: their names, and their removal."""
 
     external: ClassVar[tuple[str, ...]] = ()
     python_only: ClassVar[bool]
@@ -65,9 +66,9 @@ class DataFiles:
     fmu_resources: str | None = None  # the folder of the FMU that the instance runs in, set by the FMU
 
     def data_path(self, name: str) -> Path:
-        """The path of a file that ``data`` declares: next to the block's source, or in the FMU's resources.
+        """Return the path of a file that ``data`` declares: next to the block's source, or in the FMU's resources.
 
-        Valid as long as the instance lives: an importer unpacks an FMU anew for each of its runs. Raises ValueError
+        Valid as long as the instance lives: an importer unpacks an FMU again for each of its runs. Raises ValueError
         for a name that is not declared.
         """
         for owner in type(self).__mro__:

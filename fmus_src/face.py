@@ -1,4 +1,4 @@
-"""What one needs to write a block, by name and the module that defines it.
+"""Public names for writing a block, with the module that defines each.
 
 `from perilune import TerminalGuidance` finds it here, and so does an FMU, whose packed files know no `perilune`: they
 import from this module, since a name of a package is that of its submodule (`block`) where there is one.

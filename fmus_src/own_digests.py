@@ -1,7 +1,7 @@
-"""Which FMUs are Perilune's own: known by the SHA-256 of their files, never by what they say of themselves.
+"""Registry of Perilune's own FMUs: known by the SHA-256 of their files, never by their declarations.
 
 The lists have the format of sha256sum. `build_fmus.py` writes one into each folder that it builds, which the wheel
-ships; a list in the cache folder has whatever was built on this machine. All other FMUs are foreign code.
+ships; a list in the cache folder has all FMUs built on this machine. All others are foreign code.
 """
 
 from __future__ import annotations
@@ -38,12 +38,13 @@ def _digest(content: bytes) -> str:
 
 
 def is_own(digest: str) -> bool:
-    """Whether the FMU with this SHA-256 is one that Perilune built."""
+    """Return True if the FMU with this SHA-256 was built by Perilune."""
     return digest in _built_here or any(digest in _digests_in(path, *_version(path)) for path in LISTS)
 
 
 def has_foreign(path: Path) -> bool:
-    """Whether a file, or a folder with its subfolders, has FMUs that Perilune has not built; False where unreadable."""
+    """Return True if a file, or a folder with its subfolders, has FMUs that Perilune has not
+    built; False where unreadable."""
     try:
         if names_fmu(path):
             return not is_own(_digest(read_input(path, "", ARCHIVE_BYTES)))

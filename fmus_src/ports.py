@@ -10,7 +10,7 @@ from .variables import Input, Output, Parameter, State
 class Port:
     """Start, unit, frame, bounds and description of a quantity, from which blocks declare their variables.
 
-    A variable may have a start, a description or bounds of its own; what it is and its unit are the port's.
+    A variable may have another start, description or bounds; its quantity and unit are the port's.
     """
 
     def __init__(self, start: Any, **declaration: Any) -> None:
@@ -24,7 +24,7 @@ class Port:
         def __set__(self, instance: object, value: Any) -> None: ...
 
     def input(self, description: str | None = None, *, start: Any = None, **changes: Any) -> Input:
-        """An input for it."""
+        """Declare an input for it."""
         return Input(*self._start(start), **self._complete(description, changes))
 
     def output(
@@ -35,15 +35,15 @@ class Port:
         direct: bool | tuple[str, ...] = False,
         **changes: Any,
     ) -> Output:
-        """An output of it."""
+        """Declare an output of it."""
         return Output(*self._start(start), direct=direct, **self._complete(description, changes))
 
     def parameter(self, start: Any = None, description: str | None = None, **changes: Any) -> Parameter:
-        """A parameter that sets it."""
+        """Declare a parameter that sets it."""
         return Parameter(*self._start(start), **self._complete(description, changes))
 
     def state(self, description: str | None = None, *, start: Any = None, **changes: Any) -> State:
-        """A state that keeps it."""
+        """Declare a state that keeps it."""
         return State(*self._start(start), **self._complete(description, changes))
 
     def _start(self, start: Any) -> tuple[Any]:

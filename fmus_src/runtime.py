@@ -88,7 +88,7 @@ class Component:
         return accesses
 
     def find_accesses(self, references: tuple[int, ...]) -> list[Access]:
-        """What `accesses` gives, worked out."""
+        """Compute the result of `accesses`."""
         accesses: list[Access] = []
         position = 0
         while position < len(references):
@@ -109,13 +109,13 @@ class Component:
         return accesses
 
     def get(self, references: list[int]) -> list:
-        """Values at the given value references, settled first if initialisation is under way."""
+        """Return values at these value references, settled first if initialisation is under way."""
         if self.unsettled:
             self.settle()
         return self.read(references)
 
     def read(self, references: list[int]) -> list:
-        """Values at the given value references, as they are."""
+        """Return values at these value references, as they are."""
         attributes = self.block.__dict__
         values: list = []
         for name, index, _, _ in self.accesses(references):
@@ -162,7 +162,7 @@ class Component:
         return tuned
 
     def check_tuned(self, settings: list[tuple[int, Any]]) -> None:
-        """Refuse parameters outside their bounds, given by value reference."""
+        """Refuse parameters outside their bounds, by value reference."""
         ranges = dict(zip(self.checked, self.ranges, strict=True))
         for reference, number in settings:
             name, low, high = ranges.get(reference, ("", -math.inf, math.inf))

@@ -84,7 +84,8 @@ PART = re.compile(r"([./]?)([A-Za-z]+|1)(-?\d+)?")
 
 @cache
 def unit_definition(name: str) -> UnitDefinition | None:
-    """What a unit's name means; None where it is no product of SYMBOLS. One with an offset stands alone."""
+    """Return the definition of a unit by its name; None where it is no product of SYMBOLS. One
+    with an offset stands alone."""
     if name in SYMBOLS:
         return SYMBOLS[name]
     exponents: dict[str, int] = {}
@@ -107,5 +108,5 @@ def unit_definition(name: str) -> UnitDefinition | None:
 
 
 def deg(angle: float) -> float:
-    """An angle of so many degrees in radians, for parameters that are written in degrees."""
+    """Convert an angle of degrees to radians, for parameters that are written in degrees."""
     return angle * math.pi / 180.0

@@ -27,18 +27,18 @@ _folders: dict[str, Path] = {}
 
 
 def module_name(path: Path) -> str:
-    """A file's name as a module; one that Python could not import gets another."""
+    """Return a file's name as a module; one that Python could not import gets another."""
     usable = path.stem.isidentifier() and not keyword.iskeyword(path.stem)
     return path.stem if usable else "file_" + re.sub(r"\W", "_", path.stem)
 
 
 def is_sibling(name: str, folder: Path) -> bool:
-    """Whether `import name` in a file of the folder means a file of the folder. Libraries come first."""
+    """Return True if `import name` in a file of the folder means a file of the folder. Libraries come first."""
     return name not in LIBRARIES and (folder / f"{name}.py").is_file()
 
 
 def with_relative_imports(text: bytes, file: Path) -> bytes:
-    """The source of a module in which imports of other modules of its folder are relative.
+    """Return the source of a module in which imports of other modules of its folder are relative.
 
     Raises SyntaxError, which names the file.
     """
@@ -63,7 +63,7 @@ def with_relative_imports(text: bytes, file: Path) -> bytes:
 
 
 def modules_of(path: Path) -> dict[Path, bytes]:
-    """A file and what it imports of its folder, and that again: sources with relative imports. Raises SyntaxError."""
+    """Return a file and its imports of its folder, recursively: sources with relative imports. Raises SyntaxError."""
     folder = path.resolve().parent
     sources: dict[Path, bytes] = {}
     waiting = [path.resolve()]
@@ -79,7 +79,8 @@ def modules_of(path: Path) -> dict[Path, bytes]:
 
 
 def list_imports(node: ast.ImportFrom) -> list[str]:
-    """The modules of the folder that a relative import means: `from .a import x` a, `from . import a, b` both."""
+    """Return the modules of the folder that a relative import means: `from .a import x` a, `from . import a, b`
+    both."""
     return [node.module] if node.module else [alias.name for alias in node.names]
 
 
@@ -89,7 +90,7 @@ def _import(alias: ast.alias, folder: Path) -> str:
 
 
 def import_file(path: Path) -> ModuleType:
-    """A file of a user's folder as a module, anew with all that it imports of the folder.
+    """Import a file of a user's folder as a module, again with all that it imports of the folder.
 
     Raises whatever the file raises, and ModuleNotFoundError for a module that is not in the folder.
     """
@@ -131,7 +132,7 @@ class _Finder(MetaPathFinder):
 
 
 class _Loader(SourceFileLoader):
-    """Compiles a module with its imports made relative; nothing compiled is stored in the user's folder."""
+    """Compiles a module with relative imports; nothing compiled is stored in the user's folder."""
 
     def get_code(self, fullname: str) -> CodeType:
         path = Path(self.path)

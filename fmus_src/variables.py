@@ -1,4 +1,4 @@
-"""What a block declares: inputs, parameters, states and outputs, each with start, unit, description and bounds.
+"""Declarations of a block: inputs, parameters, states and outputs, each with start, unit, description and bounds.
 
 Values live on the block under the same names: floats, ints and bools; vectors (`kernel.vector_types`) for two to four
 Reals; matrices (`kernel.matrix_types`); records; lists for everything else.
@@ -135,7 +135,7 @@ class Variable:
 
     @property
     def is_array(self) -> bool:
-        """Whether there are several elements, as a vector or as a list."""
+        """True if there are several elements, as a vector or as a list."""
         return isinstance(self.start, list)
 
     @property
@@ -173,25 +173,25 @@ class Variable:
         return [f"{self.name}[{index + 1}]" for index in range(self.size)]
 
     def units(self) -> list[str | None]:
-        """The unit of each element."""
+        """Return the unit of each element."""
         if self.record is not None:
             return [field.unit for _, field in flat_fields(self.record)]
         return [self.unit] * self.size
 
     def descriptions(self) -> list[str]:
-        """What each element is, with the frame of a vector's components."""
+        """Return the description of each element, with the frame of a vector's components."""
         if self.record is not None:
             return [f"{self.description}: {_about(field)}" for _, field in flat_fields(self.record)]
         return [_about(self)] * self.size
 
     def with_start(self, start: Any) -> Any:
-        """The same variable with another start value, for thin variants of a block."""
+        """Return the same variable with another start value, for thin variants of a block."""
         other = copy.copy(self)
         other.start = _flatten(start) if is_several(start) else start
         return other
 
     def check_start(self, block: Any, values: Any) -> list:
-        """The values of any sequence as elements; raises TypeError where their number or type does not fit."""
+        """Return the values of any sequence as elements; raises TypeError where their number or type does not fit."""
         where = f"{block.fmu_name}.{self.name}"
         try:
             elements = _flatten(values)
@@ -245,7 +245,7 @@ class _StoresList(Variable):
 
 @cache
 def _that_stores(kind: Any, how: Any) -> Any:
-    """The kind of variable (Input, Output, ...) with a way of storing."""
+    """Return the kind of variable (Input, Output, ...) with a way of storing."""
     return type(kind.__name__, (how, kind), {})
 
 
@@ -289,7 +289,7 @@ class State(Variable):
         self.frozen = frozen
 
     def frozen_elements(self) -> list[bool]:
-        """Which elements are frozen."""
+        """Return for each element if it is frozen."""
         if self.record is not None:
             return [self.frozen or field.frozen for _, field in flat_fields(self.record)]
         return [self.frozen] * self.size
@@ -310,12 +310,12 @@ class Output(Variable):
 
 
 def is_several(start: Any) -> bool:
-    """Whether a start value has several elements."""
+    """Return True if a start value has several elements."""
     return isinstance(start, list | tuple | Record | Matrix)
 
 
 def _flatten(values: Any) -> list:
-    """The elements of a sequence, a record, or a matrix, also where that is given by its rows."""
+    """Return the elements of a sequence, a record, or a matrix, also where that is a list of rows."""
     if isinstance(values, Record | Matrix):
         return list(values.elements())
     elements = list(values)

@@ -1,6 +1,6 @@
-"""Runs the program of its arguments, and kills it with all that it has started once standard input ends.
+"""Keeper of the program of its arguments, which it kills with all that it has started once standard input ends.
 
-A script for `programs`, in a session of its own, which imports nothing of Perilune: it is to start in an instant.
+A script for `programs`, in a separate session, which imports nothing of Perilune: it is to start in an instant.
 """
 
 from __future__ import annotations

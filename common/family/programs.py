@@ -25,9 +25,9 @@ class Ended(NamedTuple):
 def run_program(
     command: Sequence[str], folder: str | Path, is_needed: Callable[[], bool] = lambda: True
 ) -> Ended | None:
-    """Run a program in a folder to its end; None where it is killed as nothing ``is_needed`` any more.
+    """Run a program in a folder to its end; None where it is killed because it is no longer needed (``is_needed``).
 
-    It has a session of its own: Ctrl-C is for whoever waits for it. Raises OSError where it cannot be run.
+    It has a separate session: Ctrl-C is for the process that waits for it. Raises OSError where it cannot be run.
     """
     theirs, ours = os.pipe()  # is closed with this process, which ends the keeper and the program
     try:

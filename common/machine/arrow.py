@@ -1,6 +1,6 @@
 """Columns between numpy and Arrow by their memory.
 
-`pyarrow.array` and `to_numpy` load pandas to look at what they are given, a quarter of a second of every batch's start.
+`pyarrow.array` and `to_numpy` load pandas to inspect their arguments, a quarter of a second of every batch's start.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def texts_of(values: Iterable[str]) -> pyarrow.Array:
 
 
 def table_of(columns: Mapping[str, np.ndarray | pyarrow.Array | pyarrow.ChunkedArray]) -> pyarrow.Table:
-    """A table of columns by name, numbers as they are in numpy."""
+    """Return a table of columns by name, numbers as they are in numpy."""
     arrays = [numbers_of(column) if isinstance(column, np.ndarray) else column for column in columns.values()]
     return pyarrow.Table.from_arrays(arrays, names=list(columns))
 

@@ -1,6 +1,7 @@
-"""Files of the cache folder: read by their checksums, written whole, done without where they cannot be kept.
+"""Files of the cache folder: read by their checksums, written whole, optional where they cannot be stored.
 
-A damaged file is made again, and a cache that cannot be used ends nothing: either is said in one line for a process.
+A damaged file is written again, and a cache that cannot be used ends nothing: either is reported in one line for a
+process.
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ def _has_checksum(path: Path) -> bool:
 
 
 def warn_damaged(path: Path) -> None:
-    """Warn of a file that is not as it was written, which is made again; once for all files of a cache."""
+    """Warn of a damaged file, which is written again; once for all files of a cache."""
     home = _cache_of(path.parent)
     warn_once(f"damaged {home}", f"cache {home}: damaged files are made again, {path.name} for one")
 

@@ -29,7 +29,7 @@ OF_MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO, e
 
 
 def is_of_machine(error: OSError) -> bool:
-    """True if an error is one of the machine, whatever is written to it."""
+    """Return True if an error is one of the machine, whatever is written to it."""
     return error.errno in OF_MACHINE
 
 

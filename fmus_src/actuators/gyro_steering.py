@@ -1,4 +1,4 @@
-"""The slot of gyro steering: from the torque wanted of the gyro cluster to its gimbal rates."""
+"""The slot of gyro steering: from the demanded torque of the gyro cluster to its gimbal rates."""
 
 from ..block import Block, Output, Parameter
 from ..interfaces.ports import body, robot, sampling
@@ -9,7 +9,7 @@ from ..mathlib.vectors import Vector3, Vector4, all_below, vector
 
 
 class GyroSteeringStatus(Enumeration):
-    """What became of the last command."""
+    """Outcome of the last command."""
 
     GOOD = member("good")
     NEAR_SINGULAR = member("near a singular state of cluster or law")

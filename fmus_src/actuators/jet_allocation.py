@@ -1,4 +1,4 @@
-"""The slot of jet allocation: from the force and torque wanted to the thrusts of eight jets."""
+"""The slot of jet allocation: from the demanded force and torque to the thrusts of eight jets."""
 
 from ..block import Block, Output, State
 from ..interfaces.ports import body, inertial, robot, sampling
@@ -9,7 +9,7 @@ from ..mathlib.attitude.quaternion import is_attitude, normalise, to_body
 
 
 class JetAllocationStatus(Enumeration):
-    """What became of the newest command."""
+    """Outcome of the newest command."""
 
     GOOD = member("good")
     SATURATED = member("saturated")
@@ -61,10 +61,10 @@ class JetAllocation(Block, interface=True):
     counted = State(0, description="command_count of the newest command")
 
     def allocate(self) -> None:
-        """Set new_thrust (N) and status from wanted."""
+        """Set new_thrust (N) and status from ``wanted``."""
 
     def want(self) -> bool:
-        """attitude and wanted (body) from the command; returns whether it is finite."""
+        """Set attitude and the demand in body axes from the command; return if it is finite."""
         finite = self.translation_period > 0.0 and self.translation_period < LARGEST
         q = self.quaternion
         length = abs(q.w) + abs(q.x) + abs(q.y) + abs(q.z)

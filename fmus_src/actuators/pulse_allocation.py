@@ -1,4 +1,4 @@
-"""From the torque wanted to pulses of jets, with the rest carried over."""
+"""Pulses of jets from the demanded torque, with the rest carried over."""
 
 import math
 
@@ -9,7 +9,7 @@ from ..mathlib.vectors import clip, is_finite, vector
 
 
 class PulseStatus(Enumeration):
-    """What became of the last demand."""
+    """Outcome of the last demand."""
 
     GOOD = member("good")
     SATURATED = member("a demand beyond the tick")
@@ -66,13 +66,13 @@ class PulseAllocation(Block):
             self.rests[k] = self.rest_kept * self.rests[k]
 
     def within_level(self, k: int) -> float:
-        """The demand about axis k within what its jet gives (N m)."""
+        """Return the demand about axis k, limited to the torque of its jet (N m)."""
         if abs(self.torque_command[k]) > self.jet_torque[k]:
             self.status = PulseStatus.SATURATED
         return clip(self.torque_command[k], -self.jet_torque[k], self.jet_torque[k])
 
     def pass_mean(self) -> None:
-        """The demand within the levels as the mean torque."""
+        """Set the mean torque to the demand within the levels."""
         x = self.within_level(0)
         y = self.within_level(1)
         z = self.within_level(2)

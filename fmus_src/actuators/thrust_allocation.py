@@ -102,7 +102,7 @@ class ThrustAllocation(Allocation):
         return demanded
 
     def is_contradictory(self) -> bool:
-        """True if limits exclude each other."""
+        """Return True if limits exclude each other."""
         if self.dead_band_low > self.dead_band_high:
             return True
         if self.dead_band_high > 0.0 and self.maximum_thrust <= 0.0:
@@ -110,7 +110,7 @@ class ThrustAllocation(Allocation):
         return self.maximum_thrust > 0.0 and self.minimum_thrust > self.maximum_thrust
 
     def duration(self) -> float:
-        """How long to thrust from demand_time on (s)."""
+        """Return the duration of thrust from demand_time on (s)."""
         shortened = self.demanded_duration - self.thrust_lead
         if self.thrust_lead > 0.0 and shortened < 0.0:
             shortened = 0.0

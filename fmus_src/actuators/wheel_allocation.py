@@ -1,4 +1,4 @@
-"""The slot of wheel allocation: from the torque wanted of four reaction wheels to the torques of their motors."""
+"""The slot of wheel allocation: from the demanded torque of four reaction wheels to the torques of their motors."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, sampling, satellite
@@ -17,7 +17,7 @@ from ..mathlib.vectors import Vector4, all_below, vector
 
 
 class WheelAllocationStatus(Enumeration):
-    """What became of the last command."""
+    """Outcome of the last command."""
 
     GOOD = member("good")
     LIMITED = member("torque limited")

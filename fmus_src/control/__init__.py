@@ -1,1 +1,1 @@
-"""Control laws: from the estimate and the plan to the force and torque wanted."""
+"""Control laws: from the estimate and the plan to demanded force and torque."""

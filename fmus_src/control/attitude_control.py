@@ -1,4 +1,4 @@
-"""From the error of attitude and angular velocity to the torque wanted."""
+"""Torque demand from the error of attitude and angular velocity."""
 
 import math
 
@@ -12,7 +12,7 @@ from ..mathlib.vectors import Vector3, cross, dot, is_finite, vector
 
 
 class AttitudeControlStatus(Enumeration):
-    """Whether the torque is new."""
+    """Age of the torque."""
 
     GOOD = member("good")
     NOT_FINITE = member("last inputs not finite, torque held")
@@ -63,7 +63,8 @@ class AttitudeControl(Block):
         self.command()
 
     def correction(self) -> Vector3:
-        """What to take off the angular acceleration (rad/s2); moves the lead to the next tick."""
+        """Return the correction to the angular acceleration (rad/s2), to be subtracted; move the lead to the next
+        tick."""
         if self.law == ControlLaw.LEAD:
             law = tustin_lead(self.lead_gain, self.lead_time, self.lag_time, self.period)
             m = lead_output(law, self.lead_state, self.attitude_error)
@@ -73,7 +74,7 @@ class AttitudeControl(Block):
         return w * (w * self.attitude_error + 2.0 * self.damping * self.rate_error)
 
     def to_true_axes(self, v: Vector3) -> Vector3:
-        """A vector given in the plan's body axes, in the true ones."""
+        """Return a vector of the plan's body axes in the true ones."""
         square = dot(self.attitude_error, self.attitude_error)
         if square > 1.0:
             square = 1.0  # the sine of an angle; angles beyond 90 deg look smaller
@@ -81,7 +82,7 @@ class AttitudeControl(Block):
         return to_body(quaternion(scalar, self.attitude_error / (2.0 * scalar)), v)
 
     def finite(self) -> bool:
-        """Whether all inputs are."""
+        """Return True if all inputs are finite."""
         errors = is_finite(self.attitude_error) and is_finite(self.rate_error)
         plan = is_finite(self.planned_angular_velocity) and is_finite(self.planned_angular_acceleration)
         known = is_finite(self.gyro_momentum) and is_finite(self.jet_torque) and is_finite(self.disturbance)

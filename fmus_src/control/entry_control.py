@@ -1,4 +1,4 @@
-"""The slot of regulators of an entry capsule: from bank and rates measured to the torque wanted over a tick."""
+"""The slot of regulators of an entry capsule: from measured bank and rates to the torque over a tick."""
 
 import math
 
@@ -10,7 +10,7 @@ from ..units import deg
 
 
 class EntryControlStatus(Enumeration):
-    """Whether there is a demand."""
+    """Presence of a demand."""
 
     GOOD = member("good")
     NOT_FINITE = member("inputs not finite")
@@ -45,11 +45,11 @@ class EntryControl(Block, interface=True):
     status = Output(EntryControlStatus, direct=True)
 
     def regulate(self) -> Vector3:
-        """The torque (N m, body) for the present inputs."""
+        """Return the torque (N m, body) for the present inputs."""
         return vector(0.0, 0.0, 0.0)
 
     def wrap_angle(self, angle: float) -> float:
-        """An angle (rad) within +-pi."""
+        """Return an angle (rad) within +-pi."""
         return angle - 2.0 * math.pi * float(math.floor(angle / (2.0 * math.pi) + 0.5))
 
     def bank_error(self) -> float:
@@ -57,7 +57,7 @@ class EntryControl(Block, interface=True):
         return clip(self.wrap_angle(self.measured_bank - self.reference.bank), -self.error_limit, self.error_limit)
 
     def beyond(self, demand: float, level: float) -> float:
-        """A demand, 0 within the dead zone of a level (N m)."""
+        """Return a demand, 0 within the dead zone of a level (N m)."""
         if abs(demand) < self.dead_zone * level:
             return 0.0
         return demand

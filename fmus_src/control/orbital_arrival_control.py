@@ -19,7 +19,7 @@ class OrbitalArrivalControl(OrbitalControl):
     """
 
     def lead_yaw(self, time: float) -> tuple[float, float]:
-        """The yaw to be led to (rad) and its rate (rad/s), ``time`` (s) after the start."""
+        """Return the commanded yaw (rad) and its rate (rad/s), ``time`` (s) after the start."""
         ramp = abs(self.turn_angle) / self.turn_rate
         rate = math.copysign(self.turn_rate, self.turn_angle)
         since = time - self.turn_start

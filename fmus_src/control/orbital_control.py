@@ -1,4 +1,4 @@
-"""The slot of regulators of the orbital attitude: from the estimate to the torque wanted over a tick."""
+"""The slot of regulators of the orbital attitude: from the estimate to the torque over a tick."""
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports import body, sampling
@@ -9,7 +9,7 @@ from ..units import deg
 
 
 class OrbitalControlStatus(Enumeration):
-    """Whether there is a command."""
+    """Presence of a command."""
 
     GOOD = member("good")
     NOT_FINITE = member("estimate not finite")

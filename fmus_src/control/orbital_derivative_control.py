@@ -64,7 +64,7 @@ class OrbitalDerivativeControl(OrbitalControl):
         return trace > 0.0 and determinant > 0.0 and trace * (xy + xz + yz) > determinant
 
     def largest(self, a: Matrix) -> float:
-        """The largest element of a 6 x 6 matrix, in magnitude."""
+        """Return the largest element of a 6 x 6 matrix, in magnitude."""
         size = 0.0
         for i in range(6):
             for j in range(6):

@@ -1,4 +1,4 @@
-"""From attitude and angular velocity, estimated and wanted, to the torque of reaction wheels."""
+"""Torque of reaction wheels from attitude and angular velocity, estimated and commanded."""
 
 import math
 
@@ -13,7 +13,7 @@ from ..mathlib.vectors import Vector3, cross, is_finite, limit_length, norm, vec
 
 
 class QuaternionFeedbackStatus(Enumeration):
-    """Whether the torque is new."""
+    """Age of the torque."""
 
     GOOD = member("good")
     NOT_FINITE = member("last inputs not finite, torque held")
@@ -66,7 +66,7 @@ class QuaternionFeedback(Block):
         self.tick()
 
     def finite(self) -> bool:
-        """Whether all inputs are."""
+        """Return True if all inputs are finite."""
         q = self.estimated_quaternion
         r = self.reference.reference_quaternion
         attitudes = math.isfinite(q.w) and is_finite(q[1:4]) and math.isfinite(r.w) and is_finite(r[1:4])
@@ -75,7 +75,7 @@ class QuaternionFeedback(Block):
         return attitudes and rates and known and is_finite(self.feedforward_torque)
 
     def correction(self, error: Vector3, rate_error: Vector3) -> Vector3:
-        """What to take off the angular acceleration (rad/s2); integrates to the next tick."""
+        """Return the correction to the angular acceleration (rad/s2), to be subtracted; integrate to the next tick."""
         w = self.natural_frequency
         stiffness = w * w
         damping = 2.0 * self.damping * w

@@ -11,12 +11,12 @@ from ..units import deg
 
 
 def has_direction(length: float) -> bool:
-    """Whether a vector of this length has a direction; no number counts as one, so that it is not lost on the way."""
+    """Return True if a vector of this length has a direction; NaN counts as one, so that it is not lost on the way."""
     return length != 0.0 and length != math.inf
 
 
 class ThrustAxisStatus(Enumeration):
-    """Whether the demand is given."""
+    """Presence of the demand."""
 
     GOOD = member("good")
     LIMITED = member("shortened to the limit")
@@ -61,7 +61,7 @@ class ThrustAxisControl(Block):
         self.control(self.start_time)
 
     def closing_rate(self, angle: float) -> float:
-        """The rate (rad/s) at which an angle (rad) is to be closed."""
+        """Return the rate (rad/s) at which to close an angle (rad)."""
         rate = self.angle_gain * angle
         braking = math.sqrt(2.0 * self.braking_acceleration * angle)
         if braking < rate:
@@ -71,7 +71,7 @@ class ThrustAxisControl(Block):
         return rate
 
     def command_rate(self, time: float) -> Vector3:
-        """The angular rate (rad/s) that follows the command and closes the error at ``time`` (s)."""
+        """Return the angular rate (rad/s) that follows the command and closes the error at ``time`` (s)."""
         direction = self.thrust_direction + (time - self.command_time) * self.thrust_direction_rate
         length = norm(direction)
         self.direction_error = 0.0

@@ -1,4 +1,4 @@
-"""From the error of position and velocity to the force wanted."""
+"""Force demand from the error of position and velocity."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import inertial, landing, robot
@@ -9,7 +9,7 @@ from ..mathlib.vectors import Vector3, is_finite
 
 
 class TranslationControlStatus(Enumeration):
-    """Whether the force is new."""
+    """Age of the force."""
 
     GOOD = member("good")
     NOT_FINITE = member("last inputs not finite, force held")
@@ -57,7 +57,7 @@ class TranslationControl(Block):
         self.command()
 
     def design(self) -> int:
-        """Number of the design for translation_period."""
+        """Return the number of the design for translation_period."""
         nearest = 0
         first = abs(self.translation_period - self.design_period[0])
         second = abs(self.translation_period - self.design_period[1])
@@ -66,7 +66,7 @@ class TranslationControl(Block):
         return nearest
 
     def correction(self) -> Vector3:
-        """What to take off the acceleration (m/s2); moves the lead to the next tick."""
+        """Return the correction to the acceleration (m/s2), to be subtracted; move the lead to the next tick."""
         k = self.design()
         if self.law == ControlLaw.LEAD:
             law = tustin_lead(self.lead_gain[k], self.lead_time[k], self.lag_time[k], self.translation_period)

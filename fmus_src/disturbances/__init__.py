@@ -1,1 +1,1 @@
-"""Random disturbances with a given spectrum."""
+"""Random disturbances with a prescribed spectrum."""

@@ -30,7 +30,7 @@ class AirDisturbance(Block):
         self.put_out(0.0)
 
     def put_out(self, time: float) -> None:
-        """Outputs ``time`` (s) after the start."""
+        """Set outputs ``time`` (s) after the start."""
         since = time - self.gust_time
         fraction = 0.0
         if since > 0.0 and since < self.gust_duration:

@@ -1,4 +1,4 @@
-"""White noise through a second-order filter: a disturbance with a given spectrum."""
+"""White noise through a second-order filter: a disturbance with a prescribed spectrum."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What is left of the torque of each jet."""
+"""Remaining torque of each jet."""
 
 from ..block import Block, Parameter
 from ..interfaces.ports import entry

@@ -1,1 +1,1 @@
-"""What an FMU or a system is handed on with: reference trajectories, parameters, a page, hashes, in FMI-LS-REF."""
+"""Evidence of an FMU or a system: reference trajectories, parameters, a page, hashes, in FMI-LS-REF."""

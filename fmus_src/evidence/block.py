@@ -17,7 +17,7 @@ PAGE = "documentation/index.html"
 
 
 def add_evidence(block_class: type[Block], files: Mapping[str, bytes]) -> dict[str, bytes]:
-    """The files of a block's FMU with its evidence.
+    """Return the files of a block's FMU with its evidence.
 
     Its outputs for the check are recorded where they are the same on every processor, which Python libraries do not
     promise. Raises CheckError for a check that does not fit the block.

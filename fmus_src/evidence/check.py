@@ -44,7 +44,7 @@ class Check:
     tolerances: Tolerances
 
     def columns(self) -> dict[str, list[float]]:
-        """The table's numbers by column, ``time`` first."""
+        """Return the table's numbers by column, ``time`` first."""
         names, *rows = csv.reader(io.StringIO(self.table.decode()))
         if not rows:
             raise ValueError("no rows")
@@ -53,12 +53,12 @@ class Check:
 
 
 def elements_of(block_class: type[Block]) -> dict[str, Variable]:
-    """The FMI names of a block's variables, each element of a vector, with the variable that declares it."""
+    """Return the FMI names of a block's variables, each element of a vector, with the variable that declares it."""
     return {name: variable for variable in block_class.variables.values() for name in variable.element_names()}
 
 
 def read_check(block_class: type[Block]) -> Check | None:
-    """The check next to a block's file, checks/NAME.csv and checks/NAME.toml; None without one.
+    """Read the check next to a block's file, checks/NAME.csv and checks/NAME.toml; None without one.
 
     Raises CheckError, naming file and element, where one of the two is missing or does not fit the block.
     """

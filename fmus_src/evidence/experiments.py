@@ -35,7 +35,7 @@ class Experiment:
 
 
 def write_experiments(name: str, experiments: Sequence[Experiment]) -> bytes:
-    """The file of experiments, XML without a namespace."""
+    """Return the file of experiments, XML without a namespace."""
     root = etree.Element("Experiments", name=name)
     for each in experiments:
         element = etree.SubElement(root, "Experiment", name=each.name, description=each.description)

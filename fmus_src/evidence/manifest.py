@@ -50,7 +50,7 @@ MIME_TYPES = {
 
 
 def mime_type(name: str) -> str:
-    """The type of a file by the suffix of its name."""
+    """Return the type of a file by the suffix of its name."""
     return MIME_TYPES.get(posixpath.splitext(name)[1].lower(), "application/octet-stream")
 
 
@@ -66,7 +66,8 @@ class Related:
 
 
 def add_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> dict[str, bytes]:
-    """The files of an archive with SHA256SUMS of all of them, in the format of sha256sum, and with the manifest."""
+    """Return the files of an archive with SHA256SUMS of all of them, in the format of sha256sum, and with the
+    manifest."""
     sums = "".join(
         f"{hashlib.sha256(files[name]).hexdigest()}  {name}\n" for name in sorted(files) if name not in NOT_LISTED
     )

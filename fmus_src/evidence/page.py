@@ -27,7 +27,7 @@ SECTIONS = (("Inputs", Input), ("Outputs", Output), ("Parameters", Parameter))
 
 
 def block_page(block_class: type[Block]) -> bytes:
-    """The page: purpose, equations and source from the docstring, tables of inputs, outputs and parameters."""
+    """Return the page: purpose, equations and source from the docstring, tables of inputs, outputs and parameters."""
     body = [builder.H1(block_class.fmu_name), *_prose(block_class)]
     for base in block_class.__mro__[1:]:
         if issubclass(base, Block) and base is not Block:
@@ -49,7 +49,7 @@ def page_of(title: str, body: Iterable[etree._Element]) -> bytes:
 
 
 def _prose(block_class: type[Block]) -> list[etree._Element]:
-    """The docstring as paragraphs, indented equations as they are."""
+    """Return the docstring as paragraphs, indented equations as they are."""
     paragraphs: list[etree._Element] = []
     for is_equation, lines in groupby(inspect.cleandoc(block_class.__doc__ or "").splitlines(), _is_equation):
         if is_equation:

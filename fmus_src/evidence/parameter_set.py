@@ -13,7 +13,7 @@ TYPES = {bool: "Boolean", int: "Integer", float: "Real"}
 
 
 def write_parameter_set(name: str, parameters: Mapping[str, float | int | bool], description: str = "") -> bytes:
-    """The content of an .ssv file: parameters by name, each in the unit of its variable."""
+    """Return the content of an .ssv file: parameters by name, each in the unit of its variable."""
     root = etree.Element(f"{SSV}ParameterSet", nsmap=NAMESPACES, version="1.0", name=name)
     if description:
         root.set("description", description)

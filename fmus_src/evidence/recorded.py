@@ -13,7 +13,7 @@ from .check import TIME, Check, CheckError, elements_of
 
 
 def record_outputs(block_class: type[Block], check: Check) -> bytes:
-    """A CSV of time (s) and outputs for the inputs and parameters of a check.
+    """Return a CSV of time (s) and outputs for the inputs and parameters of a check.
 
     Raises CheckError where the block raises anything.
     """
@@ -48,16 +48,16 @@ def _record(block_class: type[Block], check: Check) -> bytes:
 
 
 def write_table(names: Sequence[str], rows: Iterable[Sequence[str]]) -> bytes:
-    """A CSV file; the name of a matrix' element has a comma, and quotation marks."""
+    """Return a CSV file; the name of a matrix' element has a comma, and quotation marks."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([names, *rows])
     return text.getvalue().encode()
 
 
 def _sample(variable: Variable, samples: list[float], row: int) -> float | int | bool:
-    """An input at a row's time, as importers interpolate a continuous one there: 0 * before + 1 * here.
+    """Return an input at a row's time, as importers interpolate a continuous one there: 0 * before + 1 * here.
 
-    It is the sample but for -0.0, and for one behind a sample that is not finite.
+    It is the sample but for -0.0, and for one after a sample that is not finite.
     """
     if variable.type_name == "Real" and row:
         return 0.0 * samples[row - 1] + 1.0 * samples[row]
@@ -65,7 +65,7 @@ def _sample(variable: Variable, samples: list[float], row: int) -> float | int |
 
 
 def of_type(variable: Variable, number: float | int | bool) -> float | int | bool:
-    """A number of a check as the Python type of its variable."""
+    """Return a number of a check as the Python type of its variable."""
     return {"Real": float, "Boolean": bool}.get(variable.type_name, int)(number)
 
 

@@ -8,19 +8,19 @@ SHOWN = 12  # start values of a list, beyond which the first ones are enough
 
 
 def sized_name(variable: Variable) -> str:
-    """The name, of a vector with its number of elements, of a matrix with rows and columns."""
+    """Return the name, of a vector with its number of elements, of a matrix with rows and columns."""
     if variable.columns is not None:
         return f"{variable.name}[{variable.size // variable.columns}, {variable.columns}]"
     return f"{variable.name}[{variable.size}]" if variable.is_array else variable.name
 
 
 def unit_text(variable: Variable) -> str:
-    """The unit; 1 of a Real without one, empty of other types."""
+    """Return the unit; 1 of a Real without one, empty of other types."""
     return variable.unit or ("1" if variable.type_name == "Real" else "")
 
 
 def bounds_text(variable: Variable) -> str:
-    """The range that is declared; empty without one."""
+    """Return the declared range; empty without one."""
     low, high = variable.minimum, variable.maximum
     if low is not None and high is not None:
         return f"{low:g} to {high:g}"
@@ -28,7 +28,7 @@ def bounds_text(variable: Variable) -> str:
 
 
 def start_text(variable: Variable) -> str:
-    """The start in few characters: one for all where all are alike, the first ones of many."""
+    """Return the start in few characters: one for all where all are alike, the first ones of many."""
     numbers = [number_text(number) for number in variable.elements]
     if not variable.is_array:
         return numbers[0]
@@ -38,7 +38,7 @@ def start_text(variable: Variable) -> str:
 
 
 def number_text(number: float | int | bool) -> str:
-    """A number as it is written in a parameter set."""
+    """Return a number as it is written in a parameter set."""
     if isinstance(number, bool):
         return "true" if number else "false"
     return f"{number:.10g}" if isinstance(number, float) else str(number)

@@ -1,4 +1,4 @@
-"""What a block keeps under names that it does not declare: found where it is written, before anything flies."""
+"""Undeclared attributes of a block: found when it is written, before any simulation."""
 
 from __future__ import annotations
 
@@ -58,5 +58,5 @@ def _check_method(block_class: type[Block], method: FunctionType) -> None:
 
 
 def _is_of(me: str, node: ast.Attribute) -> bool:
-    """Whether a node is ``me.NAME``."""
+    """Return True if a node is ``me.NAME``."""
     return isinstance(node.value, ast.Name) and node.value.id == me

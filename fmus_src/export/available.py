@@ -22,10 +22,10 @@ from .pythonfmu_fmu import build_python_fmu
 
 
 def find_fmu(name: str, flavours: Iterable[str] = FLAVOURS, system: Path | None = None) -> Path | None:
-    """Return the FMU of this name, of the first of the flavours that there is; None where there is none.
+    """Return the FMU of this name, of the first available flavour; None where there is none.
 
-    In a system of the user's the user's own come first: those of the working folder, then of the one that ``system``
-    lies in. Elsewhere the repository's do, so that its systems are the same in every folder.
+    In a system of the user's the user's own come first: those of the working folder, then of the parent folder of
+    ``system``. Elsewhere the repository's do, so that its systems are the same in every folder.
     """
     flavours = tuple(flavours)
     users, shipped = _users_files(name, flavours, system), _shipped_files(name, flavours)
@@ -76,7 +76,7 @@ def _python_fmu(name: str) -> bytes:
 
 @cache
 def _python_folder() -> Path:
-    """Where Python FMUs of these sources are kept."""
+    """Return the folder of the Python FMUs of these sources."""
     sources = PACKAGE / "fmus_src"
     digest = hashlib.sha256(version("pythonfmu").encode())
     for path in sorted((*sources.rglob("*.py"), *sources.glob("*/checks/*"))):

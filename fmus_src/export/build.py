@@ -40,5 +40,5 @@ def build_fmus(flavour: str, output: Path, platforms: Sequence[str], portable: b
 
 
 def _progress(work: Iterable[T], what: str, total: int) -> Iterable[T]:
-    """The same with a bar on standard error, if that is a terminal."""
+    """Yield the items with a bar on standard error, if that is a terminal."""
     return tqdm(work, desc=what, total=total, unit="FMU", disable=None, leave=False)

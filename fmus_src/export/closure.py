@@ -45,7 +45,8 @@ class Closure:
         return f"perilune_{self.digest[:16]}"
 
     def pack_closure(self) -> dict[str, bytes]:
-        """The files with imports of the source package, and of what it lies in, renamed, below the package's folder."""
+        """Return the files below the package's folder, with imports of the source package and
+        its parent package renamed."""
         renamed = {
             _imports_of(SOURCE_PACKAGE, r"(?=\s|\.)"): rb"\g<1>" + self.package.encode(),
             _imports_of(FACE_PACKAGE, r"(?=\s)"): rb"\g<1>" + f"{self.package}.face".encode(),
@@ -63,11 +64,11 @@ def _imports_of(package: str, end: str) -> re.Pattern[bytes]:
 
 
 def closure_of(block_class: type[Block]) -> Closure:
-    """The import closure of a block within the source package, as files.
+    """Return the import closure of a block within the source package, as files.
 
     A block from outside the repository is packed with the modules of its folder that it imports, and every block with
     its ``data``. Raises `ClosureError` for imports other than these, the source package, the standard library, numpy
-    and what the block declares in ``requires``, and for data that is not there.
+    and what the block declares in ``requires``, and for missing data.
     """
     files: dict[str, bytes] = {}
     module = sys.modules[block_class.__module__]
@@ -97,7 +98,8 @@ def closure_of(block_class: type[Block]) -> Closure:
 
 
 def data_files(block_class: type[Block]) -> dict[Path, type[Block]]:
-    """The files that a block declares, each with the class that does; raises `ClosureError` for one that is missing."""
+    """Return the files that a block declares, each with the class that does; raises `ClosureError` for a missing
+    one."""
     owners: dict[Path, type[Block]] = {}
     for owner in block_class.__mro__:
         for name in vars(owner).get("data", ()):
@@ -127,7 +129,7 @@ def _collect(module: str, files: dict[str, bytes], allowed: frozenset[str]) -> N
 
 
 def _with_submodules(parts: list[str], names: list[ast.alias]) -> list[str]:
-    """The module that an import names, and those of ``names`` that are modules in it."""
+    """Return the module that an import names, and those of ``names`` that are modules in it."""
     module = [part for part in parts if part]
     folder = SOURCE_ROOT.joinpath(*module)
     inner = [
@@ -141,7 +143,7 @@ def _with_submodules(parts: list[str], names: list[ast.alias]) -> list[str]:
 
 
 def _home(name: str, path: Path, line: int) -> str:
-    """The module of the source package that defines a name of its face."""
+    """Return the module of the source package that defines a public name."""
     if name not in HOME_OF:
         near = difflib.get_close_matches(name, HOME_OF, n=3)
         remedy = f"did you mean {' or '.join(near)}?" if near else f"import from {SOURCE_PACKAGE}"

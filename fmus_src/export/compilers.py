@@ -51,12 +51,12 @@ USUAL = {2: ("linux64", "win64"), 3: tuple(name for name, each in PLATFORMS.item
 
 
 def platforms_of(fmi: int) -> list[str]:
-    """The names that a version of FMI has for platforms."""
+    """Return the names that a version of FMI has for platforms."""
     return [name for name, platform in PLATFORMS.items() if platform.fmi == fmi]
 
 
 def local_platform(fmi: int = 2) -> str | None:
-    """What FMI calls the platform that this process runs on; None where it has no name, or nobody compiles for it."""
+    """Return FMI's name of this process's platform; None where it has no name, or no compiler."""
     machine = host.machine().lower()
     system = {"linux": "linux", "win32": "windows", "darwin": "darwin"}.get(sys.platform)
     if fmi == 3:
@@ -71,11 +71,11 @@ def local_platform(fmi: int = 2) -> str | None:
 
 
 def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
-    """The commands of a platform's compilers, without flags: one for each processor that its libraries serve.
+    """Return the commands of a platform's compilers, without flags: one for each processor that its libraries serve.
 
-    The system's ``cc`` serves the platform this process runs on; zig, from the PyPI package
-    ziglang, serves all. ``portable`` asks for zig everywhere, whose linux64 libraries run on any
-    Linux with glibc 2.17 or later. Raises `CompilerMissing`, and ValueError for an unknown platform.
+    The system's ``cc`` serves the platform this process runs on; zig, from the PyPI package ziglang, serves all.
+    ``portable`` asks for zig everywhere, whose linux64 libraries run on any Linux with glibc 2.17 or later. Raises
+    `CompilerMissing`, and ValueError for an unknown platform.
     """
     if platform not in PLATFORMS:
         raise ValueError(f"platform {platform!r} is unknown; give one of {', '.join(PLATFORMS)}")
@@ -100,7 +100,7 @@ def compiled_here() -> list[str]:
 
 
 def available_platforms(fmi: int = 2) -> list[str]:
-    """The usual platforms that some compiler here serves.
+    """Return the usual platforms that some available compiler serves.
 
     FMI 2.0: linux64 and win64 with zig, else the local one. FMI 3.0: all with zig, else the local one.
     """

@@ -18,7 +18,7 @@ from .fat_binary import fat_binary
 
 @cache
 def _identity(command: tuple[str, ...]) -> str:
-    """Command and version of a compiler, as part of the cache's key."""
+    """Return command and version of a compiler, for the cache's key."""
     with tempfile.TemporaryDirectory() as folder:  # zig leaves a file behind where it runs
         version = _output([*command, "--version"], folder)
     return " ".join(command[1:] if command[0] == sys.executable else command) + version
@@ -26,7 +26,7 @@ def _identity(command: tuple[str, ...]) -> str:
 
 @cache
 def _processor(command: tuple[str, ...]) -> str:
-    """What a compiler takes this processor for, as part of the cache's key: the cache may be shared."""
+    """Return a compiler's view of this processor, for the cache's key: the cache may be shared."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "empty.c").touch()
         return _output([*command, FOR_THIS_PROCESSOR, "-dM", "-E", "empty.c"], folder)
@@ -37,7 +37,7 @@ def _output(command: list[str], folder: str) -> str:
 
 
 def _run(command: list[str], folder: str | Path, is_wanted: Callable[[], bool] = lambda: True) -> Ended:
-    """Run a compiler. Raises `CompilationFailed` where it cannot be run, or is not wanted any more."""
+    """Run a compiler. Raises `CompilationFailed` where it fails to start, or is no longer needed."""
     try:
         ended = run_program(command, folder, is_wanted)
     except OSError as error:
@@ -50,7 +50,7 @@ def _run(command: list[str], folder: str | Path, is_wanted: Callable[[], bool] =
 def build_library(
     sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
 ) -> bytes:
-    """The shared library of the source file ``main``, as `library_files`; one for several processors in one."""
+    """Build the shared library of the source file ``main``, as `library_files`; one for several processors in one."""
     libraries = [path.read_bytes() for path in library_files(sources, main, platform, cache, portable=portable)]
     return libraries[0] if len(libraries) == 1 else fat_binary(libraries)
 
@@ -65,7 +65,7 @@ def library_files(
     flags: Sequence[str] = FLAGS,
     is_wanted: Callable[[], bool] = lambda: True,
 ) -> list[Path]:
-    """The shared libraries of the source file ``main`` for each processor of a platform, in the folder ``cache``.
+    """Build the shared libraries of the source file ``main`` for each processor of a platform, in the folder ``cache``.
 
     ``sources`` holds all files by name, ``flags`` are the compiler's. The libraries depend on these and the compiler
     only, not on time or place. A library in the cache that is not as it was compiled is compiled again, and is a

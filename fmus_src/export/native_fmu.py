@@ -25,19 +25,20 @@ C_FILES = Path(__file__).parent / "fmi"
 
 
 def wrapper_files(fmi: int, model: str = "block") -> list[Path]:
-    """The C around a model, a block or a ``system``, for a version of FMI: that of all versions, and the version's."""
+    """Return the C around a model, a block or a ``system``, for a version of FMI: that of all
+    versions, and the version's."""
     folders = ("instance", "kernel", model, f"fmi{fmi}")
     return [path for folder in folders for path in sorted((C_FILES / folder).iterdir())]
 
 
 def read_wrapper(fmi: int, model: str = "block") -> dict[str, bytes]:
-    """The same by file name, with the headers of the standard."""
+    """Read the same by file name, with the headers of the standard."""
     files = {path.name: path.read_bytes() for path in wrapper_files(fmi, model)}
     return files | {name: (STANDARD / name).read_bytes() for name in STANDARD_HEADERS[fmi]}
 
 
 def native_sources(block_class: type[Block], guid: str, fmi: int = 2) -> dict[str, bytes]:
-    """The files of ``sources/`` by name; ``FMU_NAME.c`` is the one to compile, it includes the others.
+    """Return the files of ``sources/`` by name; ``FMU_NAME.c`` is the one to compile, it includes the others.
 
     Raises `SubsetError` where the block is outside the subset of Python.
     """
@@ -47,7 +48,7 @@ def native_sources(block_class: type[Block], guid: str, fmi: int = 2) -> dict[st
 
 
 def native_guid(block_class: type[Block], fmi: int = 2) -> str:
-    """The GUID of a block's native FMU, FMI 3.0's instantiation token: a hash of its sources and its description."""
+    """Return the GUID of a block's native FMU, FMI 3.0's instantiation token: a hash of its sources and description."""
     return content_guid(_files(block_class, "", fmi))
 
 
@@ -80,7 +81,7 @@ def build_native_fmu(
 
 
 def _files(block_class: type[Block], guid: str, fmi: int) -> dict[str, bytes]:
-    """The FMU without its binaries and its check."""
+    """Return the FMU without its binaries and its check."""
     files = {f"sources/{name}": text for name, text in native_sources(block_class, guid, fmi).items()}
     main, is_ours = f"{block_class.fmu_name}.c", is_shipped(block_class)
     files |= accompanying_files(fmi, is_ours=is_ours)

@@ -15,7 +15,7 @@ from .pythonfmu_fmu import build_python_fmu
 
 
 def defines(path: Path) -> list[str]:
-    """The FMU names of the classes that a file defines, without importing it: blocks and others."""
+    """Return the FMU names of the classes that a file defines, without importing it: blocks and others."""
     try:
         tree = ast.parse(path.read_bytes())
     except (OSError, SyntaxError, ValueError):
@@ -24,7 +24,7 @@ def defines(path: Path) -> list[str]:
 
 
 def files_with(path: Path) -> list[Path]:
-    """The other files that the blocks of a file are built of: modules that it imports, and data."""
+    """Return the other files that the blocks of a file are built of: modules that it imports, and data."""
     data = [file for block in blocks_in_file(path) for file in data_files(block)]
     return sorted({*modules_of(path), *data} - {path.resolve()})
 
@@ -59,5 +59,5 @@ def build_own_blocks(
 
 
 def folder_of(flavour: str, fmi: int) -> str:
-    """The folder of FMUs of one kind, in which ``use`` looks for those of FMI 2.0."""
+    """Return the folder of FMUs of one kind, in which ``use`` looks for those of FMI 2.0."""
     return flavour if fmi == 2 else f"fmi{fmi}"

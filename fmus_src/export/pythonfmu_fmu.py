@@ -80,10 +80,10 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
 
 
 def _with_pythonfmu(closure: Closure, script_name: str, script: str) -> dict[str, bytes]:
-    """The FMU that pythonfmu's builder makes of script and closure, as files.
+    """Return the FMU that pythonfmu's builder builds of script and closure, as files.
 
-    The builder imports the script; sys.path and sys.modules are put back afterwards. Its zip
-    carries dates, so only the content is taken.
+    The builder imports the script; sys.path and sys.modules are put back afterwards. Its zip carries dates, so only the
+    content is taken.
     """
     path_before = list(sys.path)
     modules_before = set(sys.modules)

@@ -1,4 +1,4 @@
-"""What runs inside a pythonfmu FMU: FMI calls passed on to a block's life cycle."""
+"""Bridge inside a pythonfmu FMU: FMI calls passed on to a block's life cycle."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Of which file an FMU of one's own was built: kept in sources.json beside the FMUs, so that a change is noticed.
+"""Source files of the user's FMUs: stored in sources.json next to the FMUs, so that a change is noticed.
 
 Files are named from the folder of sources.json, whatever machine it lies on; FMUs and sources by their SHA-256.
 """
@@ -31,7 +31,7 @@ def record_source(folder: Path, source: Path, fmus: Sequence[Path], others: Iter
 
 
 def remove_outdated(folder: Path, source: Path, fmu: Path) -> None:
-    """Remove an FMU that was built of a file by which it is not made any more: it would fly before the others."""
+    """Remove an FMU built of a file that no longer defines it: it would be used before the others."""
     entry = _read(folder).get(_relative(fmu, folder))
     if entry is None or not fmu.is_file():
         return
@@ -40,7 +40,7 @@ def remove_outdated(folder: Path, source: Path, fmu: Path) -> None:
 
 
 def find_changed_source(fmu: Path) -> tuple[Path, Path] | None:
-    """The first file with other content than when the FMU was built of it, and the file to export again.
+    """Return the first file changed since the FMU was built of it, and the file to export again.
 
     None where no such change is certain.
     """

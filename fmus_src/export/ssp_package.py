@@ -18,9 +18,9 @@ CAMPAIGN_FOLDER = "extra/org.perilune/campaigns"
 
 
 def system_files(folder: Path) -> dict[str, Path]:
-    """Archive name -> file of a system folder, without the FMUs that are built elsewhere.
+    """Return archive name -> file of a system folder, without the FMUs that are built elsewhere.
 
-    SSDs and FMUs beside them stay at the root, parameter sets, mappings and dictionaries go to resources/, campaigns
+    SSDs and FMUs next to them stay at the root, parameter sets, mappings and dictionaries go to resources/, campaigns
     below extra/, the README to documentation/; everything under the folder's resources/ as it is.
     """
     files: dict[str, Path] = {}

@@ -22,7 +22,7 @@ class AstarGuidance(AstarProgramme):
         self.last_root = 0.0
 
     def root(self, dr: Vector3, v: Vector3, dv: Vector3, start: float) -> float:
-        """The root reached from ``start`` (s), or 0 without convergence."""
+        """Return the root reached from ``start`` (s), or 0 without convergence."""
         g = self.gravity
         slope_p = dv + 3.0 * v
         slope_q = dv + 2.0 * v

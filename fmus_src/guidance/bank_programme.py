@@ -12,7 +12,7 @@ NEVER = 1e9
 
 
 class BankMethod(Enumeration):
-    """How the reference follows the target."""
+    """Motion of the reference to the target."""
 
     IDEAL = member("ideal")
     LIMITED = member("limited")
@@ -50,7 +50,7 @@ class BankProgramme(Block):
         self.programme(0.0)
 
     def programme(self, time: float) -> None:
-        """Outputs ``time`` (s) after the start."""
+        """Set outputs ``time`` (s) after the start."""
         self.target_bank = self.first_target
         self.time_since_reversal = NEVER
         before = self.first_target
@@ -69,7 +69,7 @@ class BankProgramme(Block):
             self.lead(before, self.time_since_reversal)
 
     def lead(self, before: float, s: float) -> None:
-        """The reference from one target to the present one, ``s`` (s) after the command."""
+        """Lead the reference from one target to the present one, ``s`` (s) after the command."""
         way = abs(self.target_bank - before)
         if way <= 0.0:
             return

@@ -133,7 +133,7 @@ class ConvexGuidance(ZemZevGuidance):
         """Plan from here with about the time that is left; an old plan stays unless the target is met.
 
         A plan uses all the thrust that it may, so that a late correction of knowledge can make the next one far longer:
-        that is made with half of the reserve of thrust instead.
+        that one has half of the reserve of thrust instead.
         """
         plan = [0.0] * PLAN
         bracket = replan_bracket(self.expected_time)
@@ -155,7 +155,8 @@ class ConvexGuidance(ZemZevGuidance):
         self.solver_iterations = iterations
 
     def is_end_due(self) -> bool:
-        """True if ZEM/ZEV is to command: near the end where it leaves no limit by much, and for the last burn."""
+        """Return True if ZEM/ZEV is to command: near the end where it leaves no limit by much, and for the last
+        burn."""
         if self.expected_time <= self.hold_time() + self.cycle:
             return True
         if self.expected_time > self.end_time:
@@ -174,7 +175,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.check(self.expected_time)
 
     def is_sound(self) -> bool:
-        """True if what is known of the vehicle can be planned with."""
+        """Return True if the vehicle's estimated state can be planned with."""
         known = all_below(self.position, LARGEST) and all_below(self.velocity, LARGEST)
         return known and self.mass > SMALLEST_MASS and self.mass < LARGEST and self.maximum_thrust > 0.0
 

@@ -28,14 +28,14 @@ class GravityTurnGuidance(InformedGuidance):
     burning = State(False, description="thrust has begun")
 
     def plan_frozen(self) -> bool:
-        """False: the law has no time to hold."""
+        """Return False: the law has no time to hold."""
         return False
 
     def forget(self) -> None:
         self.burning = self.burning and self.commanding  # a divert leaves the engine on
 
     def local_gravity(self) -> tuple[Vector3, float]:
-        """Return the local vertical and gravity (m/s2) less the centrifugal part along it."""
+        """Return the local vertical and gravity (m/s2) less the centrifugal acceleration along it."""
         up = vector(0.0, 0.0, 1.0)
         g = self.gravity
         if self.gravity_correction:

@@ -165,7 +165,7 @@ class HoverGuidance(HoverPlan):
                 self.thrust_factor = self.thrust_factor + gain * (measured - self.thrust_factor)
 
     def sinking(self) -> bool:
-        """Whether the reference sinks."""
+        """Return True if the reference sinks."""
         return self.mode == HoverMode.DESCEND and self.status == HoverStatus.GOOD
 
     def sink_speed(self, t: float) -> float:
@@ -201,7 +201,7 @@ class HoverGuidance(HoverPlan):
         return impulse / (end - begin)
 
     def frequency(self, t: float) -> float:
-        """Of the loop (rad/s) at the time t (s) after the plan's start."""
+        """Return the frequency of the loop (rad/s) at the time t (s) after the plan's start."""
         if self.plan_kind == PlanKind.NONE or self.plan_kind == PlanKind.POLYNOMIAL or t >= self.duration:
             return self.holding_frequency
         if t >= self.shape.last_burn_begin - BEFORE_LAST_BURN:
@@ -209,7 +209,7 @@ class HoverGuidance(HoverPlan):
         return self.coasting_frequency
 
     def follow(self, time: float) -> None:
-        """The command at ``time`` (s)."""
+        """Set the command at ``time`` (s)."""
         t = time - self.plan_start
         if self.duration - t < sampling.TIME_ROUNDING and t < self.duration:
             t = self.duration
@@ -224,7 +224,7 @@ class HoverGuidance(HoverPlan):
         self.track(planned, ahead, self.frequency(t))
 
     def track(self, plan: TurningDirection, planned: float, frequency: float) -> None:
-        """The law, from direction and thrust over mass (m/s2) of the plan."""
+        """Apply the law to direction and thrust over mass (m/s2) of the plan."""
         direction = plan.direction
         error = self.reference_position - self.position
         near = limit_length(error, self.largest_error)

@@ -1,4 +1,4 @@
-"""Plans from hover to hover: how they are made, and what they ask for at any time."""
+"""Plans from hover to hover: their computation, and their demands at any time."""
 
 import math
 
@@ -93,7 +93,7 @@ class HoverPlan(Block, interface=True):
         return self.gravitational_parameter / square
 
     def vertical(self, position: Vector3) -> Vector3:
-        """The vertical upwards at a position (m)."""
+        """Return the vertical upwards at a position (m)."""
         if self.uniform_gravity > 0.0:
             return vector(0.0, 0.0, 1.0)
         return vertical_at(position, self.moon_radius)
@@ -111,7 +111,8 @@ class HoverPlan(Block, interface=True):
         self.plan_gravity = 0.5 * (self.gravity_at(self.origin) + self.gravity_at(self.goal))
 
     def can_plan(self) -> bool:
-        """Whether all is finite and the engine can lift the vehicle; else it is to hold where it is, status 3."""
+        """Return True if all is finite and the engine can lift the vehicle; else it is to hold where it is, status
+        3."""
         fine = is_finite(self.position) and is_finite(self.velocity) and is_finite(self.target_position)
         fine = fine and math.isfinite(self.mass) and self.mass > 0.0
         fine = fine and self.maximum_thrust > self.mass * self.plan_gravity
@@ -127,7 +128,7 @@ class HoverPlan(Block, interface=True):
             self.goal = self.position
 
     def plan_programme(self) -> None:
-        """The programme on least propellant; a quick polynomial where there is none."""
+        """Plan the programme on least propellant; a quick polynomial where there is none."""
         exhaust = STANDARD_GRAVITY * self.specific_impulse
         full = self.maximum_thrust / self.mass
         self.vehicle = HoverVehicle(
@@ -173,7 +174,7 @@ class HoverPlan(Block, interface=True):
         self.programme[4] = p.t7
 
     def plan_transfer(self, speed: float, acceleration: float) -> None:
-        """A polynomial from rest to rest within a speed (m/s) and an acceleration (m/s2)."""
+        """Plan a polynomial from rest to rest within a speed (m/s) and an acceleration (m/s2)."""
         way = self.goal - self.origin
         height = dot(way, self.up)
         longer = norm(way - height * self.up)
@@ -186,9 +187,9 @@ class HoverPlan(Block, interface=True):
         self.take_polynomial(duration, spent.impulse)
 
     def plan_capture(self, cycle: float) -> None:
-        """A polynomial from flight, with the thrust measured over the last cycle (s).
+        """Plan a polynomial from flight, with the thrust measured over the last cycle (s).
 
-        Without thrust to go on from, the engine is assumed to take up the weight along its axis at once.
+        Without measured thrust the engine is assumed to take up the weight along its axis at once.
         """
         exhaust = STANDARD_GRAVITY * self.specific_impulse
         force = norm(self.velocity_increment) / cycle
@@ -206,7 +207,7 @@ class HoverPlan(Block, interface=True):
             self.status = HoverStatus.BEYOND_LIMITS
 
     def limits(self) -> TransferLimits:
-        """Those of plans."""
+        """Return the limits of plans."""
         return TransferLimits(
             maximum_thrust=self.planned_maximum * self.maximum_thrust,
             minimum_thrust=self.planned_minimum * self.maximum_thrust,

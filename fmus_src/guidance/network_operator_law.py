@@ -1,4 +1,4 @@
-"""A descent law given as a network operator: its declarations, and the thrust that it asks for."""
+"""Descent law as a network operator: its declarations, and its thrust."""
 
 import math
 
@@ -65,7 +65,7 @@ class NetworkOperatorLaw(Block, interface=True):
         self.edge_count = decode(self.matrix, self.edges)
 
     def evaluate_law(self, path_angle: float, altitude: float, final_altitude: float) -> None:
-        """The nodes for a path angle (rad) and altitudes (m); the law must be good."""
+        """Evaluate the nodes for a path angle (rad) and altitudes (m); the law must be good."""
         for j in range(SOURCES, SIZE):
             self.nodes[j] = neutral(self.matrix[j, j])
         self.nodes[0] = math.pi + path_angle

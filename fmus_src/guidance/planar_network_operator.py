@@ -7,7 +7,7 @@ from .network_operator_law import NetworkOperatorLaw
 
 
 class LawStatus(Enumeration):
-    """Whether there is a law."""
+    """Presence of a law."""
 
     GOOD = member("good")
     BAD_LAW = member("the matrix is no network operator: no thrust")

@@ -174,7 +174,7 @@ class PolynomialGuidance(InformedGuidance, interface=True):
         return time
 
     def is_check_due(self, time: float) -> bool:
-        """True if the thrust of the rest is to be checked, with ``time`` (s) to go."""
+        """Return True if the thrust of the rest is to be checked, with ``time`` (s) to go."""
         return time > LAST_CHECK and self.checked_time - time >= CHECK_INTERVAL
 
     def check(self, time: float) -> None:

@@ -13,7 +13,7 @@ from ..mathlib.vectors import norm, vector
 
 
 class RendezvousStatus(Enumeration):
-    """Whether there is a plan."""
+    """Presence of a plan."""
 
     GOOD = member("good")
     NO_PLAN = member("no plan: phases out of order")
@@ -21,7 +21,7 @@ class RendezvousStatus(Enumeration):
 
 
 class RendezvousPhase(Enumeration, first=1):
-    """What the plan does."""
+    """Phase of the plan."""
 
     ACCELERATE = member("accelerate")
     TURN = member("turn")
@@ -176,7 +176,7 @@ class RendezvousGuidance(Block):
         self.planned_angular_acceleration = acceleration * self.turn_axis
 
     def tick(self, time: float) -> None:
-        """A tick of translation control: its period, and what is to be planned for it."""
+        """Start a tick of translation control: set its period, and plan for it."""
         ratio = math.floor(self.slow_period / self.fast_period + 0.5)
         if ratio < 1:
             ratio = 1

@@ -17,7 +17,7 @@ from ..mathlib.vectors import norm, vector
 
 
 class SlewPhase(Enumeration):
-    """What the reference does."""
+    """Phase of the reference."""
 
     WAITING = member("waiting")
     SLEWING = member("slewing")
@@ -26,7 +26,7 @@ class SlewPhase(Enumeration):
 
 
 class SlewProgress(Record):
-    """Where a slew is."""
+    """Progress of a slew."""
 
     angle = Field(unit="rad", description="turned so far")
     rate = Field(unit="rad/s", description="its rate")
@@ -98,7 +98,7 @@ class SlewGuidance(Block, interface=True):
         self.reference.reference_angular_velocity = self.progress.rate * self.eigenaxis
 
     def refer(self, time: float, period: float) -> None:
-        """The reference at a time (s), until the next sample a period (s) later."""
+        """Set the reference at a time (s), until the next sample a period (s) later."""
         self.set_phase(time)
         self.proceed(time + period)
         rate_later = self.progress.rate

@@ -16,7 +16,7 @@ SETTLED = 1e-10
 
 
 class TerminalStep(Enumeration):
-    """How a terminal guidance ends."""
+    """Ending of a terminal guidance."""
 
     STOP = member("stop: finished when time_to_go < cycle")
     EXACT = member("exact: burn the last 0.5 to 1.5 cycles to the end")
@@ -108,7 +108,7 @@ class TerminalGuidance(Block, interface=True):
         return self.remaining_over(self.expected_time)
 
     def remaining_over(self, time: float) -> tuple[Vector3, Vector3]:
-        """The same with gravity corrected over ``time`` (s), and without a correction where that is 0 or less."""
+        """Return the same with gravity corrected over ``time`` (s), without a correction where that is 0 or less."""
         dr = self.aim_position - self.position
         dv = self.target_velocity - self.velocity
         if self.gravity_correction and time > 0.0:
@@ -121,11 +121,11 @@ class TerminalGuidance(Block, interface=True):
         return dr, dv
 
     def plan_frozen(self) -> bool:
-        """Whether the plan is held, so that time_to_go never runs out."""
+        """Return True if the plan is held, so that time_to_go never runs out."""
         return self.frozen_time_to_go > 0.0
 
     def planned_time(self, time: float) -> float:
-        """The time_to_go (s) to command for: ``time``, or that of a frozen plan."""
+        """Return the time_to_go (s) to command for: ``time``, or that of a frozen plan."""
         if self.plan_frozen():
             return self.frozen_time_to_go
         return time
@@ -158,7 +158,7 @@ class TerminalGuidance(Block, interface=True):
         self.flown_divert = self.divert_count
 
     def begin(self, time: float) -> None:
-        """The first command, at ``time`` (s)."""
+        """Issue the first command, at ``time`` (s)."""
         self.command.command_time = time
         self.cycle = self.sample_period
         self.expected_time = self.planned_time(0.0)
@@ -204,10 +204,10 @@ class TerminalGuidance(Block, interface=True):
         self.forget()
 
     def forget(self) -> None:
-        """Put the states of a law of its own back to their starts."""
+        """Reset the states of a derived law to their starts."""
 
     def go_on(self, t: float, h: float) -> None:
-        """The command of the sample at t + h (s)."""
+        """Issue the command of the sample at t + h (s)."""
         if not self.finished:
             self.cycle = self.sample_period
             if self.cycle <= 0.0:
@@ -225,7 +225,7 @@ class TerminalGuidance(Block, interface=True):
                 self.finish(t + h)
 
     def burn_span(self, time: float) -> float:
-        """Return how long (s) a command lasts that is given with ``time`` (s) to go."""
+        """Return the duration (s) of a command with ``time`` (s) to go."""
         held = self.hold_time()
         if self.plan_frozen():
             held = self.cycle  # no last burn
@@ -234,7 +234,7 @@ class TerminalGuidance(Block, interface=True):
         return self.cycle
 
     def hold_time(self) -> float:
-        """How long the last command is held at most (s)."""
+        """Return the longest time (s) to hold the last command."""
         held = LAST_BURN * self.cycle
         if self.last_burn > held:
             held = self.last_burn

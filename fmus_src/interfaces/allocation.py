@@ -6,7 +6,7 @@ from .ports import landing
 
 
 class AllocationStatus(Enumeration):
-    """Whether the demand is given."""
+    """Presence of the demand."""
 
     GOOD = member("good")
     LIMITED = member("limited by thrust or slew rate")

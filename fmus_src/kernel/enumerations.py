@@ -14,7 +14,7 @@ from typing import Any, ClassVar
 
 
 def member(meaning: str) -> int:
-    """A member of an `Enumeration`, and what it means."""
+    """Declare a member of an `Enumeration`, with its meaning."""
     made: Any = _Member(meaning)
     return made
 

@@ -34,7 +34,7 @@ def _refuse(y: float, if_infinite: str) -> None:
 
 
 def _check_result(function: Callable[[float], float], if_infinite: str) -> Callable[[float], float]:
-    """A function of one argument that raises where its result is NaN, or infinite, of a finite argument."""
+    """Return a function of one argument that raises where its result is NaN, or infinite, of a finite argument."""
 
     @functools.wraps(function)
     def call(x: float) -> float:
@@ -62,7 +62,7 @@ def _check_power(function: Callable[[float, float], float]) -> Callable[[float, 
 
 
 def _without_faults(function: F) -> F:
-    """A function whose result is NaN of NaN alone, and never infinite of finite arguments."""
+    """Register a function whose result is NaN of NaN alone, and never infinite of finite arguments."""
     FAULTS[function] = None
     return function
 

@@ -1,7 +1,7 @@
 """One step of an integrator for x' = f(t, x, inputs): a function of the rates, for any float, vector or record.
 
 `derivatives` is a method of a block, or a function, of the time (s), the state and the inputs, which are held over the
-step; it changes nothing. The translator makes each integrator anew for every `derivatives` and state.
+step; it changes nothing. The translator writes each integrator again for every `derivatives` and state.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Derivatives = Callable[..., Any]  # (t, state, *inputs) -> rate of the state
 
 
 def runge_kutta_4(derivatives: Derivatives, t: float, state: State, h: float, *inputs: Any) -> State:
-    """The state at t + h: the classical method of fourth order (Kutta 1901).
+    """Return the state at t + h: the classical method of fourth order (Kutta 1901).
 
     Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 1993, table II.1.2.
     """
@@ -28,7 +28,7 @@ def runge_kutta_4(derivatives: Derivatives, t: float, state: State, h: float, *i
 
 
 def runge_kutta_4_from(k1: Any, derivatives: Derivatives, t: float, state: State, h: float, *inputs: Any) -> State:
-    """The same, where the rate k1 at the start is known already."""
+    """Return the state at t + h, where the rate k1 at the start is known already."""
     half = 0.5 * h
     k2 = derivatives(t + half, state + half * k1, *inputs)
     k3 = derivatives(t + half, state + half * k2, *inputs)
@@ -49,7 +49,7 @@ class Translation(Record):
 
 
 def simpson(acceleration: Derivatives, t: float, s: Translation, h: float) -> Translation:
-    """The motion at t + h under x'' = acceleration(t): Simpson's rule, to which `runge_kutta_4` reduces then."""
+    """Return the motion at t + h under x'' = acceleration(t): Simpson's rule, to which `runge_kutta_4` reduces then."""
     a1 = acceleration(t)
     a2 = acceleration(t + 0.5 * h)
     a4 = acceleration(t + h)
@@ -68,7 +68,7 @@ class Forcing(Record):
 
 
 def runge_kutta_nystrom(field: Derivatives, s: Translation, forcing: Forcing, h: float) -> Translation:
-    """The motion h (s) later under x'' = field(x) + forcing: Nystrom's method of fourth order (1925).
+    """Return the motion h (s) later under x'' = field(x) + forcing: Nystrom's method of fourth order (1925).
 
     Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 1993, section II.14.
     """
@@ -83,5 +83,5 @@ def runge_kutta_nystrom(field: Derivatives, s: Translation, forcing: Forcing, h:
 
 
 def gain_of(forcing: Forcing, h: float) -> Vector3:
-    """The velocity (m/s) that a forcing gives over h (s), by Simpson's rule."""
+    """Return the velocity gain (m/s) of a forcing over h (s), by Simpson's rule."""
     return h * (forcing.start + 2.0 * forcing.middle + 2.0 * forcing.middle + forcing.end) / 6.0

@@ -16,7 +16,7 @@ TERMS = 16  # of the exponential's series: at a norm of 1/2 what is left out is 
 
 
 def diagonal(v: Vector) -> Matrix:
-    """The matrix with v on its diagonal and 0 elsewhere."""
+    """Return the matrix with v on its diagonal and 0 elsewhere."""
     a = zeros(len(v), len(v))
     for i in range(len(v)):
         a[i, i] = v[i]
@@ -40,7 +40,7 @@ def mirror(a: Matrix, size: int) -> None:
 
 
 def is_positive_definite(a: Matrix) -> bool:
-    """True if a symmetric matrix is positive definite: all pivots of its elimination are positive."""
+    """Return True if a symmetric matrix is positive definite: all pivots of its elimination are positive."""
     reduced = a.copy()
     for k in range(len(a)):
         if not reduced[k, k] > 0.0:

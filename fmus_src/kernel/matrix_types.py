@@ -1,4 +1,4 @@
-"""Matrices of fixed size: what `f @ p` or `p.T` makes is new; a variable's elements and blocks can be assigned.
+"""Matrices of fixed size: the result of `f @ p` or `p.T` is new; a variable's elements and blocks can be assigned.
 
     POSITION, VELOCITY = block(0, 3), block(3, 3)
     p = zeros(6, 6)
@@ -9,8 +9,8 @@
 index and a block, or a slice, give a vector of two to four, or a matrix of one row or column of more; two blocks give a
 matrix. `len(p)` is the number of rows. Sums of a product run from left to right from the first product.
 
-No matrix has two names: `b = a` is refused in kernels, `b = a.copy()` and `self.p = a` copy. A function is given the
-matrix itself, as it is a list, and may change its elements. In C a matrix is a struct, and operators are loops.
+No matrix has two names: `b = a` is refused in kernels, `b = a.copy()` and `self.p = a` copy. A function receives the
+matrix itself, as it does a list, and may change its elements. In C a matrix is a struct, and operators are loops.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Matrix:
 
     @classmethod
     def of_elements(cls, elements: Sequence, columns: int) -> Matrix:
-        """The matrix with these elements in row order."""
+        """Return the matrix with these elements in row order."""
         return cls([list(elements[k : k + columns]) for k in range(0, len(elements), columns)])
 
     def elements(self) -> tuple:
@@ -54,7 +54,7 @@ class Matrix:
         return Matrix([list(column) for column in zip(*self.rows, strict=True)])
 
     def copy(self) -> Matrix:
-        """A matrix with the same elements."""
+        """Return a matrix with the same elements."""
         return Matrix([row[:] for row in self.rows])
 
     def __len__(self) -> int:
@@ -162,17 +162,17 @@ class Matrix:
 
 
 def matrix(*rows: list) -> Matrix:
-    """The matrix of some rows: ``matrix([1.0, h], [0.0, 1.0])``."""
+    """Return the matrix of some rows: ``matrix([1.0, h], [0.0, 1.0])``."""
     return Matrix([[float(element) for element in row] for row in rows])
 
 
 def zeros(rows: int, columns: int) -> Matrix:
-    """The matrix of 0."""
+    """Return the matrix of 0."""
     return Matrix([[0.0] * columns for _ in range(rows)])
 
 
 def identity(n: int) -> Matrix:
-    """The square matrix with 1 on its diagonal and 0 elsewhere."""
+    """Return the square matrix with 1 on its diagonal and 0 elsewhere."""
     return Matrix([[1.0 if i == j else 0.0 for j in range(n)] for i in range(n)])
 
 
@@ -183,7 +183,8 @@ def add_product(q: Matrix, a: Matrix, b: Matrix) -> Matrix:
 
 
 def block(first: int, size: int) -> slice:
-    """Some rows or columns, as a constant of a module: ``POSITION = block(0, 3)``, then ``p[POSITION, VELOCITY]``."""
+    """Return some rows or columns, as a constant of a module: ``POSITION = block(0, 3)``, then
+    ``p[POSITION, VELOCITY]``."""
     return slice(first, first + size)
 
 
@@ -201,7 +202,7 @@ def _of_three(x: float, y: float, z: float) -> Vector3:
 
 
 def _narrow(elements: list, across: bool) -> Any:
-    """A part of a row or column."""
+    """Return a slice of a row or column."""
     if len(elements) in VECTORS:
         return vector(*elements)
     return Matrix([elements] if across else [[element] for element in elements])
@@ -209,14 +210,14 @@ def _narrow(elements: list, across: bool) -> Any:
 
 @cache
 def _sums(inner: int) -> Callable[[list[list], list[tuple]], list[list]]:
-    """What multiplies rows with columns of so many elements, its sums written out."""
+    """Return a function that multiplies rows with columns of ``inner`` elements, its sums written out."""
     a, b = (", ".join(f"{name}{k}" for k in range(inner)) for name in "ab")
     return eval(f"lambda rows, columns: [[{_terms(inner)} for {b}, in columns] for {a}, in rows]")
 
 
 @cache
 def _sums_of_one(inner: int) -> Callable[[list[list], tuple], list]:
-    """What multiplies rows with one column."""
+    """Return a function that multiplies rows with one column."""
     a, b = (", ".join(f"{name}{k}" for k in range(inner)) for name in "ab")
     namespace: dict[str, Any] = {}
     exec(f"def multiply(rows, column):\n {b}, = column\n return [{_terms(inner)} for {a}, in rows]", namespace)
@@ -225,7 +226,7 @@ def _sums_of_one(inner: int) -> Callable[[list[list], tuple], list]:
 
 @cache
 def _sums_from(inner: int) -> Callable[[list[list], list[list], list[tuple]], list[list]]:
-    """What multiplies rows with columns, each sum starting from another matrix's element."""
+    """Return a function that multiplies rows with columns, each sum starting from another matrix's element."""
     a, b = (", ".join(f"{name}{k}" for k in range(inner)) for name in "ab")
     inside = f"[q + {_terms(inner)} for q, ({b},) in zip(starts, columns)]"
     return eval(f"lambda q, rows, columns: [{inside} for starts, ({a},) in zip(q, rows)]")

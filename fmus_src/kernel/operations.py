@@ -31,7 +31,7 @@ def add_operators(owner: type, components: Sequence[str], make: str) -> None:
 
 
 def fill(components: Sequence[str], expression: str) -> list[str]:
-    """Return statements that fill what is made: ``made.x = self.x * factor`` and so on."""
+    """Return statements that fill ``made``: ``made.x = self.x * factor`` and so on."""
     return [f"made.{component} = {expression.format(component)}" for component in components]
 
 

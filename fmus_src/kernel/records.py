@@ -62,17 +62,17 @@ class _RecordType(type):
 
 
 class Record(metaclass=_RecordType):
-    """What all records have in common."""
+    """Base of all records."""
 
     fields: ClassVar[dict[str, Field]]
 
     def elements(self) -> tuple[Any, ...]:
-        """The numbers of all fields, one after another."""
+        """Return the numbers of all fields, one after another."""
         return tuple(_flatten(getattr(self, name) for name in self.fields))
 
     @classmethod
     def of_elements(cls, elements: Sequence[Any]) -> Any:
-        """The record with these numbers."""
+        """Return the record with these numbers."""
         return _take(cls, iter(elements))
 
     def __eq__(self, other: object) -> bool:
@@ -108,7 +108,7 @@ R = TypeVar("R", bound=Record)
 
 
 def replace(record: R, **changes: Any) -> R:
-    """The record with other values of some fields."""
+    """Return the record with other values of some fields."""
     made = object.__new__(type(record))
     for name in record.fields:
         setattr(made, name, changes.pop(name) if name in changes else getattr(record, name))
@@ -118,14 +118,14 @@ def replace(record: R, **changes: Any) -> R:
 
 
 def is_space(kind: Any) -> bool:
-    """Whether values of a field's type can be added and scaled."""
+    """Return True if values of a field's type can be added and scaled."""
     if isinstance(kind, _RecordType):
         return all(is_space(field.kind) for field in kind.fields.values())  # type: ignore[attr-defined]
     return kind is float or kind in VECTORS.values()
 
 
 def count_numbers(kind: Any) -> int:
-    """How many numbers a value of a field's type has."""
+    """Count the numbers of a value of a field's type."""
     if isinstance(kind, _RecordType):
         return sum(count_numbers(field.kind) for field in kind.fields.values())  # type: ignore[attr-defined, misc]
     return 1 if kind in SCALARS else len(kind.names)
@@ -161,7 +161,7 @@ def _flatten(values: Any) -> Iterator[Any]:
 
 
 def _take(kind: Any, elements: Iterator[Any]) -> Any:
-    """A value of a field's type, made of the next elements."""
+    """Return a value of a field's type from the next elements."""
     if isinstance(kind, _RecordType):
         made: Any = object.__new__(kind)  # type: ignore[arg-type]
         for name, field in kind.fields.items():  # type: ignore[attr-defined]

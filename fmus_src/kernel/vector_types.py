@@ -17,7 +17,7 @@ from .operations import add_method, add_operators, fill
 
 
 class Vector:
-    """What vectors of all sizes have in common; in a kernel's declaration, a vector of any size."""
+    """Base of vectors of all sizes; in a kernel's declaration, a vector of any size."""
 
     __slots__ = ()
     names: ClassVar[str]
@@ -57,7 +57,7 @@ class Vector:
     if TYPE_CHECKING:  # written for each size
 
         def elements(self) -> tuple[float, ...]:
-            """The components as a tuple."""
+            """Return the components as a tuple."""
 
         def __getitem__(self, key: Any) -> Any: ...
 
@@ -95,7 +95,7 @@ def _write_methods(kind: type[Vector]) -> None:
 
 
 def vector(first: float, second: float, third: float | None = None, fourth: float | None = None) -> Any:
-    """The vector of two, three or four components."""
+    """Return the vector of two, three or four components."""
     if third is None:
         two = Vector2()
         two.x = first

@@ -27,7 +27,7 @@ def curvatures(values: Matrix, row: int, n: int, step: float, clamped: bool, res
 
 
 def cubic_value(values: Matrix, second: Matrix, row: int, n: int, step: float, x: float) -> float:
-    """A curve at x, counted from its first knot; the end values beyond the ends, the first for what is no number."""
+    """Return a curve at x, counted from its first knot; the end values beyond the ends, the first for NaN."""
     if not x > 0.0:
         return values[row, 0]
     if x >= step * float(n - 1):

@@ -23,7 +23,7 @@ class LeadLaw(Record):
 
 
 def tustin_lead(gain: float, lead: float, lag: float, period: float) -> LeadLaw:
-    """The law; times in s, not both lag and period 0."""
+    """Return the law; times in s, not both lag and period 0."""
     divisor = 2.0 * lag + period
     decay = (2.0 * lag - period) / divisor
     input_gain = gain * (2.0 * lead + period) / divisor
@@ -33,22 +33,22 @@ def tustin_lead(gain: float, lead: float, lag: float, period: float) -> LeadLaw:
 
 
 def lead_output(law: LeadLaw, g: Vector3, e: Vector3) -> Vector3:
-    """The output from the state g and the input e."""
+    """Return the output from the state g and the input e."""
     return law.state_gain * g + law.input_gain * e
 
 
 def advance_lead(law: LeadLaw, g: Vector3, e: Vector3) -> Vector3:
-    """The state at the next tick."""
+    """Return the state at the next tick."""
     return law.decay * g + e
 
 
 def is_same(one: LeadLaw, other: LeadLaw) -> bool:
-    """Whether two laws are one."""
+    """Return True if two laws are one."""
     return one.decay == other.decay and one.state_gain == other.state_gain and one.input_gain == other.input_gain
 
 
 def change_lead(old: LeadLaw, new: LeadLaw, e: Vector3, g: Vector3) -> Vector3:
-    """The state with which the new law puts out for e what the old one did; 0 where the new one has no state."""
+    """Return the state with which the new law has the old one's output for e; 0 where the new one has no state."""
     if abs(new.state_gain) > NO_STATE * abs(new.input_gain):
         return (old.state_gain * g + (old.input_gain - new.input_gain) * e) / new.state_gain
     return vector(0.0, 0.0, 0.0)

@@ -38,12 +38,12 @@ BINARY_OPERATIONS = (0, 1, 2, 3)
 
 
 def is_unary(operation: int) -> bool:
-    """Whether a number names a unary operation."""
+    """Return True if a number names a unary operation."""
     return operation >= 1 and operation <= 23 and operation != 22
 
 
 def is_binary(operation: int) -> bool:
-    """Whether a number names a binary operation."""
+    """Return True if a number names a binary operation."""
     return operation >= 0 and operation <= 3
 
 
@@ -55,7 +55,7 @@ def sign(z: float) -> float:
 
 
 def unary(operation: int, z: float, exp_saturation: float) -> float:
-    """A known unary operation of z; exp takes the value exp_saturation above LOG_LARGEST."""
+    """Apply a known unary operation to z; exp takes the value exp_saturation above LOG_LARGEST."""
     if operation == 1:
         return z
     if operation == 2:
@@ -110,7 +110,7 @@ def unary(operation: int, z: float, exp_saturation: float) -> float:
 
 
 def binary(operation: int, a: float, b: float) -> float:
-    """A known binary operation of a and b."""
+    """Apply a known binary operation to a and b."""
     if operation == 0:
         return a + b
     if operation == 1:
@@ -121,7 +121,7 @@ def binary(operation: int, a: float, b: float) -> float:
 
 
 def neutral(operation: int) -> float:
-    """What a known binary operation starts from."""
+    """Return the neutral element of a known binary operation."""
     if operation == 0:
         return 0.0
     if operation == 1:
@@ -152,7 +152,7 @@ def decode(matrix: Matrix, edges: list) -> int:
 
 
 def evaluate(matrix: Matrix, edges: list, count: int, exp_saturation: float, nodes: list) -> None:
-    """The nodes of a decoded network; in: the sources' values and, elsewhere, the neutral elements."""
+    """Evaluate the nodes of a decoded network; in: the sources' values and, elsewhere, the neutral elements."""
     for k in range(count):
         row = edges[k] // SIZE
         column = edges[k] % SIZE

@@ -12,7 +12,7 @@ SETTLED = 1e-12  # of the root; a step of Newton's method this small leaves noth
 
 
 def evaluate(c: list, x: float) -> float:
-    """The polynomial at x."""
+    """Return the polynomial at x."""
     return (((c[4] * x + c[3]) * x + c[2]) * x + c[1]) * x + c[0]
 
 
@@ -37,9 +37,9 @@ def quadratic_roots(c0: float, c1: float, c2: float, roots: list) -> int:
 
 
 def root_between(c: list, low: float, high: float, rising: bool, guess: float) -> float:
-    """The root in [low, high], over which the polynomial is monotone and changes sign, rising or not.
+    """Return the root in [low, high], over which the polynomial is monotone and changes sign, rising or not.
 
-    Begins at ``guess`` if that lies in between, else in the middle.
+    Begins at ``guess`` if that is in between, else in the middle.
     """
     x = guess
     if not (guess > low and guess < high):
@@ -72,7 +72,8 @@ def root_between(c: list, low: float, high: float, rising: bool, guess: float) -
 
 
 def first_crossing(c: list, low: float, high: float, guess: float) -> float:
-    """The root beyond ``low`` and up to ``high``, between which the polynomial is monotone; 0 where there is none."""
+    """Return the root beyond ``low`` and up to ``high``, between which the polynomial is
+    monotone; 0 where there is none."""
     value = evaluate(c, low)
     if value == 0.0:
         return 0.0
@@ -92,7 +93,7 @@ def first_crossing(c: list, low: float, high: float, guess: float) -> float:
 
 
 def crosses(rising: bool, value: float) -> bool:
-    """Whether a function that began below 0, rising, or above it has reached 0 with this value."""
+    """Return True if a function that began below 0, rising, or above it has reached 0 with this value."""
     if rising:
         return value >= 0.0
     return value <= 0.0

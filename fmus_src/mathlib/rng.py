@@ -21,7 +21,7 @@ STREAM = 51  # row of `JUMPS` with the distance of streams, 2^127
 
 
 def nearest(x: float) -> float:
-    """The nearest whole number, for x below 2^51: ROUND leaves no place for what lies behind the point."""
+    """Return the nearest whole number, for x below 2^51: adding ROUND leaves no bits for the fraction."""
     return x + ROUND - ROUND
 
 
@@ -106,7 +106,7 @@ def seed_streams(state: list, seed: int, stream: int) -> None:
 
 
 def uniform(state: list) -> float:
-    """The next number, in (0, 1)."""
+    """Return the next number, in (0, 1)."""
     advance(state)
     p1 = state[2]
     p2 = state[5]
@@ -116,14 +116,14 @@ def uniform(state: list) -> float:
 
 
 def normal(state: list) -> float:
-    """The next standard normal number (Box and Muller 1958, cosine branch; uses two uniform ones)."""
+    """Return the next standard normal number (Box and Muller 1958, cosine branch; uses two uniform ones)."""
     radius = uniform(state)
     angle = uniform(state)
     return math.sqrt(-2.0 * log(radius)) * cos(6.283185307179586 * angle)
 
 
 def normals(state: list) -> Vector3:
-    """The next three standard normal numbers."""
+    """Return the next three standard normal numbers."""
     x = normal(state)
     y = normal(state)
     z = normal(state)

@@ -1,9 +1,9 @@
 """Polynomials that lead from one state to another. Kernel functions.
 
-A spline of degree 5 or 6 is seven coefficients c of powers of s = (t - start)/duration, for one quantity:
-value and slope are given at both ends, and the second derivative is 0 there. The seventh coefficient makes
-the third derivative 0 at the end, too. With D = what the value gains beyond first slope times duration
-and E = duration times what the slope gains:
+A spline of degree 5 or 6 is seven coefficients c of powers of s = (t - start)/duration, for one quantity: value and
+slope are prescribed at both ends, and the second derivative is 0 there. The seventh coefficient makes the third
+derivative 0 at the end, too. With D = the gain of the value beyond first slope times duration and E = duration times
+the gain of the slope:
 
     degree 5: (10 D - 4 E) s^3 + (-15 D +  7 E) s^4 + ( 6 D -  3 E) s^5
     degree 6: (20 D - 10 E) s^3 + (-45 D + 25 E) s^4 + (36 D - 21 E) s^5 + (-10 D + 6 E) s^6
@@ -34,7 +34,7 @@ def spline(
 
 
 def spline_value(c: list, s: float) -> float:
-    """The quantity at s."""
+    """Return the quantity at s."""
     return ((((((c[6] * s + c[5]) * s + c[4]) * s + c[3]) * s + c[2]) * s) + c[1]) * s + c[0]
 
 

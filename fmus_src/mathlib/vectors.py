@@ -35,17 +35,17 @@ def norm(a: Vector3) -> float:
 
 
 def cross(a: Vector3, b: Vector3) -> Vector3:
-    """The vector product a x b."""
+    """Return the vector product a x b."""
     return vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 
 
 def across(a: Vector3, direction: Vector3) -> Vector3:
-    """The part of a perpendicular to a unit vector."""
+    """Return the component of a perpendicular to a unit vector."""
     return a - dot(a, direction) * direction
 
 
 def limit_length(a: Vector3, longest: float) -> Vector3:
-    """The vector, no longer than ``longest``."""
+    """Return the vector, no longer than ``longest``."""
     length = norm(a)
     if length > longest:
         return longest / length * a
@@ -53,7 +53,7 @@ def limit_length(a: Vector3, longest: float) -> Vector3:
 
 
 def is_finite(a: Vector3) -> bool:
-    """Whether all components are."""
+    """Return True if all components are finite."""
     return math.isfinite(a.x) and math.isfinite(a.y) and math.isfinite(a.z)
 
 
@@ -65,7 +65,7 @@ def finite_or_zero(a: Vector3) -> Vector3:
 
 
 def all_below(v: Vector, limit: float) -> bool:
-    """Whether all components are below a limit in size; False where one is no number."""
+    """Return True if all components are below a limit in size; False where one is NaN."""
     below = True
     for i in range(len(v)):
         below = below and abs(v[i]) < limit
@@ -73,7 +73,7 @@ def all_below(v: Vector, limit: float) -> bool:
 
 
 def smallest_component(a: Vector3) -> tuple[int, float]:
-    """Number and value of the component with the smallest size, the first of equal ones: the axis farthest from a."""
+    """Return number and value of the component of least size, the first of equal ones: the axis farthest from a."""
     k = 0
     for i in range(3):
         if abs(a[i]) < abs(a[k]):
@@ -82,7 +82,7 @@ def smallest_component(a: Vector3) -> tuple[int, float]:
 
 
 def add_along(a: Vector3, k: int, amount: float) -> Vector3:
-    """The vector with ``amount`` added to component k, 0 to 2."""
+    """Return the vector with ``amount`` added to component k, 0 to 2."""
     if k == 0:
         return vector(a.x + amount, a.y, a.z)
     if k == 1:
@@ -91,7 +91,7 @@ def add_along(a: Vector3, k: int, amount: float) -> Vector3:
 
 
 def clip(value: float, low: float, high: float) -> float:
-    """The value, no less than low and no more than high."""
+    """Return the value, no less than low and no more than high."""
     if value < low:
         return low
     if value > high:

@@ -1,1 +1,1 @@
-"""What plants and the models of them in observers and regulators share."""
+"""Models shared by plants, observers and regulators."""

@@ -1,4 +1,4 @@
-"""What spacecraft on a circular orbit and the models of them in observers and regulators have in common."""
+"""Shared model of spacecraft on a circular orbit, for plants, observers and regulators."""
 
 import math
 
@@ -61,9 +61,9 @@ class OrbitalBody(Block, interface=True):
     def fire(
         self, s: AttitudeState, pulses: Vector3, constant_torque: Vector3, h: float, longest: float
     ) -> AttitudeState:
-        """The attitude h (s) later, under pulses (s) from now on and a torque constant_torque (N m, body).
+        """Return the attitude h (s) later, under pulses (s) from now on and a torque constant_torque (N m, body).
 
-        The time is cut where a jet goes off, and what lies between into steps no longer than ``longest`` (s).
+        The time is cut where a jet goes off, and the intervals into steps no longer than ``longest`` (s).
         """
         time = 0.0
         while time < h:

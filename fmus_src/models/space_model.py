@@ -117,7 +117,7 @@ class SpaceModel(Block, interface=True):
         return 0.0
 
     def is_below_air(self, r: Vector3) -> bool:
-        """True if a position is below the tables of the air, where the density is that of 100 km."""
+        """Return True if a position is below the tables of the air, where the density is that of 100 km."""
         if self.central_body == CelestialBody.EARTH and self.atmosphere != Atmosphere.VACUUM:
             return self.height(r) < LOWEST_AIR
         return False

@@ -163,7 +163,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.accept(sensor, h, variances, z)
 
     def is_new(self, counted: bool, measured: Vector3, reference: Vector3) -> bool:
-        """True if a counted direction and its reference are finite and not 0; report it if they are not."""
+        """Return True if a counted direction and its reference are finite and not 0; report it if they are not."""
         if not counted:
             return False
         if is_finite(measured) and is_finite(reference) and norm(measured) > 0.0 and norm(reference) > 0.0:

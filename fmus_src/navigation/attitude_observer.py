@@ -14,7 +14,7 @@ from ..units import deg
 
 
 class ObserverStatus(Enumeration):
-    """What the estimate rests on."""
+    """Basis of the estimate."""
 
     GOOD = member("good")
     HELD = member("no new sample")
@@ -93,7 +93,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         return self.jet_torque * pulses / self.sample_period + self.held_torque
 
     def carry(self, split: bool) -> AttitudeState:
-        """The estimate of a tick ago carried on, under its pulses: each one as it was, or all in the mean."""
+        """Propagate the estimate of a tick ago, under its pulses: each one as it was, or all in the mean."""
         if split:
             return self.fire(self.estimate, self.fired_pulses, self.held_torque, self.sample_period, math.inf)
         torque = self.mean_torque(self.fired_pulses)
@@ -106,7 +106,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         )
 
     def finite(self) -> bool:
-        """Whether the sample is."""
+        """Return True if the sample is finite."""
         angles = math.isfinite(self.measured_roll) and math.isfinite(self.measured_pitch)
         return angles and is_finite(self.measured_angular_velocity)
 

@@ -1,4 +1,4 @@
-"""Whether an estimate's errors are as large as its covariance says."""
+"""Consistency of an estimate's errors with its covariance."""
 
 import math
 

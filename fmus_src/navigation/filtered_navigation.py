@@ -1,4 +1,4 @@
-"""What Kalman filters around an inertial navigation have in common: everything but the covariance's algebra."""
+"""Base of Kalman filters around an inertial navigation: everything but the covariance's algebra."""
 
 import math
 
@@ -19,7 +19,7 @@ CAMERA = 2
 
 
 class FilterStatus(Enumeration):
-    """What became of the last samples."""
+    """Outcome of the last samples."""
 
     GOOD = member("good")
     REJECTED = member("a sensor's last sample was rejected")
@@ -130,7 +130,8 @@ class FilteredNavigation(InertialNavigation, interface=True):
             self.force = self.force - sensor_addition(bias, scale_factor, rotation, self.force)
 
     def local_gradient(self) -> tuple[Vector3, float]:
-        """Unit vector away from the Moon's centre; size of the gradient of gravity (1/s2), 0 where it is left out."""
+        """Return the unit vector away from the Moon's centre, and the gradient of gravity
+        (1/s2), 0 where it is left out."""
         up = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(up)
         if self.gravity_gradient and distance > 0.0:

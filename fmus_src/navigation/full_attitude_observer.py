@@ -1,4 +1,4 @@
-"""What observers of the whole state have in common: one gain for angles and rates."""
+"""Base of observers of the whole state: one gain for angles and rates."""
 
 from ..block import State
 from ..kernel.matrices import Matrix

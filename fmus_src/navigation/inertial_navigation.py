@@ -1,4 +1,4 @@
-"""What navigations that integrate an inertial sensor have in common."""
+"""Base of navigations that integrate an inertial sensor."""
 
 from ..block import State
 from ..interfaces.navigation import Navigation
@@ -35,7 +35,7 @@ class InertialNavigation(Navigation, interface=True):
     position_taken = State(0, description="position_count of the last sample taken")
 
     def know(self) -> None:
-        """The first knowledge: truth with errors."""
+        """Initialise the estimate: truth plus initial errors."""
         generator = [0.0] * 6
         seed_streams(generator, self.seed, self.stream)
         errors = [0.0] * 6

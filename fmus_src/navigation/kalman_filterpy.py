@@ -19,7 +19,7 @@ class KalmanNavigationFilterpy(FilteredNavigation):
     requires = ("filterpy", "numpy")
 
     def filter(self) -> Any:
-        """A filterpy.kalman.KalmanFilter with the covariance; all its memory is in declared states."""
+        """Return a filterpy.kalman.KalmanFilter with the covariance; all its memory is in declared states."""
         from filterpy.kalman import KalmanFilter  # with scipy.stats, half a second of whoever reads the catalogue
 
         made = KalmanFilter(dim_x=15, dim_z=1)

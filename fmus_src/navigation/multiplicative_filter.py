@@ -34,7 +34,7 @@ class MultiplicativeFilter(AttitudeNavigation, interface=True):
         self.rate = self.gyro_rate()
 
     def gyro_rate(self) -> Vector3:
-        """The gyros' new sample if there is one that is finite, or else the last one that was."""
+        """Return the gyros' new sample if it is finite, or else the last finite one."""
         self.status = AttitudeNavigationStatus.GOOD
         if self.gyro_count == self.gyro_counted:
             return self.rate

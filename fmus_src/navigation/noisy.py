@@ -107,7 +107,7 @@ class NoisyNavigation(Navigation):
                 k = k + 1
 
     def pass_truth(self) -> None:
-        """The estimate without sensors: the truth."""
+        """Set the estimate without sensors: the truth."""
         self.sample_count = self.sample_count + 1
         self.estimated_position = self.position
         self.estimated_velocity = self.velocity

@@ -37,7 +37,7 @@ class OrbitalFilter(AttitudeObserver):
         return True
 
     def predict_covariance(self, angles: Vector3, w: Vector3) -> None:
-        """The covariance a tick ahead, at angles (rad) and rates (rad/s) of its middle."""
+        """Predict the covariance a tick ahead, at angles (rad) and rates (rad/s) of its middle."""
         period = self.sample_period
         by_angles, by_rates = angle_rate_derivatives(evaluate_angles(angles), w, self.orbital_rate)
         f = identity(6)  # 1 + T df/dx, with the rates less the biases
@@ -73,7 +73,7 @@ class OrbitalFilter(AttitudeObserver):
         self.bias = x[BIASES, 0]
 
     def coning_correction(self) -> Vector3:
-        """What the mean of the rates at both ends of a tick misses of its pulses (rad/s, body)."""
+        """Return the error of the mean of the rates at both ends of a tick by its pulses (rad/s, body)."""
         px, py, pz = self.fired_pulses
         period = self.sample_period
         after = vector(period - abs(px), period - abs(py), period - abs(pz))
@@ -94,7 +94,7 @@ class OrbitalFilter(AttitudeObserver):
         self.estimate = carried
 
     def bound(self) -> None:
-        """The filter's yaw is free; put out what it knows of it."""
+        """Publish the filter's yaw, which is free, with its bounds."""
         self.estimated_gyro_bias = self.bias
         variance = self.covariance[YAW, YAW]
         if variance > 0.0:

@@ -8,7 +8,7 @@ from .attitude_observer import AttitudeObserver
 
 
 class Stage(Enumeration):
-    """What the vehicle does."""
+    """Stage of the vehicle."""
 
     LEVELLING = member("levelling")
     AVERAGING = member("averaging")
@@ -33,11 +33,11 @@ class OrbitalSequence(AttitudeObserver):
     turned = State(0.0, unit="rad", description="roll rate integrated since then")
 
     def due(self, time: float) -> bool:
-        """Whether the tick nearest to a time (s after the start) has come."""
+        """Return True if the tick nearest to a time (s after the start) has come."""
         return self.ticks >= math.floor(time / self.sample_period + 0.5)
 
     def average(self) -> float:
-        """The yaw (rad) of the second stage, 0 until it ends."""
+        """Return the yaw (rad) of the second stage, 0 until it ends."""
         elapsed = float(self.ticks - self.last_tick) * self.sample_period
         self.turned = self.turned + 0.5 * elapsed * (self.last_rates.x + self.measured_angular_velocity.x)
         if not self.due(self.averaging_end):

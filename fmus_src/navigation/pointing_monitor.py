@@ -1,4 +1,4 @@
-"""How well a satellite points: true motion against reference and target, and the end of the flight."""
+"""Pointing accuracy of a satellite: true motion against reference and target, and the end of the flight."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, landing, robot, sampling

@@ -1,4 +1,4 @@
-"""How well an approach is flown: true motion against the plan."""
+"""Accuracy of an approach: true motion against the plan."""
 
 from ..block import Block, Output, Parameter
 from ..interfaces.ports import body, inertial, robot

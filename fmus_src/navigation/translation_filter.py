@@ -1,4 +1,4 @@
-"""How far the robot is from its plan: a filter of measured relative positions."""
+"""Deviation of the robot from its plan: a filter of measured relative positions."""
 
 import math
 
@@ -108,7 +108,7 @@ class TranslationFilter(Block):
             self.last_quaternion = self.quaternion
 
     def sigma_now(self) -> float:
-        """Standard deviation (m) of a sample as near as the last one."""
+        """Return the standard deviation (m) of a sample as near as the last one."""
         if norm(self.relative_position) < self.near_range:
             return self.near_sigma
         return self.far_sigma

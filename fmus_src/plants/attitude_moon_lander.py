@@ -76,7 +76,7 @@ class AttitudeMoonLander(MoonLander):
         return central_gravity(position, self.moon_radius, self.gravitational_parameter)
 
     def vertical(self) -> Vector3:
-        """The local vertical, upwards."""
+        """Return the local vertical, upwards."""
         if self.uniform_gravity > 0.0:
             return vector(0.0, 0.0, 1.0)
         return vertical_at(self.position, self.moon_radius)
@@ -94,7 +94,7 @@ class AttitudeMoonLander(MoonLander):
         return thrust.impulse
 
     def thrusting_time(self, h: float, commanded: float) -> float:
-        """How much of h (s) the propellant lasts under a command (N)."""
+        """Return the part of h (s) that the propellant lasts under a command (N)."""
         allowed = (self.mass - self.dry_mass) * STANDARD_GRAVITY * self.specific_impulse
         if not self.impulse(h, commanded) > allowed:
             return h

@@ -36,7 +36,7 @@ AXIAL, NORMAL = cap_tables(1.1, 2.235, MACH_NUMBERS, [5.0 * k for k in range(KNO
 
 
 class CapsuleStatus(Enumeration):
-    """Whether the tables and the inertia serve."""
+    """Validity of the tables and the inertia."""
 
     GOOD = member("good")
     BEYOND_TABLES = member("beyond the tables")
@@ -151,7 +151,7 @@ class EntryCapsule(Block):
         self.publish()
 
     def coefficient(self, values: Matrix, second: Matrix, mach: float, angle: float) -> float:
-        """A coefficient at a Mach number and a spatial angle of attack (rad)."""
+        """Return a coefficient at a Mach number and a spatial angle of attack (rad)."""
         if mach <= self.mach_numbers[0]:
             return cubic_value(values, second, 0, KNOTS, ANGLE_STEP, angle)
         if mach >= self.mach_numbers[MACHS - 1]:
@@ -167,7 +167,7 @@ class EntryCapsule(Block):
         return below + fraction * (above - below)
 
     def standard_air(self, h: float) -> Air:
-        """The air of the standard at the height h (m)."""
+        """Return the air of the standard at the height h (m)."""
         if self.atmosphere == Atmosphere.GOST_4401_81:
             return gost_air(h)
         return air(h)

@@ -1,4 +1,4 @@
-"""What landers over the Moon with one engine along their thrust axis have in common."""
+"""Base of landers over the Moon with one engine along their thrust axis."""
 
 from ..block import Block, Output, State
 from ..interfaces.ports import landing, sampling
@@ -11,7 +11,7 @@ from ..mathlib.vectors import Vector3, norm, vector
 
 
 class Burn(Record):
-    """Thrust over mass in a step, and what it comes to."""
+    """Thrust over mass in a step, and its integrals."""
 
     start = Field(unit="m/s2", description="at the start of the step")
     middle = Field(unit="m/s2", description="in its middle")
@@ -20,7 +20,7 @@ class Burn(Record):
 
 
 def scale(burn: Burn, simpson: float) -> Burn:
-    """A burn whose mean by Simpson's rule, ``simpson`` (m/s), is its gain."""
+    """Return a burn whose mean by Simpson's rule, ``simpson`` (m/s), is its gain."""
     return Burn(
         start=burn.start * burn.gain / simpson,
         middle=burn.middle * burn.gain / simpson,
@@ -101,7 +101,7 @@ class MoonLander(Block, interface=True):
         """Advance the attitude by h (s)."""
 
     def burn(self, h: float, commanded: float) -> Burn:
-        """A step of h (s) of thrust under a command (N); spends the mass."""
+        """Thrust for h (s) under a command (N); spend the mass."""
         exhaust = STANDARD_GRAVITY * self.specific_impulse
         thrust = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
         used = thrust.impulse / exhaust
@@ -146,11 +146,11 @@ class MoonLander(Block, interface=True):
         return gained
 
     def moving(self) -> bool:
-        """Whether the motion goes on."""
+        """Return True if the motion continues."""
         return not self.ground_contact
 
     def burn_ended(self) -> None:
-        """What happens where a burn ends inside a step."""
+        """Act on the end of a burn inside a step."""
 
     def fly(self, t: float, h: float, commanded: float) -> None:
         """Move from t to t + h (s) under a commanded thrust (N), and set what follows from the motion."""

@@ -9,7 +9,7 @@ from ..models.orbital_body import OrbitalBody
 
 
 class SpacecraftStatus(Enumeration):
-    """Whether the spacecraft moves."""
+    """Motion of the spacecraft."""
 
     GOOD = member("good")
     NO_INERTIA = member("inertia cannot be inverted, nothing moves")
@@ -50,7 +50,7 @@ class OrbitalSpacecraft(OrbitalBody):
             self.status = SpacecraftStatus.NO_INERTIA
 
     def after(self, length: float, h: float) -> float:
-        """What is left of one pulse (s, with its sign) after h (s)."""
+        """Return the rest of one pulse (s, with its sign) after h (s)."""
         if length > h:
             return length - h
         if length < -h:

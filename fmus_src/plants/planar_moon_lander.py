@@ -98,7 +98,7 @@ class PlanarMoonLander(Block):
         self.load_factor = force / (STANDARD_GRAVITY * self.mass)
 
     def publish(self) -> None:
-        """Outputs of the motion; the path angle is the one nearest to the last, and stays where speed is 0."""
+        """Set outputs of the motion; the path angle is the one nearest to the last, and stays where speed is 0."""
         s = self.motion
         self.altitude = s.altitude
         self.central_angle = s.central_angle

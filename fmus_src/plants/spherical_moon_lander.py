@@ -75,7 +75,7 @@ class SphericalMoonLander(MoonLander):
         return gained
 
     def moving(self) -> bool:
-        """Whether the motion goes on."""
+        """Return True if the motion continues."""
         return not self.ground_contact and not self.latched
 
     def burn_ended(self) -> None:

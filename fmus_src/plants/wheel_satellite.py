@@ -12,7 +12,7 @@ from ..models.spinning_wheels import SpinningWheels
 
 
 class WheelSatelliteStatus(Enumeration):
-    """What limits the wheels, or whether the satellite moves."""
+    """Limits of the wheels, and motion of the satellite."""
 
     GOOD = member("good")
     TORQUE_LIMITED = member("a motor torque limited")

@@ -44,7 +44,7 @@ class AttitudeSensor(RandomSensor):
         self.misalignment = self.constant_sigma * constant
 
     def turn(self, axis: Vector3, rotation: Vector3) -> Vector3:
-        """An axis after a small rotation (rad); as it is where it has no length."""
+        """Return an axis after a small rotation (rad); as it is where it has no length."""
         moved = axis + cross(rotation, axis)
         length = norm(moved)
         if length > 0.0:

@@ -1,4 +1,4 @@
-"""What sensors with random errors have in common: their stream of numbers, and when they measure."""
+"""Base of sensors with random errors: their stream of numbers, and their sampling."""
 
 from ..block import Block, Parameter, State
 from ..mathlib.rng import seed_streams

@@ -96,7 +96,7 @@ class StarInertial(RandomSensor):
         return rotation
 
     def is_within(self, aim: Vector3, direction: Vector3, angle: float) -> bool:
-        """True if a direction is within an angle (rad) of the unit vector aim."""
+        """Return True if a direction is within an angle (rad) of the unit vector aim."""
         if angle > 0.0:
             return dot(aim, direction) > cos(angle) * norm(direction)
         return False

@@ -1,1 +1,1 @@
-"""What ends a phase of flight and starts the next."""
+"""Transitions between phases of flight."""

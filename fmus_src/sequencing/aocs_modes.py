@@ -85,11 +85,11 @@ class AocsModes(Block):
             self.pointing_mode = PointingMode.NADIR
 
     def knows_attitude(self) -> bool:
-        """True if the attitude is usable; a quaternion shorter than 0.5 is none."""
+        """Return True if the attitude is usable; a quaternion shorter than 0.5 is none."""
         return self.attitude_known and is_attitude(self.estimated_quaternion)
 
     def ready(self) -> bool:
-        """True if the condition to go on to the next mode holds."""
+        """Return True if the condition for the next mode holds."""
         if self.mode == AocsMode.DETUMBLE:
             return norm(self.estimated_angular_velocity) < self.calm_rate
         sun = to_body(normalise(self.estimated_quaternion), self.sun_direction)

@@ -43,7 +43,7 @@ class HoverPhases(LandingSequence, interface=True):
             self.request_plan(HoverMode.HOLD)
 
     def move_site_ahead(self, time: float) -> None:
-        """The site below the place that lookahead of the velocity leads to."""
+        """Move the site below the point that lookahead of the velocity leads to."""
         place = self.sampled_position + self.lookahead * self.sampled_velocity
         self.site = site_below(place, self.moon_radius)
         altitude = clip(altitude_of(place, self.moon_radius), self.lowest_hover, self.preliminary_altitude)
@@ -51,7 +51,7 @@ class HoverPhases(LandingSequence, interface=True):
         self.note(LandingStatus.SITE_MOVED, time)
 
     def is_settled(self) -> bool:
-        """Whether the vehicle hovers at its target."""
+        """Return True if the vehicle hovers at its target."""
         close = norm(self.sampled_position - self.target_position) <= self.settled_distance
         return close and norm(self.sampled_velocity) <= self.settled_speed
 

@@ -1,4 +1,4 @@
-"""What the landing sequencer reads, sampled once in every cycle of its own."""
+"""Inputs of the landing sequencer, sampled once in each of its cycles."""
 
 from ..block import Block, Input, Parameter, State
 from ..interfaces.ports import landing
@@ -94,7 +94,7 @@ class LandingInputs(Block, interface=True):
         self.is_sampled = True
 
     def is_due(self, time: float) -> bool:
-        """Whether a cycle is over at ``time`` (s), which then counts as its end."""
+        """Return True if a cycle is over at ``time`` (s), which then counts as its end."""
         if self.cycle > 0.0:
             margin = CYCLE_TOLERANCE * self.cycle + TIME_TOLERANCE * abs(time)
             completed = int((time - self.start_time + margin) / self.cycle)

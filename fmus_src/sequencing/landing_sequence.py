@@ -1,4 +1,4 @@
-"""What the phases of a landing share: connectors, the order of phases, what is remembered of each, statuses."""
+"""Shared state of the phases of a landing: connectors, the order of phases, memory of each, statuses."""
 
 from ..block import Output, Outputs, Parameter, State
 from ..interfaces.ports import landing
@@ -27,7 +27,7 @@ class LandingPhase(Enumeration):
 
 
 class LandingStatus(Enumeration):
-    """What has gone otherwise than planned."""
+    """Deviation from the planned landing."""
 
     GOOD = member("good")
     SHORTENED = member("re-designation shortened")
@@ -105,7 +105,7 @@ class LandingSequence(LandingInputs, interface=True):
         self.mass_is_known = False
 
     def since_start(self, time: float) -> float:
-        """How long (s) the phase has gone on at ``time``."""
+        """Return the duration (s) of the phase at ``time``."""
         return time - self.phase_time[self.phase - 1]
 
     def take_over(self, source: int, engine_on: bool) -> None:
@@ -129,9 +129,9 @@ class LandingSequence(LandingInputs, interface=True):
         self.plan_number = self.plan_number + 1
 
     def is_answered(self) -> bool:
-        """Whether the hover guidance's outputs belong to the requested plan."""
+        """Return True if the hover guidance's outputs belong to the requested plan."""
         return self.source == CommandSource.HOVER and self.sampled_plan == self.plan_number
 
     def plan_is_over(self) -> bool:
-        """Whether the requested plan has been flown."""
+        """Return True if the requested plan has been flown."""
         return self.is_answered() and self.sampled_hover_finished

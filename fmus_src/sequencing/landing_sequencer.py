@@ -40,7 +40,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             self.enter(self.start_phase, self.start_time)
 
     def is_refused(self) -> bool:
-        """Whether the parameters make no landing."""
+        """Return True if the parameters permit no landing."""
         times = self.hold_time + self.deorbit_patience + self.pointing_patience + self.handover_time_to_go
         times = times + self.braking_patience + self.solution_patience + self.hover_time + self.hover_patience
         times = times + self.lookahead + self.descent_wait + self.settling_time + self.coast_patience + self.cycle
@@ -83,7 +83,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             self.begin_contact()
 
     def watch(self, ahead: float) -> None:
-        """What may be said in any phase."""
+        """Report conditions of any phase."""
         if self.is_answered() and self.sampled_hover_status != HoverStatus.GOOD:
             self.note(LandingStatus.HOVER_GUIDANCE_SAID, ahead)
         if self.sampled_mass <= self.dry_mass:
@@ -114,7 +114,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             self.go_on_below(t, ahead)
 
     def go_on_below(self, t: float, ahead: float) -> None:
-        """The same from hover 1 on."""
+        """Advance likewise from hover 1 on."""
         over = False
         if self.phase == LandingPhase.HOVER_1:
             over = self.first_hover(t, ahead)

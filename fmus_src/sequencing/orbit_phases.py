@@ -15,7 +15,7 @@ from .landing_sequence import NEVER, ROUNDING, LandingPhase, LandingSequence, La
 
 
 class PhaseEnd(Enumeration):
-    """What deorbit, coast and braking say of themselves."""
+    """Ending of deorbit, coast and braking."""
 
     GOES_ON = member("goes on")
     OVER = member("over")
@@ -112,7 +112,8 @@ class OrbitPhases(LandingSequence, interface=True):
         return PhaseEnd.GOES_ON
 
     def is_time_to_burn(self, burn: float) -> bool:
-        """Whether a burn (s) from now has its middle braking_range and half a revolution before the site, or later."""
+        """Return True if a burn (s) from now has its middle braking_range and half a revolution
+        before the site, or later."""
         turned = norm(self.sampled_velocity) / norm(from_centre(self.sampled_position, self.moon_radius))
         place = math.pi + self.braking_range / self.moon_radius + 0.5 * burn * turned
         return central_angle(self.sampled_position, self.moon_radius) <= place
@@ -134,9 +135,9 @@ class OrbitPhases(LandingSequence, interface=True):
         return PhaseEnd.GOES_ON
 
     def is_falling(self, angle: float) -> bool:
-        """Whether the coast is low and comes to the ground before its end, which is an ``angle`` (rad) ahead.
+        """Return True if the coast is low and reaches the ground before its end, which is an ``angle`` (rad) ahead.
 
-        A low pericentre alone is no reason to brake from farther away, which takes more propellant than there is.
+        A low pericentre alone is no reason to brake from farther away, which takes too much propellant.
         """
         if altitude_of(self.sampled_position, self.moon_radius) >= self.lowest_coast:
             return False
@@ -146,7 +147,7 @@ class OrbitPhases(LandingSequence, interface=True):
         return lowest < self.coast_clearance
 
     def begin_braking(self) -> None:
-        """The braking guidance's command, without thrust until the axis is on it."""
+        """Begin the braking guidance's command, without thrust until the axis is on it."""
         self.take_over(CommandSource.BRAKING, False)
         self.flown_divert = self.sampled_divert
 

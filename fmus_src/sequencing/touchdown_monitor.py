@@ -1,4 +1,4 @@
-"""What a landing was like at the moment of contact."""
+"""State of a landing at the moment of contact."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import landing

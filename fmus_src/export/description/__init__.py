@@ -1,1 +1,1 @@
-"""What an FMU says of itself: its XML documents, by version of FMI."""
+"""XML documents of an FMU, by version of FMI."""

@@ -10,7 +10,7 @@ from .fmi3 import FMI_VERSION
 
 
 def build_description(model_identifier: str, source: str, options: Sequence[str]) -> bytes:
-    """The document for one C file that includes the others, with the compiler options that keep its bits."""
+    """Return the document for one C file that includes the others, with the compiler options that keep its bits."""
     root = etree.Element("fmiBuildDescription", fmiVersion=FMI_VERSION)
     configuration = etree.SubElement(root, "BuildConfiguration", modelIdentifier=model_identifier)
     files = etree.SubElement(

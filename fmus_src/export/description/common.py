@@ -1,4 +1,5 @@
-"""What the documents of all versions of FMI share: units, log categories, roles of variables, numbers as text."""
+"""Shared content of the documents of all versions of FMI: units, log categories, roles of variables, numbers as
+text."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ LOG_CATEGORIES = {
 def start_description(
     name: str, guid: str, description: str, origin: Mapping[str, str], convention: str = "structured"
 ) -> etree._Element:
-    """The root of a modelDescription.xml of FMI 2.0, with the convention that names of variables follow."""
+    """Return the root of a modelDescription.xml of FMI 2.0, with the convention that names of variables follow."""
     return etree.Element(
         "fmiModelDescription",
         fmiVersion="2.0",
@@ -65,7 +66,7 @@ def define_units(
 
 
 def enumerations_by_name(model: str, used: Iterable[type[Enumeration] | None]) -> dict[str, type[Enumeration]]:
-    """The enumerations of a model's variables, sorted. Raises ValueError for two of one name."""
+    """Return the enumerations of a model's variables, sorted. Raises ValueError for two of one name."""
     enumerations: dict[str, type[Enumeration]] = {}
     for each in filter(None, used):
         if enumerations.setdefault(each.__name__, each) is not each:
@@ -74,7 +75,7 @@ def enumerations_by_name(model: str, used: Iterable[type[Enumeration] | None]) -
 
 
 def about_enumeration(enumeration: type[Enumeration]) -> str:
-    """The description of its type."""
+    """Return the description of its type."""
     return one_line((enumeration.__doc__ or "").strip())
 
 
@@ -92,7 +93,7 @@ def add_log_categories(root: etree._Element) -> None:
 
 
 def role(block_class: type[Block], variable: Variable) -> dict[str, str]:
-    """The attributes causality, variability and, where it is not FMI's default, initial.
+    """Return the attributes causality, variability and, where it is not FMI's default, initial.
 
     Continuous, which may change between communication points, are Reals, but not what a sampled block computes.
     """
@@ -113,7 +114,8 @@ def describe(block_class: type[Block], variable: Variable, description: str) -> 
 
 
 def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> str:
-    """The attribute start; raises ValueError for an int beyond the 32 bits of FMI 2.0's Integer and 3.0's Int32."""
+    """Return the attribute start; raises ValueError for an int beyond the 32 bits of FMI 2.0's Integer and 3.0's
+    Int32."""
     for number in elements:
         if isinstance(number, int) and not _is_32_bit(number):
             raise ValueError(f"{variable.name}: starts at {number}, beyond the 32 bits of FMI; give a smaller start")
@@ -121,7 +123,8 @@ def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> st
 
 
 def limits(variable: Variable) -> dict[str, str]:
-    """The attributes min, max and nominal, those that are declared; an Integer's without bounds beyond its 32 bits."""
+    """Return the declared ones of the attributes min, max and nominal; an Integer's without bounds beyond its 32
+    bits."""
     attributes = {}
     for key, bound, whole in (("min", variable.minimum, math.ceil), ("max", variable.maximum, math.floor)):
         if bound is not None and variable.type_name == "Real":
@@ -138,17 +141,17 @@ def _is_32_bit(number: int) -> bool:
 
 
 def one_line(text: str) -> str:
-    """A text without line breaks, as descriptions are."""
+    """Return a text without line breaks, as descriptions are."""
     return re.sub(r"\s+", " ", text)
 
 
 def boolean(flag: bool) -> str:
-    """true or false."""
+    """Return true or false as text."""
     return "true" if flag else "false"
 
 
 def literal(number: float | int | bool) -> str:
-    """A number as XML text that reads back to the same bits."""
+    """Return a number as XML text that reads back to the same bits."""
     if isinstance(number, bool):
         return boolean(number)
     if math.isinf(number):

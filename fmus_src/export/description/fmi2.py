@@ -100,11 +100,11 @@ def _scalar_variable(parent: etree._Element, variable: Variable, position: int, 
 
 
 def _state_layout(root: etree._Element, block_class: type[Block], encoding: str) -> None:
-    """How fmi2SerializeFMUstate writes the complete memory, so that analyses can read and change it.
+    """Declare the layout of fmi2SerializeFMUstate's complete memory, so that analyses can read and change it.
 
-    "words": 6 words of 8 bytes, then one for every value reference; "json": the list "values" by value
-    reference. ``frozen`` lists the value references of what a linearisation leaves alone. A block with external state
-    names that instead: its memory is not serialised.
+    "words": 6 words of 8 bytes, then one for every value reference; "json": the list "values" by value reference.
+    ``frozen`` lists the value references of what a linearisation leaves alone. A block with external state names that
+    instead: its memory is not serialised.
     """
     annotations = etree.SubElement(root, "VendorAnnotations")
     tool = etree.SubElement(annotations, "Tool", name=STATE_ANNOTATION)

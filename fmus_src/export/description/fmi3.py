@@ -74,7 +74,7 @@ def model_description(block_class: type[Block], *, token: str, origin: Mapping[s
 
 
 def _add_types(root: etree._Element, variables: list[ArrayVariable]) -> None:
-    """An EnumerationType for each enumeration."""
+    """Add an EnumerationType for each enumeration."""
     enumerations = enumerations_by_name(root.get("modelName", ""), (variable.enumeration for variable in variables))
     if enumerations:
         definitions = etree.SubElement(root, "TypeDefinitions")
@@ -124,7 +124,7 @@ def _add_unknown(parent: etree._Element, kind: str, reference: int, dependencies
 
 
 def _add_state_layout(root: etree._Element, variables: list[ArrayVariable]) -> None:
-    """How fmi3SerializeFMUState writes the complete memory, so that analyses can read and change it.
+    """Declare the layout of fmi3SerializeFMUState's complete memory, so that analyses can read and change it.
 
     6 words of 8 bytes, then one for every element of the variables but time, in order of value references; ``frozen``
     lists the value references of what a linearisation leaves alone.

@@ -34,10 +34,11 @@ PYTHONFMU = "pythonfmu.txt    PythonFMU, whose libraries and modules run the Pyt
 
 
 def origin(tool: str, *, is_ours: bool, is_final: bool = True) -> dict[str, str]:
-    """Attributes of modelDescription.xml: the tool and date of generation; of a model of ours version, author, licence.
+    """Return attributes of modelDescription.xml: the tool and date of generation; of a model of ours version, author,
+    licence.
 
     The date is that of SOURCE_DATE_EPOCH, else the release's; that one in any case where the description ``is_final``
-    not, since a GUID is made of it. Raises InputError for a SOURCE_DATE_EPOCH that is no time.
+    not, since the GUID is its hash. Raises InputError for a SOURCE_DATE_EPOCH that is no time.
     """
     attributes = {"generationTool": tool, "generationDateAndTime": _date() if is_final else _text_of(RELEASED)}
     if not is_ours:
@@ -49,7 +50,7 @@ def origin(tool: str, *, is_ours: bool, is_final: bool = True) -> dict[str, str]
 
 
 def accompanying_files(fmi: int, *, is_ours: bool, runs_python: bool = False) -> dict[str, bytes]:
-    """The licences and the icon of an FMU for a version of FMI, by their names in it."""
+    """Return the licences and the icon of an FMU for a version of FMI, by their names in it."""
     entry = ENTRY.format(
         version=version("perilune"),
         ours="all of its own code" if is_ours else "the code around the model, which is its author's",
@@ -90,7 +91,7 @@ def _licence(package: str) -> str:
 
 
 def _copyright() -> tuple[str, str]:
-    """The line of our licence that says whose Perilune is, and who that is."""
+    """Return the copyright line of our licence, and the owner that it names."""
     line = re.search(r"^Copyright \(c\) [\d-]+ (.+)$", _licence("perilune"), re.MULTILINE)
     assert line is not None
     return line[0], line[1]
@@ -98,7 +99,7 @@ def _copyright() -> tuple[str, str]:
 
 @cache
 def _licence_of_headers(fmi: int) -> str:
-    """The licence that stands in the comment at the top of a header of the standard."""
+    """Return the licence in the comment at the top of a header of the standard."""
     text = (STANDARD / f"fmi{fmi}Functions.h").read_text(encoding="utf-8")
     first = text.index("Copyright (C)")
     lines = [line.strip() for line in text[first : text.index("*/", first)].splitlines()]

@@ -19,7 +19,7 @@ SIGNAL = "signal"
 
 
 def terminals(block_class: type[Block]) -> bytes | None:
-    """The document of a block; None where it has neither a slot with connectors nor a bundle."""
+    """Return the document of a block; None where it has neither a slot with connectors nor a bundle."""
     root = etree.Element("fmiTerminalsAndIcons", fmiVersion=FMI_VERSION)
     listed = etree.SubElement(root, "Terminals")
     known: set[str] = set()
@@ -50,12 +50,12 @@ def terminals(block_class: type[Block]) -> bytes | None:
 
 
 def _connectors(owner: type[Block]) -> list[str]:
-    """The names of a class's inputs and outputs, those that it inherits among them."""
+    """Return the names of a class's inputs and outputs, inherited ones among them."""
     return [name for name, variable in owner.variables.items() if isinstance(variable, Input | Output)]
 
 
 def _add_bundle(parent: etree._Element, name: str, bundle: Connectors) -> None:
-    """A terminal whose members have the names of the bundle, whatever prefix the block gives them."""
+    """Add a terminal whose members have the names of the bundle, whatever prefix the block uses."""
     kind = f"{KIND}.{snake_case(bundle.bundle.__name__)}"
     about = (bundle.bundle.__doc__ or "").strip().partition("\n")[0]
     terminal = etree.SubElement(

@@ -32,7 +32,7 @@ class ArrayVariable:
 
     @property
     def size(self) -> int:
-        """How many elements it has."""
+        """Number of its elements."""
         return len(self.starts)
 
     @property
@@ -47,7 +47,7 @@ class ArrayVariable:
 
 
 def list_variables(block_class: type[Block]) -> list[ArrayVariable]:
-    """A block's variables in order of value references, which count from 0.
+    """Return a block's variables in order of value references, which count from 0.
 
     Raises ValueError for a block with a variable ``time``.
     """

@@ -1,1 +1,1 @@
-"""What a kernel may say: its Python read, typed and judged against the subset that means the same in C."""
+"""Language of kernels: their Python read, typed and checked against the subset that means the same in C."""

@@ -11,7 +11,7 @@ from .source import Source
 
 
 def write_out_members(kernel: Kernel, source: Source) -> Source | None:
-    """A method with the block's variables in the places of members of bundles; None after a violation.
+    """Return a method with the block's variables in place of members of bundles; None after a violation.
 
     ``self.command = self.braking`` becomes an assignment per member.
     """
@@ -24,7 +24,7 @@ def write_out_members(kernel: Kernel, source: Source) -> Source | None:
 
 
 def _is_bundle(node: ast.AST, bundles: object) -> bool:
-    """Whether a node is ``self.command``, a bundle as a whole."""
+    """Return True if a node is ``self.command``, a bundle as a whole."""
     return is_self_attribute(node) and node.attr in bundles  # type: ignore[attr-defined, operator]
 
 

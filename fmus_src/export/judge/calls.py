@@ -1,4 +1,4 @@
-"""What the calls in one kernel function mean, and the types of their values."""
+"""Meanings of the calls in one kernel function, and the types of their values."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ class CallTypes(ExpressionTypes):
         self.infer(node)
 
     def _record(self, node: ast.expr) -> type[Record] | FunctionType | None:
-        """The record's class that a call makes one of, or replace."""
+        """Return the class of the record that a call creates, or replace."""
         if not isinstance(node, ast.Name) or node.id in self.bound or node.id in self.function.parameters:
             return None
         value = find_global(self.function.source.function, node.id)
@@ -145,7 +145,8 @@ class CallTypes(ExpressionTypes):
         return value if isinstance(value, type) and issubclass(value, Record) else None
 
     def _callee(self, node: ast.expr) -> tuple[FunctionType | str | None, type | None]:
-        """What a call means: a Python function with its class, or the name of an allowed built-in or math function."""
+        """Return the target of a call: a Python function with its class, or the name of a
+        permitted built-in or math function."""
         source = self.function.source
         bound = self.function.parameters.get(node.id) if isinstance(node, ast.Name) else None
         if isinstance(bound, Bound):
@@ -171,7 +172,7 @@ class CallTypes(ExpressionTypes):
         return (value if isinstance(value, FunctionType) else None), None
 
     def _math(self, node: ast.Call, name: str, callee: str) -> Type | Several:
-        """A function of `math`."""
+        """Infer the type of a call of a function of `math`."""
         function = MATH_FUNCTIONS[callee]
         self.function.calls[node] = MathCall(callee, function)
         self._count(node, name, len(function.takes))
@@ -214,5 +215,5 @@ class CallTypes(ExpressionTypes):
 
 
 def is_super(node: ast.expr) -> bool:
-    """Whether a node is ``super()``."""
+    """Return True if a node is ``super()``."""
     return isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "super" and not node.args

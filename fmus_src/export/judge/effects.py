@@ -1,8 +1,8 @@
-"""What each kernel function changes and how it can fail, and the order that both demand in C.
+"""Effects and failures of each kernel function, and the order that both require in C.
 
-C leaves open in which order the operands of an expression are evaluated. Where two of them can
-fail differently, the first is hoisted: put in a variable of its own, and checked, before the
-statement. Arguments that can fail are always hoisted, so that no function runs on them.
+C leaves open in which order the operands of an expression are evaluated. Where two of them can fail differently, the
+first is hoisted: put in a separate variable, and checked, before the statement. Arguments that can fail are always
+hoisted, so that no function runs on them.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def find_effects(kernel: Kernel) -> None:
 
 
 def is_nonzero_constant(function: Function, node: ast.expr) -> bool:
-    """Whether a divisor is a literal or a module constant, no component of which is zero."""
+    """Return True if a divisor is a literal or a module constant, no component of which is zero."""
     if isinstance(node, ast.Constant):
         return bool(node.value)
     if isinstance(function.types.get(node), Vector):
@@ -52,7 +52,7 @@ def is_nonzero_constant(function: Function, node: ast.expr) -> bool:
 
 
 def own_outcome(function: Function, node: ast.expr) -> Outcomes:
-    """How an expression can end the call by itself, its operands left aside."""
+    """Return the outcomes of an expression by itself, without its operands."""
     line = node.lineno
     if function.is_total:
         return NO_OUTCOME
@@ -106,7 +106,7 @@ class _Effects:
         self._calls(node, whole)
 
     def _value(self, node: ast.expr) -> Outcomes:
-        """A value to be assigned, or the elements of a new list."""
+        """Visit a value to be assigned, or the elements of a new list."""
         if isinstance(node, ast.List):
             return self._in_order(node.elts, False)
         if isinstance(node, ast.BinOp) and isinstance(node.left, ast.List):
@@ -149,14 +149,14 @@ class _Effects:
                     self._changes(argument)
 
     def _is_also_used(self, callee: Function, argument: ast.expr, arguments: list[ast.expr]) -> bool:
-        """Whether a matrix that a call changes reaches it another way: Python and C would differ."""
+        """Return True if a matrix that a call changes reaches it another way: Python and C would differ."""
         if not isinstance(self.function.types[argument], Matrix):
             return False
         several = [ast.unparse(each) for each in arguments].count(ast.unparse(argument)) > 1
         return several or not is_variable(argument) or (is_self_attribute(argument) and callee.takes_block)
 
     def _changes_when_called(self, callee: Function, argument: ast.expr) -> bool:
-        """Whether an argument is a function that changes anything where the callee calls it."""
+        """Return True if an argument is a function that changes anything where the callee calls it."""
         kind = self.function.types.get(argument)
         given = [
             inner for inner in callee.callees() if isinstance(kind, Bound) and inner.source.function is kind.function
@@ -164,7 +164,7 @@ class _Effects:
         return any(inner.changes_anything for inner in given)
 
     def visit(self, node: ast.expr, conditional: bool) -> Outcomes:
-        """How an expression can end the call; marks what is to be hoisted in it."""
+        """Return the outcomes of an expression; mark operands to be hoisted in it."""
         if isinstance(node, ast.BoolOp):
             outcomes = self.visit(node.values[0], conditional)
             for value in node.values[1:]:
@@ -195,13 +195,13 @@ class _Effects:
 
 
 def makes_matrix(function: Function, node: ast.AST) -> bool:
-    """Whether C computes an expression by statements in front of its own."""
+    """Return True if C computes an expression by statements in front of its own."""
     product = isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
     return product or (isinstance(function.types.get(node), Matrix) and not is_variable(node))  # type: ignore[arg-type, call-overload]
 
 
 def operands(node: ast.expr) -> list[ast.expr]:
-    """The operands of an expression in Python's order of evaluation."""
+    """Return the operands of an expression in Python's order of evaluation."""
     if isinstance(node, ast.BinOp):
         return [node.left, node.right]
     if isinstance(node, ast.UnaryOp):

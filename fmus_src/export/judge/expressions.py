@@ -70,7 +70,7 @@ class ExpressionTypes(MatrixTypes):
         self.report(node, REFUSED_SYNTAX.get(type(node), OTHER_SYNTAX), name=type(node).__name__)
 
     def infer(self, node: ast.expr) -> Type | None:
-        """The type of an expression; every part's type is kept in the function."""
+        """Infer the type of an expression; every operand's type is stored in the function."""
         self.function.types[node] = inferred = self._infer_by_syntax(node)
         return inferred
 
@@ -107,7 +107,7 @@ class ExpressionTypes(MatrixTypes):
     def static_size(self, node: ast.expr) -> int | None:
         """Return the value of an int literal, an int constant, a length, or a sum, product or quotient of these.
 
-        It is the size of a list or a matrix, or a bound of a part of one; None where an int is not constant.
+        It is the size of a list or a matrix, or a bound of a slice of one; None where an int is not constant.
         """
         return self._fold(node) if self.infer(node) is INT else None
 
@@ -200,14 +200,14 @@ class ExpressionTypes(MatrixTypes):
         return True
 
     def _module(self, node: ast.expr) -> ModuleType | None:
-        """The module that a name means, if it means one."""
+        """Return the module that a name means, if it means one."""
         if isinstance(node, ast.Name) and node.id not in self.bound and node.id not in self.function.parameters:
             value = find_global(self.function.source.function, node.id)
             return value if isinstance(value, ModuleType) else None
         return None
 
     def _enumeration(self, node: ast.expr) -> type[Enumeration] | None:
-        """The enumeration that a name means, if it means one."""
+        """Return the enumeration that a name means, if it means one."""
         if isinstance(node, ast.Name) and node.id not in {*self.bound, *self.function.parameters}:
             value = find_global(self.function.source.function, node.id)
             return value if isinstance(value, type) and issubclass(value, Enumeration) else None
@@ -271,7 +271,7 @@ class ExpressionTypes(MatrixTypes):
         return INT
 
     def refuse_syntax_at(self, node: ast.AST, part: ast.AST) -> None:
-        """Report an operator, which has no line of its own, at the expression around it."""
+        """Report an operator, which has no line number, at the expression around it."""
         self.report(node, REFUSED_SYNTAX.get(type(part), OTHER_SYNTAX), name=type(part).__name__)
 
     def infer_unaryop(self, node: ast.UnaryOp) -> Type | None:
@@ -332,7 +332,7 @@ def type_of_variable(variable: Variable) -> Type:
 
 
 def is_read_only(function: Function, node: ast.expr) -> bool:
-    """Whether a list or scalar belongs to an input, a parameter or a constant."""
+    """Return True if a list or scalar belongs to an input, a parameter or a constant."""
     if is_self_attribute(node):
         assert isinstance(node, ast.Attribute)
         return isinstance(function.block_class.variables.get(node.attr), Input | Parameter)

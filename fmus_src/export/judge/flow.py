@@ -53,7 +53,8 @@ class FlowCheck:
         return assigned
 
     def loop(self, node: ast.For, assigned: frozenset[str]) -> frozenset[str] | None:
-        """A loop over literal bounds that runs at least once, and is not left early, assigns for certain."""
+        """Return the variables assigned for certain by a loop: one over literal bounds that
+        runs at least once without a break."""
         self.reads(node.iter, assigned)
         inside = assigned | {node.target.id} if isinstance(node.target, ast.Name) else assigned
         after = self.block(node.body, inside)
@@ -78,7 +79,7 @@ def meet(left: frozenset[str] | None, right: frozenset[str] | None) -> frozenset
 
 
 def runs_at_least_once(node: ast.For) -> bool:
-    """Whether a loop over range has literal bounds that are not empty."""
+    """Return True if a loop over range has literal bounds that are not empty."""
     if not isinstance(node.iter, ast.Call):
         return False
     literals = [argument.value for argument in node.iter.args if isinstance(argument, ast.Constant)]

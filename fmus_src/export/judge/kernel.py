@@ -80,16 +80,16 @@ class RecordType:
 
     @property
     def is_space(self) -> bool:
-        """Whether values can be added and scaled."""
+        """True if values can be added and scaled."""
         return is_space(self.record)
 
     def field(self, name: str) -> Scalar | Vector | RecordType:
-        """The type of a field."""
+        """Return the type of a field."""
         return field_type(self.record.fields[name].kind)
 
 
 def field_type(kind: Any) -> Scalar | Vector | RecordType:
-    """The type that a field's Python type stands for."""
+    """Return the type that a field's Python type stands for."""
     if kind in (float, int, bool):
         return Scalar(kind.__name__)
     return Vector(len(kind.names)) if issubclass(kind, vector_types.Vector) else RecordType(kind)
@@ -108,7 +108,7 @@ class Bound:
 
 @dataclass(frozen=True)
 class Several:
-    """What a function with several return values gives; it can only be assigned to as many targets."""
+    """Values of a function with several return values; it can only be assigned to as many targets."""
 
     parts: tuple[Scalar | Vector | Matrix | RecordType, ...]
 
@@ -208,7 +208,7 @@ class Violation:
 
 @dataclass(eq=False)
 class Function:
-    """A function of the kernel for given list sizes, and what the analyses found out about it."""
+    """A function of the kernel for certain list sizes, and the results of its analyses."""
 
     source: Source
     block_class: type[Block]
@@ -241,14 +241,14 @@ class Function:
 
     @property
     def takes_block(self) -> bool:
-        """Whether it is given the block: a method, or a function that is given one to call."""
+        """True if the block is an argument: of a method, or of a function that calls one."""
         return self.is_method or any(
             isinstance(kind, Bound) and kind.owner is not None for kind in self.parameters.values()
         )
 
     @property
     def is_total(self) -> bool:
-        """Whether it has a result for every argument, and so no checks: the elementary functions, as tests show."""
+        """True if it has a result for every argument, and so no checks: the elementary functions, as tests show."""
         return self.source.module.startswith(f"{elementary.__name__}.")
 
     @property
@@ -260,7 +260,7 @@ class Function:
         return self.changes_block or bool(self.changed_lists)
 
     def callees(self) -> list[Function]:
-        """The kernel functions that this one calls."""
+        """Return the kernel functions that this one calls."""
         actual = [call.callee for call in self.calls.values() if isinstance(call, KernelCall)]
         checked = [call.computed_by for call in self.calls.values() if isinstance(call, MathCall)]
         return [*actual, *(function for function in checked if function is not None)]
@@ -294,19 +294,19 @@ class Kernel:
 
 
 def length_of(kind: Type | Several | None) -> int | None:
-    """What `len` is of a value of a type."""
+    """Return the `len` of a value of a type."""
     if isinstance(kind, Matrix):
         return kind.rows
     return kind.size if isinstance(kind, List | Vector) else None
 
 
 def is_self_attribute(node: ast.AST) -> bool:
-    """Whether a node reads or writes ``self.name``."""
+    """Return True if a node reads or writes ``self.name``."""
     return isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "self"
 
 
 def body_of(node: ast.FunctionDef) -> list[ast.stmt]:
-    """A function's statements without its docstring."""
+    """Return a function's statements without its docstring."""
     first = node.body[0]
     if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
         return node.body[1:]
@@ -314,6 +314,6 @@ def body_of(node: ast.FunctionDef) -> list[ast.stmt]:
 
 
 def targets_of(node: ast.Assign | ast.AnnAssign) -> list[ast.expr]:
-    """What an assignment assigns: one target, or those of a tuple."""
+    """Return the targets of an assignment: one, or those of a tuple."""
     target = node.targets[0] if isinstance(node, ast.Assign) else node.target
     return list(target.elts) if isinstance(target, ast.Tuple) else [target]

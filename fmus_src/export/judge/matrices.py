@@ -18,7 +18,7 @@ MAKERS = {
 
 
 class MatrixTypes(RecordTypes):
-    """The part of type inference that is about matrices."""
+    """Type inference of matrices."""
 
     bound: set[str]
 
@@ -79,7 +79,7 @@ class MatrixTypes(RecordTypes):
         return Matrix(len(first), len(second))
 
     def _index(self, node: ast.expr, size: int) -> range | str | None:
-        """The rows or columns of a block; None for a single index."""
+        """Return the rows or columns of a block; None for a single index."""
         if isinstance(node, ast.Slice):
             first = 0 if node.lower is None else self.static_size(node.lower)
             end = size if node.upper is None else self.static_size(node.upper)
@@ -98,7 +98,7 @@ class MatrixTypes(RecordTypes):
         return range(first, end)
 
     def _find_block(self, node: ast.expr) -> slice | None:
-        """The constant of a module that a name means, where it is a block."""
+        """Return the constant of a module that a name means, where it is a block."""
         function = self.function
         if not isinstance(node, ast.Name) or node.id in {*function.parameters, *self.bound}:
             return None
@@ -162,7 +162,7 @@ class MatrixTypes(RecordTypes):
 
 
 def narrow(size: int, across: bool) -> Matrix | Vector:
-    """Type of a part of a row or column."""
+    """Return the type of a slice of a row or column."""
     if size in VECTORS:
         return Vector(size)
     return Matrix(1, size) if across else Matrix(size, 1)

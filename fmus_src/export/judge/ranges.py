@@ -88,11 +88,11 @@ class _Ranges:
         return Interval(min(first.high, stop.low + 1), first.high)
 
     def of(self, node: ast.expr) -> Interval:
-        """The range of an int expression."""
+        """Return the range of an int expression."""
         return _clamp(self.without_bounds(node))
 
     def without_bounds(self, node: ast.expr) -> Interval:
-        """The range before it is cut to 64 bits."""
+        """Return the range before it is cut to 64 bits."""
         if isinstance(node, ast.Constant) and isinstance(node.value, int):
             return Interval(int(node.value), int(node.value))
         if node in self.function.constants and not isinstance(self.function.constants[node].value, tuple):
@@ -179,7 +179,7 @@ class _Ranges:
 
 
 def indices_of(function: Function, node: ast.Subscript) -> list[tuple[ast.expr, int]]:
-    """The indices of an element, or of a row or column, with how many there are."""
+    """Return the indices of an element, or of a row or column, each with its number of values."""
     kind = function.types[node.value]
     if not isinstance(kind, Matrix):
         size = length_of(kind)

@@ -1,4 +1,4 @@
-"""Where a kernel function's source is: its file, its tree, its comments."""
+"""Source of a kernel function: its file, its tree, its comments."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Source:
 
 
 def source_of(function: FunctionType, owner: type | None) -> Source | None:
-    """The source of a function, or None where its file cannot be read or does not contain it."""
+    """Return the source of a function, or None where its file cannot be read or does not contain it."""
     path = Path(function.__code__.co_filename)
     try:
         tree = _tree(path)
@@ -57,7 +57,7 @@ def source_of(function: FunctionType, owner: type | None) -> Source | None:
 
 
 def with_plain_arguments(source: Source, count: int) -> Source:
-    """A function with ``*inputs`` written as one with that many more arguments, for ``count`` arguments in all."""
+    """Return a function with ``*inputs`` rewritten with that many more arguments, for ``count`` arguments in all."""
     arguments = source.node.args
     if arguments.vararg is None or arguments.kwonlyargs:
         return source
@@ -79,7 +79,7 @@ def _plain(node: ast.FunctionDef, count: int) -> ast.FunctionDef:
 
 
 def _expand(argument: ast.expr, several: str, names: list[str]) -> list[ast.expr]:
-    """The arguments that an argument stands for: ``*inputs`` for as many names."""
+    """Return the arguments that an argument stands for: ``*inputs`` for as many names."""
     starred = isinstance(argument, ast.Starred) and isinstance(argument.value, ast.Name)
     if starred and argument.value.id == several:  # type: ignore[attr-defined]
         return [ast.copy_location(ast.Name(name, ast.Load()), argument) for name in names]
@@ -87,7 +87,7 @@ def _expand(argument: ast.expr, several: str, names: list[str]) -> list[ast.expr
 
 
 def find_method(block_class: type, name: str, after: type | None = None) -> tuple[FunctionType, type] | None:
-    """The method that ``self.name`` means for a block class, or ``super().name`` inside class ``after``."""
+    """Return the method that ``self.name`` means for a block class, or ``super().name`` inside class ``after``."""
     order = list(block_class.__mro__)
     if after is not None:
         order = order[order.index(after) + 1 :]
@@ -99,7 +99,7 @@ def find_method(block_class: type, name: str, after: type | None = None) -> tupl
 
 
 def find_global(function: FunctionType, name: str) -> Any:
-    """What a global name means in a function's module; None where it means nothing."""
+    """Return the value of a global name in a function's module; None where it is unknown."""
     return function.__globals__.get(name)
 
 
@@ -115,12 +115,12 @@ def origin_of_constant(function: FunctionType, name: str) -> str:
 
 
 def module_file(module: ModuleType) -> Path:
-    """The file that a module was loaded from."""
+    """Return the file that a module was loaded from."""
     return Path(module.__file__ or "")
 
 
 def label(path: Path) -> str:
-    """A file's name as it stands in C comments and fault messages; the same on every machine."""
+    """Return a file's name as it stands in C comments and fault messages; the same on every machine."""
     resolved = path.resolve()
     if resolved.is_relative_to(PACKAGE_ROOT):
         return f"fmus_src/{resolved.relative_to(PACKAGE_ROOT).as_posix()}"
@@ -142,7 +142,7 @@ def _comments(text: str) -> dict[int, str]:
 
 
 def _tree(path: Path) -> ast.Module:
-    """A file's tree; one per content, since a function is identified by its node.
+    """Return a file's tree; one per content, since a function is identified by its node.
 
     One thread at a time: two would make two trees, and CPython 3.11 counts the depth of a tree for all together, with
     which `ast.parse` ends now and then (its issue 106905).

@@ -134,7 +134,7 @@ class StatementTypes(CallTypes):
                 self.report(target, "target")
 
     def store(self, target: ast.expr, kind: Type | None) -> None:
-        """Check that a scalar of the given type can go to a target."""
+        """Check that a scalar of a type can be stored in a target."""
         if isinstance(target, ast.Name):
             expected = self.function.parameters.get(target.id) or self.function.locals.get(target.id)
             if expected is None and kind is not None:
@@ -163,7 +163,7 @@ class StatementTypes(CallTypes):
             self.report(target, "type change", name=ast.unparse(target), before=expected, after=kind)
 
     def _is_component(self, target: ast.expr) -> bool:
-        """Whether a target is an element or a component of a vector."""
+        """Return True if a target is an element or a component of a vector."""
         if isinstance(target, ast.Subscript):
             return isinstance(self.infer(target.value), Vector)
         if not isinstance(target, ast.Attribute) or is_self_attribute(target):
@@ -264,7 +264,7 @@ class StatementTypes(CallTypes):
 
 
 def with_size(declared: Returned | None, returned: Type | Several | None) -> Returned | None:
-    """What a function is declared to return, with the size that a vector or matrix turns out to have."""
+    """Return a function's declared return type, with the inferred size of a vector or matrix."""
     if isinstance(declared, Several) and isinstance(returned, Several) and len(declared.parts) == len(returned.parts):
         return Several(tuple(with_size(*pair) for pair in zip(declared.parts, returned.parts, strict=True)))  # type: ignore[misc]
     if declared == ANY_VECTOR and isinstance(returned, Vector):
@@ -273,20 +273,20 @@ def with_size(declared: Returned | None, returned: Type | Several | None) -> Ret
 
 
 def is_list_binding(value: ast.expr) -> bool:
-    """Whether an expression makes a list: ``[a, b]`` or ``[a] * n``."""
+    """Return True if an expression creates a list: ``[a, b]`` or ``[a] * n``."""
     return isinstance(value, ast.List) or (
         isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mult) and isinstance(value.left, ast.List)
     )
 
 
 def is_range(call: ast.Call) -> bool:
-    """Whether a call is ``range`` with one to three arguments."""
+    """Return True if a call is ``range`` with one to three arguments."""
     named = isinstance(call.func, ast.Name) and call.func.id == "range"
     return named and not call.keywords and 1 <= len(call.args) <= 3
 
 
 def range_step(call: ast.Call) -> int:
-    """The step of a range call; 0 where it is not a literal."""
+    """Return the step of a range call; 0 where it is not a literal."""
     if len(call.args) < 3:
         return 1
     node = call.args[2]

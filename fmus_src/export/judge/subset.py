@@ -29,12 +29,12 @@ class SubsetError(ValueError):
 
 
 def check(block_class: type[Block]) -> list[Violation]:
-    """What `initialize`, `step` and all they reach say that the subset does not have, in order of file and line."""
+    """Return the violations of the subset in `initialize`, `step` and all they reach, in order of file and line."""
     return sorted(_analyse(block_class).violations, key=lambda violation: (violation.file, violation.line))
 
 
 def analyse_kernel(block_class: type[Block]) -> Kernel:
-    """The kernel of a block, ready for translation. Raises `SubsetError` where `check` finds something."""
+    """Return the kernel of a block, ready for translation. Raises `SubsetError` where `check` finds violations."""
     kernel = _analyse(block_class)
     if kernel.violations:
         raise SubsetError(block_class, check(block_class))
@@ -42,7 +42,7 @@ def analyse_kernel(block_class: type[Block]) -> Kernel:
 
 
 def records_of(kernel: Kernel) -> list[RecordType]:
-    """The records that a kernel has, each after those of its fields; each becomes a struct of C under its name."""
+    """Return the records of a kernel, each after those of its fields; each becomes a struct of C under its name."""
     ordered: dict[RecordType, None] = {}
 
     def add(kind: object) -> None:

@@ -39,7 +39,7 @@ ANNOTATIONS |= {kind.__name__: Vector(size) for size, kind in VECTORS.items()}
 
 
 def typecheck(block_class: type[Block]) -> Kernel:
-    """The functions that `initialize` and `step` of a block reach, with types; violations are collected."""
+    """Infer the types of the functions that `initialize` and `step` of a block reach; violations are collected."""
     kernel = Kernel(block_class)
     finder = _Finder(kernel)
     if not block_class.variables:
@@ -69,7 +69,7 @@ class _Finder:
         call: ast.Call | None,
         types: list,
     ) -> Function | None:
-        """The Function for arguments of the given types; None after a violation."""
+        """Return the Function for arguments of these types; None after a violation."""
         source = source_of(function, owner)
         if source is not None:
             source = with_plain_arguments(source, len(types))
@@ -106,7 +106,7 @@ class _Finder:
     def _parameters(
         self, source: Source, caller: Function | None, call: ast.Call | None, types: list
     ) -> dict[str, Type] | None:
-        """Declared arguments with their types; those of lists come from the call."""
+        """Return declared arguments with their types; those of lists come from the call."""
         node = source.node
         place: tuple[Source, ast.AST] = (source, node) if caller is None or call is None else (caller.source, call)
         if node.decorator_list:
@@ -169,7 +169,7 @@ class _Finder:
 
 
 def _fits(given: Type, declared: Value | str) -> bool:
-    """Whether an argument is what is declared."""
+    """Return True if an argument is of the declared type."""
     if declared == "list":
         return isinstance(given, List)
     if declared == FUNCTION:

@@ -28,7 +28,7 @@ BY_NUMBERS = (ast.Mult, ast.Div)  # of a vector and a number
 
 
 class VectorTypes(ABC):
-    """The part of type inference that is about vectors."""
+    """Type inference of vectors."""
 
     function: Function
 
@@ -38,11 +38,11 @@ class VectorTypes(ABC):
 
     @abstractmethod
     def infer(self, node: ast.expr) -> Type | None:
-        """The type of an expression."""
+        """Infer the type of an expression."""
 
     @abstractmethod
     def static_size(self, node: ast.expr) -> int | None:
-        """The value of a constant int."""
+        """Return the value of a constant int."""
 
     def operate_on_vectors(
         self, node: ast.AST, operator: ast.operator, left: Type | Several, right: Type | Several
@@ -76,7 +76,7 @@ class VectorTypes(ABC):
         return FLOAT
 
     def part(self, node: ast.Subscript, container: Type | None) -> int | None:
-        """How many elements of a vector or list ``v[1:4]`` has."""
+        """Return the number of elements that ``v[1:4]`` of a vector or list has."""
         assert isinstance(node.slice, ast.Slice)
         if not isinstance(container, Vector | List):
             if container is not None:
@@ -133,7 +133,7 @@ class VectorTypes(ABC):
         return Vector(size)
 
     def _unpack_starred(self, node: ast.expr) -> int | None:
-        """Number of elements of ``*wrench[0:3]`` or ``*row``; kept as a part."""
+        """Return the number of elements of ``*wrench[0:3]`` or ``*row``; its range is stored."""
         holder = node.value if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice) else node
         container = self.infer(holder)
         if isinstance(container, List) and container.element is not FLOAT:
@@ -151,7 +151,7 @@ class VectorTypes(ABC):
 
 
 class RecordTypes(VectorTypes):
-    """The part of type inference that is about records."""
+    """Type inference of records."""
 
     def operate_on_records(
         self, node: ast.AST, operator: ast.operator, left: Type | Several, right: Type | Several
@@ -201,5 +201,5 @@ class RecordTypes(VectorTypes):
 
 
 def is_variable(node: ast.expr) -> bool:
-    """Whether an expression is a name or ``self.name``, which C can write several times."""
+    """Return True if an expression is a name or ``self.name``, which C can write several times."""
     return isinstance(node, ast.Name) or is_self_attribute(node)

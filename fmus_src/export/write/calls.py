@@ -31,7 +31,7 @@ WHOLE = {"floor": "whole_floor", "ceil": "whole_ceil", "int": "whole_trunc"}
 
 
 class CallWriter(ABC):
-    """The part of the writer of expressions that is about calls; hoisted parts are statements of ``out`` before."""
+    """Writer of calls in expressions; hoisted operands are statements of ``out`` before."""
 
     def __init__(self, out: FunctionWriter) -> None:
         self.function = out.function
@@ -43,7 +43,7 @@ class CallWriter(ABC):
         """Return the C text of an expression, in parentheses where the operator around it binds tighter."""
 
     def write_as_float(self, node: ast.expr, outer: int) -> str:
-        """An operand that Python widens to float."""
+        """Write an operand that Python widens to float."""
         if self.function.types[node] is not INT:
             return self.write(node, outer)
         if isinstance(node, ast.Constant):
@@ -55,17 +55,17 @@ class CallWriter(ABC):
         return f"{name}({', '.join(arguments)})"
 
     def write_checked(self, node: ast.expr, name: str, *arguments: str) -> tuple[str, int]:
-        """A call of a function of kernel_math.h that can record a fault at the node's line."""
+        """Write a call of a function of kernel_math.h that can record a fault at the node's line."""
         return self.call(name, f"AT({node.lineno})", *arguments), ATOM
 
     def elements(self, node: ast.expr) -> list[str]:
-        """The elements of a part, ``wrench[0:3]``, or of a whole list."""
+        """Return the elements of a slice, ``wrench[0:3]``, or of a whole list."""
         holder = node.value if isinstance(node, ast.Subscript) else node
         member = ".x" if isinstance(self.function.types[holder], Vector) else ""
         return [f"{self.write(holder, ATOM)}{member}[{k}]" for k in self.function.parts[node]]
 
     def vector(self, elements: list[str]) -> str:
-        """A vector of components; in parentheses for its commas, since isfinite and fabs are macros."""
+        """Return a vector of components; in parentheses for its commas, since isfinite and fabs are macros."""
         return f"(({c_type(Vector(len(elements)))}){{{{{', '.join(elements)}}}}})"
 
     def write_call(self, node: ast.Call) -> tuple[str, int]:
@@ -98,7 +98,7 @@ class CallWriter(ABC):
         return self.call(self.names.functions[callee], *arguments, *[self._argument(argument) for argument in passed])
 
     def _argument(self, node: ast.expr) -> str:
-        """An argument; a matrix by its address."""
+        """Write an argument; a matrix by its address."""
         text = self.write(node)
         if not isinstance(self.function.types[node], Matrix):
             return text
@@ -107,7 +107,7 @@ class CallWriter(ABC):
         return text[2:-1] if text.startswith("(*") else f"&{text}"
 
     def _make_record(self, node: ast.Call, kind: RecordType) -> str:
-        """A record of all its fields, or one with some of another's."""
+        """Write a record of all its fields, or one with some of another's."""
         given = {keyword.arg: self.write(keyword.value) for keyword in node.keywords}
         holder = self.write(node.args[0], ATOM) if node.args else ""
         values = [given.get(name, f"{holder}.{identifier(name)}") for name in kind.record.fields]

@@ -38,7 +38,7 @@ class MatrixText(Protocol):
     """The writer of matrices, as the writer of expressions sees it."""
 
     def write(self, node: ast.expr) -> tuple[str, int]:
-        """Return a matrix that is no variable, or a vector made by one, with its precedence."""
+        """Return a matrix that is no variable, or a vector computed by one, with its precedence."""
 
     def write_part(self, node: ast.Subscript) -> str:
         """Return ``p[i, j]`` or ``p[i, 0:3]``."""
@@ -114,7 +114,7 @@ class ExpressionWriter(CallWriter):
         return f"{self.write(node.value, ATOM)}{self.place(node)}", ATOM
 
     def place(self, node: ast.Subscript, index: str = "") -> str:
-        """What follows a list or vector to mean one element."""
+        """Return the suffix of a list or vector that means one element."""
         member = ".x" if isinstance(self.function.types[node.value], Vector) else ""
         return f"{member}[{index or self.index(node)}]"
 
@@ -125,7 +125,7 @@ class ExpressionWriter(CallWriter):
         return f"({c_type(kind)}){{{', '.join(self.write(part) for part in node.elts)}}}", ATOM
 
     def index(self, node: ast.Subscript) -> str:
-        """The index of an element; checked where it was not proven right."""
+        """Write the index of an element; checked where it was not proven right."""
         container = self.function.types[node.value]
         assert isinstance(container, List | Vector)
         text = self.write(node.slice)
@@ -155,7 +155,7 @@ class ExpressionWriter(CallWriter):
         return self.call(name, *operands), ATOM
 
     def _vector_operation(self, node: ast.BinOp) -> tuple[str, int]:
-        """An operator on vectors of one size, or on a vector and a number."""
+        """Write an operator on vectors of one size, or on a vector and a number."""
         operands = [node.left, node.right]
         both = all(isinstance(self.function.types[operand], Vector) for operand in operands)
         if isinstance(node.op, ast.Mult) and not both:
@@ -173,7 +173,7 @@ class ExpressionWriter(CallWriter):
         return self.call(f"{name}{kind.size}", *texts), ATOM
 
     def _record_operation(self, node: ast.BinOp) -> tuple[str, int]:
-        """An operator on two records, or on a record and a number."""
+        """Write an operator on two records, or on a record and a number."""
         operands = [node.left, node.right]
         kind = self.function.types[node]
         assert isinstance(kind, RecordType)

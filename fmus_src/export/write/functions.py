@@ -11,7 +11,7 @@ from .statements import StatementWriter
 
 
 def signature(function: Function, name: str, block_type: str) -> str:
-    """``static double terminal_cubic_time(Fault *fault, const double *dr, double g)``."""
+    """Return ``static double terminal_cubic_time(Fault *fault, const double *dr, double g)``."""
     arguments = []
     if function.takes_block:
         arguments.append(f"{'' if function.changes_block else 'const '}{block_type} *self")
@@ -29,7 +29,7 @@ def signature(function: Function, name: str, block_type: str) -> str:
 
 
 def write_function(function: Function, names: Names, block_type: str) -> list[str]:
-    """The C definition of a function, with its docstring and the Python line of each statement."""
+    """Write the C definition of a function, with its docstring and the Python line of each statement."""
     node = function.source.node
     docstring = ast.get_docstring(node) or ""
     writer = StatementWriter(function, names)

@@ -42,7 +42,7 @@ class Lines:
         self.text += parts
 
     def comment(self, title: str, body: str = "") -> None:
-        """A comment of one line, or of a title and paragraphs."""
+        """Add a comment of one line, or of a title and paragraphs."""
         indent = INDENT * self.depth
         lines = [line for line in comment(f"{title}\n\n{body}" if body else title).splitlines()]
         if len(lines) == 1:
@@ -53,7 +53,7 @@ class Lines:
         self.text.append(f"{indent} */")
 
     def member(self, text: str, about: str) -> None:
-        """A member of a struct with what it means at its right."""
+        """Add a member of a struct with its meaning at its right."""
         line = f"{INDENT * self.depth}{text}"
         about_lines = textwrap.wrap(about, WIDTH - MEMBER_COLUMN - 6, break_on_hyphens=False)
         for number, part in enumerate(about_lines):
@@ -62,16 +62,16 @@ class Lines:
             self.text.append(f"{(line if number == 0 else '').ljust(MEMBER_COLUMN)} {start}{part}{end}")
 
     def open(self, text: str, python_line: int = 0) -> None:
-        """A line that opens a block."""
+        """Add a line that opens a block."""
         self.add(text, python_line)
         self.depth += 1
 
     def close(self, text: str) -> None:
-        """A line that ends a block."""
+        """Add a line that ends a block."""
         self.depth -= 1
         self.add(text)
 
     def reopen(self, text: str, python_line: int = 0) -> None:
-        """A line that ends a block and opens the next, as ``} else {``."""
+        """Add a line that ends a block and opens the next, as ``} else {``."""
         self.depth -= 1
         self.open(text, python_line)

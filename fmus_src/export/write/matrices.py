@@ -18,7 +18,7 @@ class MatrixWriter(MatrixEntries):
     """Writes the matrices of one function."""
 
     def write(self, node: ast.expr) -> tuple[str, int]:
-        """A matrix that is no variable, or a vector made by one: C text after the statements it needs."""
+        """Write a matrix that is no variable, or a vector computed by one: C text after the statements it needs."""
         kind = self.function.types[node]
         if isinstance(kind, Vector):
             entry = self.prepare(node)
@@ -68,7 +68,7 @@ class MatrixWriter(MatrixEntries):
         self._each(kind, self.plan.is_small(expression), lambda i, j: [f"{stored(i, j)[0]} = {entry(i, j)[0]};"])
 
     def materialise(self, node: ast.expr) -> str:
-        """The name of a matrix of its own that holds an expression."""
+        """Return the name of a new matrix that holds an expression."""
         name = self.out.fresh("part")
         kind = self.function.types[node]
         assert isinstance(kind, Matrix)

@@ -1,6 +1,6 @@
 """The elements of a matrix expression as C text, after the statements that they need.
 
-What an element would need more than once, products and what calls return, is computed before, in a matrix of its own.
+Operands that an element would need more than once, products and results of calls, are computed before, in a new matrix.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ class MatrixEntries:
         self.plan = MatrixPlan(out.function)
 
     def materialise(self, node: ast.expr) -> str:
-        """The name of a matrix of its own that holds an expression."""
+        """Return the name of a new matrix that holds an expression."""
         raise NotImplementedError
 
     def prepare(self, node: ast.expr) -> Entry:
-        """The elements of a matrix, or of a vector as its column, after the statements that they need."""
+        """Return the elements of a matrix, or of a vector as its column, after the statements that they need."""
         kind = self.function.types[node]
         if isinstance(kind, Vector) and not is_matmul(node):
             text = self.expressions.write(node)
@@ -58,26 +58,26 @@ class MatrixEntries:
         return self._product(node) if is_matmul(node) else self._elementwise(node)
 
     def holder(self, node: ast.expr) -> str:
-        """What is indexed to mean an element: ``p->x``, ``self->covariance.x``."""
+        """Return the text that is indexed for an element: ``p->x``, ``self->covariance.x``."""
         text = self.expressions.write(node, ATOM)
         return f"{text[2:-1]}->x" if text.startswith("(*") else f"{text}.x"
 
     def place(self, node: ast.Subscript) -> str:
-        """The place of ``p[i, j]`` in row order."""
+        """Return the index of ``p[i, j]`` in row order."""
         kind = self.function.types[node.value]
         assert isinstance(kind, Matrix)
         row, column = (self._index(node, *each) for each in indices_of(self.function, node))
         return str(row_order_index(row, column, kind.columns))
 
     def _index(self, node: ast.Subscript, index: ast.expr, size: int) -> Index:
-        """An index, checked where it was not proven."""
+        """Write an index, checked where it was not proven."""
         text = self.expressions.write(index, SUM)
         if index in self.function.unproven_indices:
             return self.expressions.write_checked(node, "py_index", text, str(size))[0]
         return int(text) if text.isdigit() else text
 
     def block(self, node: ast.Subscript) -> Entry:
-        """The elements of a block, row or column."""
+        """Return the elements of a block, row or column."""
         inner = self.prepare(node.value)
         indices = iter(indices_of(self.function, node))
         starts: list[Index] = []
@@ -134,7 +134,7 @@ class MatrixEntries:
         return lambda i, j: (f"{factor} * {parenthesise(entry(i, j), PRODUCT + 1)}", PRODUCT)
 
     def _scalar(self, node: ast.expr, division: ast.BinOp | None = None) -> str:
-        """A number that all elements are multiplied with, or divided by."""
+        """Write a number that all elements are multiplied with, or divided by."""
         text = self.expressions.write_as_float(node, ATOM)
         if division is not None and own_outcome(self.function, division):
             text = self.expressions.write_checked(division, "py_divisor", text)[0]
@@ -147,7 +147,7 @@ class MatrixEntries:
         return name
 
     def _product(self, node: ast.expr) -> Entry:
-        """``a @ b``, whose sums run from the first product on, or ``add_product(q, a, b)``."""
+        """Write ``a @ b``, whose sums run from the first product on, or ``add_product(q, a, b)``."""
         if self.plan.is_long(node):
             kind = self.function.types[node]
             assert isinstance(kind, Matrix)
@@ -183,12 +183,12 @@ class MatrixEntries:
 
 
 def entry_of(holder: str, columns: int) -> Entry:
-    """The elements of what is stored in row order."""
+    """Return the elements of an array stored in row order."""
     return lambda i, j: (f"{holder}[{row_order_index(i, j, columns)}]", ATOM)
 
 
 def row_order_index(i: Index, j: Index, columns: int) -> Index:
-    """Where an element is in row order."""
+    """Return the index of an element in row order."""
     if columns == 1:
         return plus(i, j)
     if isinstance(i, int):

@@ -1,4 +1,4 @@
-"""How an expression of matrices is written in C: written out, in loops, or computed before in a matrix of its own."""
+"""Form of an expression of matrices in C: written out, in loops, or computed before in a new matrix."""
 
 from __future__ import annotations
 
@@ -13,34 +13,34 @@ SHORT = 4  # terms of a sum that is one expression
 
 
 class MatrixPlan:
-    """What the expressions of one function ask for."""
+    """Requirements of the expressions of one function."""
 
     def __init__(self, function: Function) -> None:
         self.function = function
 
     def inner(self, node: ast.expr) -> int:
-        """How many products a sum of a product has."""
+        """Return the number of products in a sum of a product."""
         left = self.function.types[terms_of(node)[-2]]
         assert isinstance(left, Matrix)
         return left.columns
 
     def _is_product(self, node: ast.AST) -> bool:
-        """Whether an expression is a product, or one that is added to something."""
+        """Return True if an expression is a product, or one that is added to something."""
         call = self.function.calls.get(node) if isinstance(node, ast.Call) else None
         return is_matmul(node) or (isinstance(call, MakeMatrix) and call.name == "add_product")
 
     def is_long(self, node: ast.expr) -> bool:
-        """Whether sums of a product take a loop."""
+        """Return True if sums of a product take a loop."""
         return self._is_product(node) and self.inner(node) > SHORT
 
     def is_cheap(self, node: ast.expr) -> bool:
-        """Whether an element is read, not computed."""
+        """Return True if an element is read, not computed."""
         if isinstance(node, ast.Attribute | ast.Subscript) and not is_variable(node):
             return self.is_cheap(node.value)
         return is_variable(node) or isinstance(self.function.calls.get(node), KernelCall)  # type: ignore[call-overload]
 
     def is_small(self, node: ast.expr) -> bool:
-        """Whether a matrix is written out."""
+        """Return True if a matrix is written out."""
         kind = self.function.types[node]
         assert isinstance(kind, Matrix)
         if isinstance(node, ast.Call) and any(isinstance(row, ast.List) for row in node.args):
@@ -52,7 +52,7 @@ class MatrixPlan:
         return size <= FEW and size * max([1, *(count for count in terms if count <= SHORT)]) <= FEW_TERMS
 
     def is_disturbed(self, node: ast.expr, target: str, variable: str) -> bool:
-        """Whether an element of a value reads the variable elsewhere than at the element that is assigned.
+        """Return True if an element of a value reads the variable elsewhere than at the element that is assigned.
 
         An argument may be the block's matrix that is assigned.
         """
@@ -68,7 +68,7 @@ class MatrixPlan:
         return aliases or variable in map(ast.unparse, names)
 
     def _is_argument(self, node: ast.expr) -> bool:
-        """Whether an expression is a matrix that the function was given."""
+        """Return True if an expression is a matrix argument of the function."""
         name = node.id if isinstance(node, ast.Name) else ""
         return isinstance(self.function.parameters.get(name), Matrix)
 
@@ -78,7 +78,7 @@ def is_matmul(node: ast.AST) -> bool:
 
 
 def terms_of(node: ast.expr) -> list[ast.expr]:
-    """The factors of a product, after what it may be added to."""
+    """Return the factors of a product, after the matrix it may be added to."""
     if isinstance(node, ast.Call):
         return node.args
     assert isinstance(node, ast.BinOp)

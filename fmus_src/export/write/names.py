@@ -70,7 +70,7 @@ WRAPPER_NAMES = frozenset(
 
 
 def identifier(name: str) -> str:
-    """A Python name as a C name."""
+    """Return a Python name as a C name."""
     return f"{name}_" if name in RESERVED or name.startswith("py_") else name
 
 
@@ -94,7 +94,7 @@ def names_of(kernel: Kernel) -> Names:
 
 
 def _function_names(functions: list[Function]) -> dict[Function, str]:
-    """A C name per function: its module (a method's class) and its own name.
+    """Return a C name per function: its module (a method's class) and its own name.
 
     Where that is not enough, the folder of the module or the sizes of its lists follow.
     """
@@ -117,7 +117,7 @@ def _function_names(functions: list[Function]) -> dict[Function, str]:
 
 
 def _distinction(kind: Type) -> str:
-    """What tells a function of these arguments from others of its name."""
+    """Return the suffix that distinguishes a function of these arguments from others of its name."""
     if isinstance(kind, Bound):
         return kind.function.__name__
     if isinstance(kind, RecordType):
@@ -128,7 +128,7 @@ def _distinction(kind: Type) -> str:
 
 
 def block_type_name(name: str) -> str:
-    """The struct type of a block class."""
+    """Return the struct type of a block class."""
     return f"{name}Block" if name in WRAPPER_NAMES or name in RESERVED else name
 
 
@@ -148,7 +148,7 @@ def _constant_names(constants: list[Constant]) -> dict[Constant, str]:
 
 
 def literal(value: float | int | bool) -> str:
-    """A number as C reads it back to the same bits."""
+    """Return a number as C reads it back to the same bits."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):
@@ -183,7 +183,7 @@ def declaration(kind: Type, name: str, constant: bool = False) -> str:
 
 
 def member(variable: Variable, position: int) -> str:
-    """The place of a variable's element in the block's struct: ``mass``, ``position.x[0]``, ``thrust[7]``."""
+    """Return the path of a variable's element in the block's struct: ``mass``, ``position.x[0]``, ``thrust[7]``."""
     name = identifier(variable.name)
     if variable.record is not None:
         return f"{name}.{_field_path(variable.record, position)}"
@@ -193,7 +193,7 @@ def member(variable: Variable, position: int) -> str:
 
 
 def _field_path(record: type[Record], position: int) -> str:
-    """The place of a record's number in its struct: ``attitude.x[1]``."""
+    """Return the path of a record's number in its struct: ``attitude.x[1]``."""
     for name, field in record.fields.items():
         size = count_numbers(field.kind)
         if position < size:

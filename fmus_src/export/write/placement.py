@@ -1,4 +1,4 @@
-"""Where the C of one kernel function declares its variables: as far in as every use allows."""
+"""Placement of the C declarations of one kernel function: as far in as every use allows."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Placement:
                 self._place(name, self._uses[name])
 
     def declares(self, node: ast.stmt, name: str) -> bool:
-        """Whether an assignment declares a variable."""
+        """Return True if an assignment declares a variable."""
         return name in self.with_value.get(node, ())
 
     def _plain_loops(self, root: ast.FunctionDef) -> None:
@@ -90,7 +90,7 @@ class Placement:
         self.before.setdefault(first, []).append(name)
 
     def _is_plain_target(self, path: Path, name: str) -> bool:
-        """Whether a use lies in a loop that declares the variable itself."""
+        """Return True if a use is in a loop that declares the variable itself."""
         for block, position in path[:-1]:
             statement = self._blocks[block][position]
             if statement in self.plain_loops and _is_use(statement.target, name, ast.Store):  # type: ignore[attr-defined]

@@ -43,7 +43,7 @@ def _definition(kind: RecordType) -> str:
 
 
 def _field_writer(kind: RecordType, of_float: str, of_vector: str) -> Callable[[str], str]:
-    """What writes an operation on a field."""
+    """Return a writer of an operation on a field."""
 
     def write(name: str) -> str:
         inner = kind.field(name)

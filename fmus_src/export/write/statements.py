@@ -116,7 +116,7 @@ class StatementWriter(FunctionWriter):
             self.check()
 
     def unpack(self, node: ast.stmt, target: ast.Tuple, value: ast.expr) -> None:
-        """``a, b = function(...)`` or ``x, y, z = v``."""
+        """Write ``a, b = function(...)`` or ``x, y, z = v``."""
         whole = self.keep(value, self.expressions.write(value), "parts")
         several = isinstance(self.function.types[value], Several)
         known = {*self.function.locals, *self.function.parameters}
@@ -145,7 +145,7 @@ class StatementWriter(FunctionWriter):
             self.add(f"{self.expressions.write(target)} = {text};")
 
     def _is_local_element(self, target: ast.expr) -> bool:
-        """Whether a target is an element of a list that ends with the function, its index proven."""
+        """Return True if a target is an element of a list that ends with the function, its index proven."""
         if not isinstance(target, ast.Subscript) or not isinstance(target.value, ast.Name):
             return False
         return target.value.id in self.function.locals and not self.can_fault(target)
@@ -195,12 +195,12 @@ class StatementWriter(FunctionWriter):
         self.lines.close("}")
 
     def _condition(self, test: ast.expr, name: str) -> str:
-        """A condition, in a checked variable of its own where it can fail."""
+        """Write a condition, in a separate checked variable where it can fail."""
         text = self.expressions.write(test)
         return self.keep(test, text, name) if self.can_fault(test) else text
 
     def _else(self, statements: list[ast.stmt]) -> None:
-        """An else branch; ``else if`` where nothing has to come between."""
+        """Write an else branch; ``else if`` where nothing has to come between."""
         inner = statements[0]
         if len(statements) == 1 and isinstance(inner, ast.If) and self._is_plain(inner):
             self.comments_before(inner)
@@ -213,13 +213,13 @@ class StatementWriter(FunctionWriter):
             self.block(statements)
 
     def _is_plain(self, node: ast.If) -> bool:
-        """Whether an if statement needs no declaration or check in front of it."""
+        """Return True if an if statement needs no declaration or check in front of it."""
         declares = node in self.placement.before
         hoists = any(part in self.function.hoisted for part in ast.walk(node.test))
         return not (declares or hoists or self.can_fault(node.test) or self._makes_matrices(node.test))
 
     def _makes_matrices(self, test: ast.expr) -> bool:
-        """Whether a condition needs statements in front of it."""
+        """Return True if a condition needs statements in front of it."""
         return any(makes_matrix(self.function, part) for part in ast.walk(test))
 
     def write_while(self, node: ast.While) -> None:

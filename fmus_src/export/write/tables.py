@@ -117,7 +117,7 @@ def _references(block_class: type[Block], fmi: int) -> list[str]:
 
 
 def _initialise(start: Any) -> str:
-    """A number, vector or record as C initialises it."""
+    """Return a number, vector or record as C initialises it."""
     if isinstance(start, vector_types.Vector):
         return f"{{{{{', '.join(map(literal, start))}}}}}"
     if isinstance(start, Record):

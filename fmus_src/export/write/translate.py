@@ -47,7 +47,7 @@ FOOTER = """\
 
 
 def translate(block_class: type[Block], guid: str, fmi: int = 2) -> str:
-    """The C source of a block for an FMU with the given GUID; it includes the wrapper of FMI 2.0 or 3.0.
+    """Return the C source of a block for an FMU with this GUID; it includes the wrapper of FMI 2.0 or 3.0.
 
     Raises `SubsetError` where the block is outside the subset of Python.
     """
@@ -64,7 +64,7 @@ def translate(block_class: type[Block], guid: str, fmi: int = 2) -> str:
 
 
 def translate_functions(block_class: type[Block]) -> tuple[str, dict[str, str]]:
-    """The C of the functions that a block calls, without the block, and their names in it by those in Python.
+    """Return the C of the functions that a block calls, without the block, and their names in it by those in Python.
 
     Functions have the name of their Python file in front. Raises `SubsetError` as `translate`.
     """
@@ -77,7 +77,7 @@ def translate_functions(block_class: type[Block]) -> tuple[str, dict[str, str]]:
 
 @cache  # an FMU is translated twice, without its GUID, which is a hash of that, and with it
 def _around_tables(block_class: type[Block]) -> tuple[list[str], str]:
-    """The kernel and its entry points, before and after the tables, in which the GUID is."""
+    """Return the kernel and its entry points, before and after the tables, in which the GUID is."""
     kernel = analyse_kernel(block_class)
     names = names_of(kernel)
     type_name = block_type_name(block_class.__name__)
@@ -93,7 +93,7 @@ def _around_tables(block_class: type[Block]) -> tuple[list[str], str]:
 
 
 def _matrices(kernel: Kernel) -> list[str]:
-    """A struct for each size of matrix."""
+    """Return a struct for each size of matrix."""
     kinds = {type_of_variable(variable) for variable in kernel.block_class.variables.values()}
     for function in kernel.functions:
         kinds |= {*function.parameters.values(), *function.locals.values(), *function.types.values()}  # type: ignore[arg-type]
@@ -133,7 +133,7 @@ def _about(variable: Variable) -> str:
 
 
 def _constants(names: Names) -> list[str]:
-    """Module constants that the kernel uses; those of math are in kernel_math.h."""
+    """Return module constants that the kernel uses; those of math are in kernel_math.h."""
     lines = Lines()
     for constant, name in sorted(names.constants.items(), key=lambda item: item[1]):
         if constant.module == "math":
@@ -152,7 +152,7 @@ def _constants(names: Names) -> list[str]:
 
 
 def _several(kernel: Kernel) -> list[str]:
-    """A struct for each combination of types that functions return together."""
+    """Return a struct for each combination of types that functions return together."""
     kinds = {function.returns for function in kernel.functions if isinstance(function.returns, Several)}
     kinds.discard(FREXP)  # in kernel_math.h
     lines = Lines()
@@ -183,7 +183,7 @@ def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
 
 
 def _define_checked(function: Function, c_name: str, error: str) -> str:
-    """The form of an elementary function that records a fault, ``py_sin``, at its caller's line."""
+    """Return the form of an elementary function that records a fault, ``py_sin``, at its caller's line."""
     if error == EITHER_ERROR:
         return f"CHECKED_POWER({function.source.name}, {c_name})\n"
     return f"CHECKED_FUNCTION({function.source.name}, {c_name}, {C_ERRORS[error]})\n"

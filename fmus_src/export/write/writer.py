@@ -1,4 +1,4 @@
-"""What the statements of a kernel function are written with: names, checks, comments, declarations."""
+"""Writer of the statements of a kernel function: names, checks, comments, declarations."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class FunctionWriter:
         self.line = 0  # of the statement being written
 
     def fresh(self, name: str) -> str:
-        """A name that nothing in the function has yet."""
+        """Return a name that the function does not have yet."""
         candidate = name
         number = 2
         while candidate in self.used:
@@ -38,7 +38,7 @@ class FunctionWriter:
         return candidate
 
     def add(self, text: str) -> None:
-        """A line of C with the Python line at its right."""
+        """Add a line of C with the Python line at its right."""
         self.lines.add(text, self.line)
 
     def check(self) -> None:
@@ -52,7 +52,7 @@ class FunctionWriter:
         self.lines.add(f"if (fault->what) return{value};")
 
     def keep(self, node: ast.expr, text: str, name: str) -> str:
-        """Give the value of an expression a variable of its own, checked where it can fail."""
+        """Store the value of an expression in a new variable, checked where it can fail."""
         kind = self.function.types[node]
         assert isinstance(kind, Value | Several)
         variable = self.fresh(name)
@@ -62,11 +62,11 @@ class FunctionWriter:
         return variable
 
     def hoist(self, node: ast.expr, text: str) -> str:
-        """Put a part of the statement in front of it."""
+        """Put an operand of the statement in front of it."""
         return self.keep(node, text, "part")
 
     def can_fault(self, node: ast.expr) -> bool:
-        """Whether evaluating an expression can record a fault, hoisted parts left aside."""
+        """Return True if evaluating an expression can record a fault, hoisted operands left aside."""
         if node in self.function.hoisted:
             return False
         children = [child.value if isinstance(child, ast.keyword) else child for child in ast.iter_child_nodes(node)]
@@ -74,7 +74,7 @@ class FunctionWriter:
         return bool(own_outcome(self.function, node)) or any(self.can_fault(part) for part in parts)
 
     def declare(self, name: str) -> str:
-        """A local variable with its type, as a declaration begins."""
+        """Return a local variable with its type, as a declaration begins."""
         kind = self.function.locals[name]
         assert isinstance(kind, Value | List)
         if isinstance(kind, List):
@@ -82,7 +82,7 @@ class FunctionWriter:
         return f"{c_type(kind)} {identifier(name)}"
 
     def comments_before(self, statement: ast.stmt) -> None:
-        """The Python comments between the statement before and this one."""
+        """Add the Python comments between the statement before and this one."""
         for number in range(self.last_line + 1, statement.lineno):
             if number in self.comments:
                 self.lines.comment(self.comments[number])

@@ -16,7 +16,7 @@ WIND = Port([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="of the a
 
 
 class BankReference(Bundle):
-    """What bank to follow."""
+    """Bank angle to follow."""
 
     bank = Port(deg(60.0), unit="rad", description="bank to be at now")
     bank_rate = Port(0.0, unit="rad/s", description="its rate")

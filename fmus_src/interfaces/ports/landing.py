@@ -17,7 +17,7 @@ class CommandSource(Enumeration):
 
 
 class HoverMode(Enumeration):
-    """What the hover guidance is to do."""
+    """Task of the hover guidance."""
 
     IDLE = member("idle")
     HOLD = member("hold")
@@ -28,7 +28,7 @@ class HoverMode(Enumeration):
 
 
 class TerminalStatus(Enumeration):
-    """What became of the last solution."""
+    """Outcome of the last solution."""
 
     GOOD = member("good")
     CLAMPED = member("clamped")
@@ -37,7 +37,7 @@ class TerminalStatus(Enumeration):
 
 
 class HoverStatus(Enumeration):
-    """What became of the last plan."""
+    """Outcome of the last plan."""
 
     GOOD = member("good")
     NO_PROGRAMME = member("no programme, polynomial flown")
@@ -108,7 +108,7 @@ VERTICAL_SPEED = Port(0.0, unit="m/s", description="velocity along the local ver
 
 
 class ThrustCommand(Bundle):
-    """What a guidance asks of engine and attitude."""
+    """Demand of a guidance on engine and attitude."""
 
     thrust_acceleration = THRUST_ACCELERATION
     thrust_direction = Port(

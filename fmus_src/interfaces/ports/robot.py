@@ -34,21 +34,21 @@ TRANSLATION_PERIOD = Port(8.0, unit="s", minimum=1e-3, description="to the next 
 
 
 class FilterMethod(Enumeration):
-    """What estimates an error from samples."""
+    """Estimator of an error from samples."""
 
     MEAN = member("mean")
     KALMAN = member("Kalman filter")
 
 
 class ControlLaw(Enumeration):
-    """What leads an error to 0."""
+    """Law that leads an error to 0."""
 
     LEAD = member("lead compensator")
     PROPORTIONAL_DERIVATIVE = member("error and its rate")
 
 
 class SampleStatus(Enumeration):
-    """What became of the last sample."""
+    """Outcome of the last sample."""
 
     GOOD = member("good")
     NOT_FINITE = member("last sample not finite and left out")

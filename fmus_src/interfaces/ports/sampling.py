@@ -1,4 +1,4 @@
-"""What blocks share that sample or integrate."""
+"""Shared declarations of blocks that sample or integrate."""
 
 from ...block import Parameter
 from ...ports import Port

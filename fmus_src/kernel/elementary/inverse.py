@@ -92,7 +92,7 @@ def atan(x: float) -> float:
 
 
 def atan2(y: float, x: float) -> float:
-    """The angle of the point (x, y), from -pi to pi."""
+    """Return the angle of the point (x, y), from -pi to pi."""
     a = abs(y)
     b = abs(x)
     if a != a or b != b:
@@ -126,7 +126,7 @@ def atan2(y: float, x: float) -> float:
 
 
 def angle_of_edge(a: float, b: float, x: float) -> float:
-    """The angle of (x, a), b = |x|, where one of a and b is 0 or infinite."""
+    """Return the angle of (x, a), b = |x|, where one of a and b is 0 or infinite."""
     high = HALF_PI
     if a == b:  # both 0, or both infinite
         high = 0.0 if a == 0.0 else QUARTER_PI

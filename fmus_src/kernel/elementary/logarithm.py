@@ -43,7 +43,7 @@ def split(x: float) -> tuple[float, float]:
 
 
 def without_logarithm(x: float) -> float:
-    """The logarithm of what has none as a finite number: 0, negative numbers, infinity, NaN."""
+    """Return the logarithm of numbers without a finite one: 0, negative numbers, infinity, NaN."""
     if x == 0.0:
         return -math.inf
     if x < 0.0:
@@ -83,7 +83,7 @@ def log1p(x: float) -> float:
 
 
 def log_two(x: float) -> tuple[float, float]:
-    """The logarithm of a positive finite number as a sum of two doubles, its relative error below 2^-64."""
+    """Return the logarithm of a positive finite number as a sum of two doubles, its relative error below 2^-64."""
     m, k = split(x)
     f = m - 1.0
     d = 2.0 + f

@@ -55,7 +55,7 @@ def scaled_complement(t: float) -> float:
 
 
 def normal_distribution(x: float) -> float:
-    """The probability that a standard normal number is below x."""
+    """Return the probability that a standard normal number is below x."""
     if x != x:
         return x
     a = abs(x)
@@ -72,7 +72,7 @@ def normal_distribution(x: float) -> float:
 
 
 def normal_quantile(p: float) -> float:
-    """The x below which a standard normal number is with probability p: infinite for 0 and 1, NaN outside."""
+    """Return the x below which a standard normal number is with probability p: infinite for 0 and 1, NaN outside."""
     if p != p or p < 0.0 or p > 1.0:
         return math.nan
     if p == 0.0 or p == 1.0:

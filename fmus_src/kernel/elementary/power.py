@@ -10,7 +10,7 @@ WHOLE = 4503599627370496.0  # 2^52: from here on every double is a whole number,
 
 
 def is_odd(y: float) -> bool:
-    """Whether a double is an odd whole number."""
+    """Return True if a double is an odd whole number."""
     a = abs(y)
     if a >= 2.0 * WHOLE:
         return False
@@ -20,7 +20,7 @@ def is_odd(y: float) -> bool:
 
 
 def is_whole(y: float) -> bool:
-    """Whether a double is a whole number."""
+    """Return True if a double is a whole number."""
     a = abs(y)
     return a >= WHOLE or a + WHOLE - WHOLE == a
 

@@ -115,7 +115,7 @@ def tan(x: float) -> float:
 
 
 def quotient(a: float, a_tail: float, b: float, b_tail: float) -> float:
-    """(a + a_tail)/(b + b_tail)."""
+    """Return (a + a_tail)/(b + b_tail)."""
     q = a / b
     p = q * b
     return q + (((a - p) - product_error(q, b, p)) + (a_tail - q * b_tail)) / b

@@ -1,4 +1,4 @@
-"""What sums and products lose in rounding, exactly: numbers as sums of two doubles. Kernel functions.
+"""Exact rounding errors of sums and products: numbers as sums of two doubles. Kernel functions.
 
 Sources: Knuth, "The Art of Computer Programming" 2, 1969, 4.2.2, theorem B; Dekker, "A floating-point technique for
 extending the available precision", Numerische Mathematik 18, 1971.
@@ -9,13 +9,13 @@ SPLITTER = 134217729.0  # 2^27 + 1 (Veltkamp)
 
 
 def sum_error(a: float, b: float, s: float) -> float:
-    """a + b - s for the double s = a + b."""
+    """Return a + b - s for the double s = a + b."""
     t = s - a
     return (a - (s - t)) + (b - t)
 
 
 def product_error(a: float, b: float, p: float) -> float:
-    """a b - p for the double p = a b, of factors between 2^-500 and 2^500."""
+    """Return a b - p for the double p = a b, of factors between 2^-500 and 2^500."""
     c = SPLITTER * a
     a_high = c - (c - a)
     a_low = a - a_high

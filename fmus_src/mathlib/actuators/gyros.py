@@ -1,11 +1,11 @@
-"""Four single-gimbal gyros in two pairs of parallel gimbal axes (2-SPE), and how to steer them. Kernel functions.
+"""Four single-gimbal gyros in two pairs of parallel gimbal axes (2-SPE), and their steering. Kernel functions.
 
-Momenta are those of the cluster over that of one rotor, in body axes: pair 1 turns about z in the xy
-plane, pair 2 about -y in the xz plane, all gimbal angles (rad) counted from x. The three components leave one
-of the four angles free. With x1 and x2 what each pair has along x, a and b the most that it could
-have beside y and z, u = x1/a and v = x2/b, the distribution law u - v + rho (u v - 1) = 0 takes that
-freedom: the pairs bias each other and stay away from their singular states, which are |pair| = 0 and 2.
-Derivations: docs/systems/robot_rendezvous.md. Source: Somov 2013; Somov, Platonov and Sorokin 2005.
+Momenta are those of the cluster over that of one rotor, in body axes: pair 1 turns about z in the xy plane, pair 2
+about -y in the xz plane, all gimbal angles (rad) counted from x. The three components leave one of the four angles
+free. With x1 and x2 what each pair has along x, a and b the most that it could have with y and z, u = x1/a and v =
+x2/b, the distribution law u - v + rho (u v - 1) = 0 takes that freedom: the pairs bias each other and stay away from
+their singular states, which are |pair| = 0 and 2. Derivations: docs/systems/robot_rendezvous.md. Source: Somov 2013;
+Somov, Platonov and Sorokin 2005.
 """
 
 import math
@@ -41,13 +41,13 @@ def cluster_jacobian(angles: Vector4) -> Matrix:
 
 
 def nearest_turn(angle: float, reference: float) -> float:
-    """The angle plus whole turns that is nearest to ``reference``."""
+    """Return the angle plus whole turns that is nearest to ``reference``."""
     turns = (reference - angle) / math.tau
     return angle + math.tau * float(math.floor(turns + 0.5))
 
 
 def distribute_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[bool, Vector4]:
-    """Whether there are angles that give a momentum under the distribution law, and they or those of ``near``.
+    """Return True with angles that give a momentum under the distribution law, or False with those of ``near``.
 
     They are by whole turns nearest to ``near``.
     """
@@ -84,11 +84,11 @@ def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
 def distribute_rates(
     angles: Vector4, momentum_rate: Vector3, rho: float, gain: float, least: float
 ) -> tuple[bool, Vector4]:
-    """Whether the law has rates (rad/s) that change the momentum at momentum_rate (1/s) and keep it, and they.
+    """Return True with rates (rad/s) of the law that change the momentum at momentum_rate (1/s), or False with 0.
 
-    The law's residual f is led to 0 by f' = -gain f. False, with rates of 0, where a
-    divisor is less than ``least``: the sines of the angle between the rotors of each pair (1 where they are
-    best to steer), and those of the law, 2 at the isotropic angles.
+    The law's residual f is led to 0 by f' = -gain f. False, with rates of 0, where a divisor is less than ``least``:
+    the sines of the angle between the rotors of each pair (1 where they are best to steer), and those of the law, 2 at
+    the isotropic angles.
     """
     first, second, third, fourth = angles
     none = vector(0.0, 0.0, 0.0, 0.0)
@@ -156,14 +156,13 @@ def determinant_of(m: Matrix) -> float:
 def robust_rates(
     angles: Vector4, momentum_rate: Vector3, damping: float, threshold: float, swing: float, time: float
 ) -> tuple[Vector4, float]:
-    """Rates (rad/s) W A' (A W A' + k E)^-1 momentum_rate, bounded everywhere, exact where k = 0; and m.
+    """Return rates (rad/s) W A' (A W A' + k E)^-1 momentum_rate, bounded everywhere, exact where k = 0; and m.
 
-    k = damping lack^2 with lack = 1 - m/threshold where the singularity measure m is below the
-    threshold, else 0 (Nakamura and Hanafusa 1986). E and W are unit matrices but for elements that lead out of
-    states in which the wanted torque is the one that cannot be given (Wie 2005): E has off-diagonal
-    elements swing sin(pi/2 time + phase), which move the gimbals to and fro, and W = 1 + swing lack for
-    the first rotor of each pair and 1 - swing lack for the second, without which rotors side by side
-    would stay so. A swing below 0.5 keeps both positive definite.
+    k = damping lack^2 with lack = 1 - m/threshold where the singularity measure m is below the threshold, else 0
+    (Nakamura and Hanafusa 1986). E and W are unit matrices but for elements that lead out of states in which the wanted
+    torque is the one that cannot be given (Wie 2005): E has off-diagonal elements swing sin(pi/2 time + phase), which
+    move the gimbals to and fro, and W = 1 + swing lack for the first rotor of each pair and 1 - swing lack for the
+    second, without which rotors side by side would stay so. A swing below 0.5 keeps both positive definite.
     """
     jacobian = cluster_jacobian(angles)
     measure = singularity_measure(angles)

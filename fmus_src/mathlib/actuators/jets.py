@@ -35,7 +35,7 @@ class Wrench(Record):
 
 
 class JetStrength(Record):
-    """What 1 N of every jet, with the signs of a row, gives along an axis, over the number of jets; 0: nothing."""
+    """Force or torque of 1 N of every jet, with the signs of a row, along an axis, over the number of jets; 0: none."""
 
     force = Field(Vector3, unit="1", frame="body", description="force over thrust, signs X, Y, Z")
     torque = Field(Vector3, unit="m", frame="body", description="torque over thrust, signs YZ, ZX, XY")
@@ -52,7 +52,7 @@ def jet_strength(tilt: float, azimuth: float, arm: Vector3) -> JetStrength:
 
 
 def without_negligible(v: Vector3, limit: float) -> Vector3:
-    """The vector with 0 for components below ``limit``."""
+    """Return the vector with 0 for components below ``limit``."""
     return vector(
         0.0 if abs(v.x) < limit else v.x,
         0.0 if abs(v.y) < limit else v.y,
@@ -77,7 +77,7 @@ def jet_wrench(strength: JetStrength, thrust: list) -> Wrench:
 
 
 def add_component(signs: tuple, strength: float, wanted: float, thrust: list) -> bool:
-    """thrust + what gives a wanted force or torque along an axis; whether the geometry can give it."""
+    """Add to thrust the part that gives a force or torque along an axis; return if the geometry can give it."""
     if strength == 0.0:
         return wanted == 0.0
     fraction = wanted / (8.0 * strength)
@@ -87,7 +87,7 @@ def add_component(signs: tuple, strength: float, wanted: float, thrust: list) ->
 
 
 def pseudo_inverse(strength: JetStrength, wanted: Wrench, thrust: list) -> bool:
-    """thrust = the shortest solution of B thrust = wanted, negative thrusts included.
+    """Set thrust to the shortest solution of B thrust = wanted, negative thrusts included.
 
     Returns whether the geometry can give the wrench; a component that it cannot give is left out.
     """
@@ -103,10 +103,11 @@ def pseudo_inverse(strength: JetStrength, wanted: Wrench, thrust: list) -> bool:
 
 
 def shift_and_scale(thrust: list, maximum: float) -> float:
-    """The rule of the paper: lift a pseudo-inverse's thrusts until the least is 0, scale by maximum/largest where due.
+    """Apply the rule of the paper: lift a pseudo-inverse's thrusts until the least is 0, scale by maximum/largest if
+    due.
 
-    Returns the scale, 1 where nothing had to be scaled. Equal thrusts give no wrench, so what comes out
-    is the scale times the wrench that went in.
+    Returns the scale, 1 where nothing had to be scaled. Equal thrusts give no wrench, so what comes out is the scale
+    times the wrench that went in.
     """
     minimum = thrust[0]
     largest = thrust[0]
@@ -167,7 +168,7 @@ def least_propellant(thrust: list, maximum: float) -> float:
 
 
 def within(thrust: float, maximum: float) -> float:
-    """The thrust kept from 0 to maximum, beyond which rounding errors take it."""
+    """Return the thrust kept from 0 to maximum, beyond which rounding errors take it."""
     if not thrust > 0.0:
         return 0.0
     if thrust > maximum:
@@ -176,11 +177,11 @@ def within(thrust: float, maximum: float) -> float:
 
 
 def nearest_levels(strength: Vector3, force: Vector3, quantum: float, highest: float) -> tuple[Vector3, float]:
-    """The attainable neighbour, nearest to a force (N), on the lattice of forces without torque.
+    """Return the attainable neighbour, nearest to a force (N), on the lattice of forces without torque.
 
-    The lattice is 2 quantum strength[i] n[i] with integers n all even or all odd; a point is attainable
-    with thrusts of at most ``highest`` quanta while |n_i| + |n_j| <= 2 highest for each two axes. A
-    force beyond that is scaled first, by the second value, 1 where nothing had to be scaled.
+    The lattice is 2 quantum strength[i] n[i] with integers n all even or all odd; a point is attainable with thrusts of
+    at most ``highest`` quanta while |n_i| + |n_j| <= 2 highest for each two axes. A force beyond that is scaled first,
+    by the second value, 1 where nothing had to be scaled.
     """
     exact = [0.0] * 3
     trial = [0.0] * 3

@@ -5,7 +5,7 @@ from ...kernel.records import Field, Record
 
 
 class LaggedThrust(Record):
-    """Thrust over a step, and what it has given."""
+    """Thrust over a step, and its integrals."""
 
     start = Field(unit="N", description="at the start of the step")
     middle = Field(unit="N", description="in its middle")

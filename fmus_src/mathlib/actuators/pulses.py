@@ -14,7 +14,7 @@ def next_switch_off(pulses: Vector3, time: float, end: float) -> float:
 
 
 def limit_pulse(length: float, h: float) -> float:
-    """What is left of one pulse (s, with its sign) after h (s)."""
+    """Return the rest of one pulse (s, with its sign) after h (s)."""
     if length > h:
         return length - h
     if length < -h:
@@ -23,7 +23,7 @@ def limit_pulse(length: float, h: float) -> float:
 
 
 def left_after(pulses: Vector3, h: float) -> Vector3:
-    """What is left of the pulses (s, with their signs) after h (s)."""
+    """Return the rest of the pulses (s, with their signs) after h (s)."""
     return vector(limit_pulse(pulses.x, h), limit_pulse(pulses.y, h), limit_pulse(pulses.z, h))
 
 

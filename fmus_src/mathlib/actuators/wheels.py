@@ -15,7 +15,7 @@ SMALLEST_VOLUME = 1e-9  # of three unit axes: below it they count as lying in a 
 
 
 def unit_axes(rows: Matrix) -> Matrix:
-    """A (3 x 4) from axes by row (4 x 3), of any length; one of length 0 is a column of zeros."""
+    """Return A (3 x 4) from axes by row (4 x 3), of any length; one of length 0 is a column of zeros."""
     a = zeros(3, WHEELS)
     for j in range(WHEELS):
         length = norm(rows[j, 0:3])
@@ -25,7 +25,7 @@ def unit_axes(rows: Matrix) -> Matrix:
 
 
 def largest_size(v: Vector4) -> float:
-    """The largest size of an element."""
+    """Return the largest size of an element."""
     largest = 0.0
     for j in range(WHEELS):
         if abs(v[j]) > largest:
@@ -39,7 +39,7 @@ def drag_torque(speed: float, viscous: float, coulomb: float, band: float) -> fl
 
 
 def null_direction(a: Matrix) -> Vector4:
-    """Unit vector n with A n = 0, its first element not negative.
+    """Return the unit vector n with A n = 0, its first element not negative.
 
     Of length 0 where all axes lie in a plane, or where one column is 0.
     """
@@ -65,7 +65,7 @@ def null_direction(a: Matrix) -> Vector4:
 
 
 def pseudo_inverse(a: Matrix) -> tuple[Matrix, bool]:
-    """A' (A A')^-1 (4 x 3), and whether there is one."""
+    """Return A' (A A')^-1 (4 x 3), and whether there is one."""
     gram = a @ a.T
     determinant = dot(gram[0:3, 0], cross(gram[0:3, 1], gram[0:3, 2]))
     inverted, invertible = inverse(gram)
@@ -73,10 +73,10 @@ def pseudo_inverse(a: Matrix) -> tuple[Matrix, bool]:
 
 
 def minimax_shift(u: Vector4, n: Vector4) -> float:
-    """The s for which the largest size of u + s n is smallest.
+    """Return the s for which the largest size of u + s n is smallest.
 
-    The largest size is a convex function of s, made of straight lines: it is smallest where two of them meet, one
-    that falls and one that rises, so that all such s are tried.
+    The largest size is a convex function of s, made of straight lines: it is smallest where two of them meet, one that
+    falls and one that rises, so that all such s are tried.
     """
     shift = 0.0
     smallest = largest_size(u)

@@ -14,7 +14,7 @@ from .rotation import turn_towards
 
 
 def goal_at(base: Vector3, rate: Vector3, s: float, otherwise: Vector3) -> Vector3:
-    """The unit vector along base + rate s; ``otherwise`` where that has no direction."""
+    """Return the unit vector along base + rate s; ``otherwise`` where that has no direction."""
     along = base + s * rate
     length = norm(along)
     if length > 0.0:
@@ -23,10 +23,9 @@ def goal_at(base: Vector3, rate: Vector3, s: float, otherwise: Vector3) -> Vecto
 
 
 def turning(direction: Vector3, goal: Vector3, response: float, limit: float) -> tuple[float, Vector3]:
-    """The angle to the goal (rad), and the derivative of the direction.
+    """Return the angle to the goal (rad), and the derivative of the direction.
 
-    Of opposite vectors one side is as good as the other: the direction then turns about the axis
-    farthest from it.
+    Of opposite vectors one side is as good as the other: the direction then turns about the axis farthest from it.
     """
     length = norm(direction)
     cosine = dot(direction, goal) / length
@@ -56,7 +55,7 @@ class Pursuit(Record):
 def pursuit_rate(
     t: float, direction: Vector3, base: Vector3, rate: Vector3, last_goal: Vector3, response: float, limit: float
 ) -> Vector3:
-    """The derivative of the direction at the time t (s) of the goal."""
+    """Return the derivative of the direction at the time t (s) of the goal."""
     _, slope = turning(direction, goal_at(base, rate, t, last_goal), response, limit)
     return slope
 
@@ -74,11 +73,11 @@ def pursue(
 def follow(
     direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
 ) -> Vector3:
-    """A unit vector turned from time s to s + h; assumes h no longer than a response that counts.
+    """Return a unit vector turned from time s to s + h; assumes h no longer than a response that counts.
 
-    The law has a knee where angle/response is the limit. A step across it is cut there, by linear
-    interpolation of the angle: the slope is continuous, so that the fourth order is kept. Without
-    response, the last two steps before the goal is caught go straight to where it will be.
+    The law has a knee where angle/response is the limit. A step across it is cut there, by linear interpolation of the
+    angle: the slope is continuous, so that the fourth order is kept. Without response, the last two steps before the
+    goal is caught go straight to where it will be.
     """
     if response <= 0.0 and limit <= 0.0:
         return goal_at(base, rate, s + h, direction)

@@ -14,12 +14,12 @@ SHORTEST = 0.5  # of a quaternion, below which it is no attitude: a tracker that
 
 
 def quaternion(scalar: float, e: Vector3) -> Vector4:
-    """The quaternion of its two parts."""
+    """Return the quaternion of its scalar and vector."""
     return vector(scalar, e.x, e.y, e.z)
 
 
 def multiply(a: Vector4, b: Vector4) -> Vector4:
-    """a b: first the rotation b, then a (Hamilton's product)."""
+    """Return a b: first the rotation b, then a (Hamilton's product)."""
     return vector(
         a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
         a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -47,7 +47,7 @@ def normalise(q: Vector4) -> Vector4:
 
 
 def is_attitude(q: Vector4) -> bool:
-    """True if a finite q is at least `SHORTEST` long."""
+    """Return True if a finite q is at least `SHORTEST` long."""
     for i in range(4):
         if abs(q[i]) >= SHORTEST:
             return True  # so that no square overflows
@@ -71,7 +71,7 @@ def to_body(q: Vector4, v: Vector3) -> Vector3:
 
 
 def from_rotation_vector(rotation: Vector3) -> Vector4:
-    """The rotation about ``rotation`` by its length (rad)."""
+    """Return the rotation about ``rotation`` by its length (rad)."""
     angle = norm(rotation)
     scale = 0.5
     if angle > 0.0:
@@ -92,7 +92,7 @@ def to_rotation_vector(q: Vector4) -> Vector3:
 
 
 def difference(reference: Vector4, q: Vector4) -> Vector4:
-    """reference* q: the rotation from the attitude ``reference`` to q, scalar not negative."""
+    """Return reference* q: the rotation from the attitude ``reference`` to q, scalar not negative."""
     error = multiply(conjugate(reference), q)
     if error.w < 0.0:
         return -error

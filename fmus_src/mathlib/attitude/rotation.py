@@ -15,7 +15,8 @@ class TurningDirection(Record):
 
 
 def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vector3, float]:
-    """A unit vector turned towards a unit vector goal by at most ``largest`` (rad), and the angle that is left (rad).
+    """Return a unit vector turned towards a unit vector goal by at most ``largest`` (rad), and the remaining angle
+    (rad).
 
     Opposite vectors turn about the axis farthest from them.
     """

@@ -1,7 +1,7 @@
 """A thrust axis that is turned by angular accelerations. Kernel functions; no frame implied.
 
 The axis d, a unit vector, turns with the angular rate w (rad/s) perpendicular to it: d' = w x d, and w' is the
-acceleration (rad/s2) without its part along d, no longer than a limit (0: none). Roll about d does not exist.
+acceleration (rad/s2) without its component along d, no longer than a limit (0: none). Roll about d does not exist.
 """
 
 from ...kernel.integrators import runge_kutta_4
@@ -17,7 +17,7 @@ class AxisState(Record):
 
 
 def axis_derivatives(t: float, s: AxisState, acceleration: Vector3, limit: float) -> AxisState:
-    """The derivatives of axis and angular rate."""
+    """Return the derivatives of axis and angular rate."""
     turning = across(acceleration, s.axis)
     if limit > 0.0:
         turning = limit_length(turning, limit)

@@ -40,7 +40,7 @@ def from_pair(first: Vector3, second: Vector3) -> Vector4:
 
 
 def parallel(a: Vector3, b: Vector3, sine: float) -> bool:
-    """True if the sine of the angle between two vectors is not above ``sine``, or one of them is 0."""
+    """Return True if the sine of the angle between two vectors is not above ``sine``, or one of them is 0."""
     return not norm(cross(a, b)) > sine * norm(a) * norm(b)
 
 

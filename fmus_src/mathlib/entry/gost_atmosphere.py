@@ -35,7 +35,7 @@ def tabulated_density(h: float) -> float:
 
 
 def gost_air(h: float) -> Air:
-    """The air at the height h (m) above the sphere."""
+    """Return the air at the height h (m) above the sphere."""
     geopotential = EARTH_RADIUS * h / (EARTH_RADIUS + h)
     if geopotential <= COLD_FROM:
         return air_in_layers(geopotential)

@@ -32,7 +32,7 @@ class BodyAxes(Record):
 
 
 class PathRate(Record):
-    """How fast place and velocity change."""
+    """Rates of position and velocity."""
 
     radius = Field(unit="m/s")
     longitude = Field(unit="rad/s")
@@ -55,7 +55,7 @@ class PathFunctions(Record):
 
 
 def body_axes(attitude: Vector3) -> BodyAxes:
-    """The body's axes."""
+    """Return the body's axes."""
     sg = sin(attitude.x)
     cg = cos(attitude.x)
     sb = sin(attitude.y)
@@ -68,7 +68,7 @@ def body_axes(attitude: Vector3) -> BodyAxes:
 
 
 def in_body(axes: BodyAxes, v: Vector3) -> Vector3:
-    """A vector of velocity axes in the body's."""
+    """Return a vector of velocity axes in the body's."""
     return vector(dot(axes.x, v), dot(axes.y, v), dot(axes.z, v))
 
 
@@ -101,7 +101,7 @@ def earth_forces(s: EntryState, a: PathFunctions, gravitational_parameter: float
 
 
 def path_rate(s: EntryState, a: PathFunctions, acceleration: Vector3) -> PathRate:
-    """How place and velocity change under an acceleration (m/s2, velocity axes)."""
+    """Return the rates of position and velocity under an acceleration (m/s2, velocity axes)."""
     over = s.speed * a.cos_path / s.radius
     return PathRate(
         radius=s.speed * a.sin_path,

@@ -39,7 +39,7 @@ def thin_density(h: float) -> float:
 
 
 def air_in_layers(geopotential: float) -> Air:
-    """The air at a geopotential height (m), the highest layer continued to 90 km."""
+    """Return the air at a geopotential height (m), the highest layer continued to 90 km."""
     base = [0.0, 11000.0, 20000.0, 32000.0, 47000.0, 51000.0, 71000.0, 90000.0]
     lapse = [-0.0065, 0.0, 0.001, 0.0028, 0.0, -0.0028, -0.002]
     temperature = 288.15
@@ -62,7 +62,7 @@ def air_in_layers(geopotential: float) -> Air:
 
 
 def air(h: float) -> Air:
-    """The air at the height h (m) above the sphere."""
+    """Return the air at the height h (m) above the sphere."""
     if h >= TOP:
         return Air(density=thin_density(h), speed_of_sound=THIN_SOUND)
     return air_in_layers(EARTH_RADIUS * h / (EARTH_RADIUS + h))

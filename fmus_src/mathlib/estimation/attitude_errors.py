@@ -1,4 +1,4 @@
-"""How errors of an attitude propagated by gyros grow. Kernel functions.
+"""Growth of errors of an attitude propagated by gyros. Kernel functions.
 
 States: small rotation from the estimated to the true attitude in body axes (rad), error of the gyros' bias (rad/s).
 Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2.1; Farrenkopf 1978.
@@ -56,7 +56,7 @@ def predict_attitude(p: Matrix, turn: Vector3, gyro: float, bias: float, h: floa
 
 
 def standard_deviations(p: Matrix, k: int) -> Vector3:
-    """Those of the states k to k + 2 of a covariance; 0 where rounding has left less than that."""
+    """Return standard deviations of the states k to k + 2 of a covariance; 0 where rounding has left less than that."""
     variances = vector(p[k, k], p[k + 1, k + 1], p[k + 2, k + 2])
     deviations = [0.0] * 3
     for i in range(3):

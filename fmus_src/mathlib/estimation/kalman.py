@@ -2,7 +2,7 @@
 
 The estimate x is a column of n, its covariance P n x n. Measurements are scalars z = h x + error, h a row, taken one
 after another, which needs no matrix inverse and is exact for independent errors: `update` takes in a linear one at
-once; `innovation_variance` and `take_in` part it, for a gate in between and for measurements that are not linear in x.
+once; `innovation_variance` and `take_in` split it, for a gate in between and for measurements that are not linear in x.
 Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.2, 5.4 and 7.4.
 """
 

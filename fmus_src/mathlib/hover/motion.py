@@ -60,7 +60,7 @@ def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: floa
 
 
 def motion(s: HoverShape, vehicle: HoverVehicle, until: float) -> PlaneMotion:
-    """The motion at the time ``until`` (s)."""
+    """Return the motion at the time ``until`` (s)."""
     x = 0.0
     vx = 0.0
     y = 0.0
@@ -103,7 +103,7 @@ def motion(s: HoverShape, vehicle: HoverVehicle, until: float) -> PlaneMotion:
 
 
 def end_motion(p: HoverProgramme, vehicle: HoverVehicle) -> PlaneMotion:
-    """The motion at the end of a programme."""
+    """Return the motion at the end of a programme."""
     planned = shape_of(p, vehicle.swing)
     if not planned.exists:
         return without_motion()
@@ -111,7 +111,7 @@ def end_motion(p: HoverProgramme, vehicle: HoverVehicle) -> PlaneMotion:
 
 
 def thrust_span(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float) -> ThrustSpan:
-    """The span from ``begin`` (s) on, which ends at ``until`` (s) at the latest."""
+    """Return the span from ``begin`` (s) on, which ends at ``until`` (s) at the latest."""
     end = until
     thrust = vehicle.least
     if full_thrust(s, begin):
@@ -128,7 +128,7 @@ def thrust_span(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float
 
 
 def earlier(time: float, begin: float, end: float) -> float:
-    """The time (s) where it lies between begin and end, otherwise the end."""
+    """Return the time (s) where it is between begin and end, otherwise the end."""
     if time > begin and time < end:
         return time
     return end

@@ -33,7 +33,7 @@ class ReachedProgramme(Record):
 
 
 def vertical(y: float, vehicle: HoverVehicle) -> HoverSolution:
-    """The programme straight down."""
+    """Return the programme straight down."""
     nothing = HoverSolution(programme=without_programme(), is_feasible=False)
     fall = vehicle.gravity - vehicle.least
     brake = vehicle.full - vehicle.gravity
@@ -50,10 +50,10 @@ def vertical(y: float, vehicle: HoverVehicle) -> HoverSolution:
 
 
 def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """The vertical programme p tilted so that it goes about x (m) aside; p where it cannot be.
+    """Tilt the vertical programme p so that it ends about x (m) aside; return p where that is impossible.
 
-    The deviation is about -u (1 - t/t7) + v t/t7, to which the end answers linearly; u and v follow from x, and
-    from rest.
+    The deviation is about -u (1 - t/t7) + v t/t7, to which the end answers linearly; u and v follow from x, and from
+    rest.
     """
     upright = HoverSolution(programme=p, is_feasible=False)
     turn = 2.0 * math.sqrt(TILT / vehicle.swing)
@@ -76,12 +76,12 @@ def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSol
 
 
 def widen(p: HoverProgramme, factor: float) -> HoverProgramme:
-    """The programme with both turns longer by a factor."""
+    """Return the programme with both turns longer by a factor."""
     return replace(p, t2=factor * p.t2, t5=p.t7 - factor * (p.t7 - p.t5))
 
 
 def lengthen(p: HoverProgramme, end: float) -> HoverProgramme:
-    """The programme with another end (s), what comes last moved with it."""
+    """Return the programme with another end (s), its last burn moved with it."""
     return replace(p, t5=p.t5 + end - p.t7, t7=end)
 
 
@@ -122,7 +122,7 @@ def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> Reach
 
 
 def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """The programme with first burn that ends at ``end`` (s), from p near by."""
+    """Return the programme with first burn that ends at ``end`` (s), from p near by."""
     return solve(PlanKind.WITH_FIRST_BURN, lengthen(p, end), vehicle, x, y)
 
 

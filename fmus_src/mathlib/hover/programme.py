@@ -41,7 +41,7 @@ def nothing_planned() -> PlannedProgramme:
 
 
 def programme(x: float, y: float, vehicle: HoverVehicle) -> PlannedProgramme:
-    """The programme to (x, y) on least propellant."""
+    """Return the programme to (x, y) on least propellant."""
     if not possible(x, y, vehicle):
         return nothing_planned()
     down = vertical(y, vehicle)
@@ -94,7 +94,7 @@ def grow_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
 
 
 def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle) -> PlannedProgramme:
-    """The programme to (x, y) that ends after a given time (s).
+    """Return the programme to (x, y) that ends after a certain time (s).
 
     It has a first burn, but if it is the one without that ends just then.
     """
@@ -113,7 +113,7 @@ def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVeh
 
 
 def possible(x: float, y: float, vehicle: HoverVehicle) -> bool:
-    """Whether the target is below, the vehicle can fall and brake, and all is finite."""
+    """Return True if the target is below, the vehicle can fall and brake, and all is finite."""
     thrusts = is_usable(vehicle.full) and is_usable(vehicle.least) and is_usable(vehicle.exhaust)
     if not (thrusts and is_usable(vehicle.gravity) and is_usable(vehicle.swing)):
         return False
@@ -123,7 +123,7 @@ def possible(x: float, y: float, vehicle: HoverVehicle) -> bool:
 
 
 def is_usable(value: float) -> bool:
-    """Whether a number is positive and finite."""
+    """Return True if a number is positive and finite."""
     return value > 0.0 and math.isfinite(value)
 
 

@@ -90,11 +90,11 @@ def without_shape() -> PlannedShape:
 
 
 def shape_of(p: HoverProgramme, acceleration: float) -> PlannedShape:
-    """The shape of the programme p at an angular acceleration (rad/s2, > 0).
+    """Return the shape of the programme p at an angular acceleration (rad/s2, > 0).
 
-    t3 and t4 bound the stretch of constant rate, d after t2 and before t5, that joins both turns:
-    d^2 - (t5 - t2) d + t1^2 + (t7 - t6)^2 = 0. There is none without room for that, where thrust would point down,
-    and where the burns overlap.
+    t3 and t4 bound the stretch of constant rate, d after t2 and before t5, that joins both turns: d^2 - (t5 - t2) d +
+    t1^2 + (t7 - t6)^2 = 0. There is none without room for that, where thrust would point down, and where the burns
+    overlap.
     """
     first = 0.5 * p.t2
     last = 0.5 * (p.t7 - p.t5)
@@ -136,7 +136,7 @@ def shape_of(p: HoverProgramme, acceleration: float) -> PlannedShape:
 
 
 def pitch(s: HoverShape, acceleration: float, t: float) -> Pitch:
-    """The deviation at the time t (s); 0 before the start and from the end on."""
+    """Return the deviation at the time t (s); 0 before the start and from the end on."""
     segment = pitch_segment(s, acceleration, t)
     since = t - segment.begin
     deviation = segment.value + since * (segment.rate + since * segment.half_acceleration)
@@ -144,7 +144,7 @@ def pitch(s: HoverShape, acceleration: float, t: float) -> Pitch:
 
 
 def pitch_segment(s: HoverShape, acceleration: float, t: float) -> PitchSegment:
-    """The parabola that the deviation follows at t (s)."""
+    """Return the parabola that the deviation follows at t (s)."""
     if not (t > 0.0 and t < s.t7):
         return parabola(t, 0.0, 0.0, 0.0)
     if t < s.t1:
@@ -159,12 +159,12 @@ def pitch_segment(s: HoverShape, acceleration: float, t: float) -> PitchSegment:
 
 
 def parabola(begin: float, value: float, rate: float, half_acceleration: float) -> PitchSegment:
-    """A segment in the order of its fields."""
+    """Return a segment in the order of its fields."""
     return PitchSegment(begin=begin, value=value, rate=rate, half_acceleration=half_acceleration)
 
 
 def full_thrust(s: HoverShape, t: float) -> bool:
-    """Whether the engine gives full thrust at the time t (s), in place of its least."""
+    """Return True if the engine is at full thrust at the time t (s), in place of its least."""
     return (t >= s.first_burn_begin and t < s.first_burn_end) or (t >= s.last_burn_begin and t < s.t7)
 
 

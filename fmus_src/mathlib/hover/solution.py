@@ -19,7 +19,7 @@ DIFFERENCE = 1e-6  # s
 
 
 class PlanKind(Enumeration):
-    """What a plan from hover to hover is: none, one of three forms of the programme, or a polynomial of degree 7."""
+    """Kind of a plan from hover to hover: none, one of three forms of the programme, or a polynomial of degree 7."""
 
     NONE = member("none")
     VERTICAL = member("vertical")
@@ -36,7 +36,7 @@ class HoverSolution(Record):
 
 
 class Residual(Record):
-    """How a programme misses its target."""
+    """Miss of a programme at its target."""
 
     errors = Field(Vector4, description="at the end: y/10 (m), y' (m/s), x/10 (m), x' (m/s)")
     size = Field(description="their length; infinite without a motion")
@@ -51,7 +51,7 @@ def propellant_fraction(p: HoverProgramme, vehicle: HoverVehicle) -> float:
 
 
 def residual(p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> Residual:
-    """How the programme p misses (x, y) (m)."""
+    """Return the miss of the programme p at (x, y) (m)."""
     end = end_motion(p, vehicle)
     if not end.exists:
         return Residual(errors=vector(0.0, 0.0, 0.0, 0.0), size=math.inf)
@@ -63,14 +63,14 @@ def residual(p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> Re
 
 
 def count_free_times(kind: int) -> int:
-    """How many times of a programme Newton's method changes: as many as there are conditions."""
+    """Return the number of times of a programme that Newton's method changes: as many as there are conditions."""
     if kind == PlanKind.VERTICAL:
         return 2
     return 4
 
 
 def change_of(kind: int, free: Vector4) -> HoverProgramme:
-    """The change of a programme whose free times (s) change by ``free``.
+    """Return the change of a programme whose free times (s) change by ``free``.
 
     Free are tp, then w (WITH_FIRST_BURN) or t7, then t2 and t5. The vertical programme never turns: its t5 is t7.
     """
@@ -84,7 +84,7 @@ def change_of(kind: int, free: Vector4) -> HoverProgramme:
 def invert_sensitivities(
     kind: int, p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float, r: Vector4
 ) -> tuple[Matrix, bool]:
-    """Derivatives of the free times by the residual, 4 x 4, from differences to r at p; whether there are."""
+    """Return derivatives of the free times by the residual, 4 x 4, from differences to r at p; and if they exist."""
     n = count_free_times(kind)
     derivatives = identity(4)
     for j in range(n):
@@ -104,7 +104,7 @@ def invert_sensitivities(
 
 
 def newton_step(kind: int, inverted: Matrix, r: Vector4) -> HoverProgramme:
-    """The change of a programme that Newton's method makes where its residual is r."""
+    """Return the change of a programme by Newton's method where its residual is r."""
     n = count_free_times(kind)
     free = [0.0] * 4
     for i in range(n):
@@ -114,7 +114,7 @@ def newton_step(kind: int, inverted: Matrix, r: Vector4) -> HoverProgramme:
 
 
 def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> HoverSolution:
-    """The programme near ``start`` that ends at (x, y) (m) and at rest; the start where there is none.
+    """Return the programme near ``start`` that ends at (x, y) (m) and at rest; the start where there is none.
 
     Steps are halved until the residual falls; while it falls to a tenth, the sensitivities are kept. Free are t2, t5
     (not VERTICAL), w (WITH_FIRST_BURN), tp, t7 (not WITH_FIRST_BURN).

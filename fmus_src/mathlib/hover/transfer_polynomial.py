@@ -39,7 +39,7 @@ class Transfer(Record):
 
 
 class TransferLimits(Record):
-    """What a transfer should keep to, and the engine that flies it."""
+    """Limits of a transfer, and its engine."""
 
     maximum_thrust = Field(unit="N", description="largest thrust")
     minimum_thrust = Field(unit="N", description="least thrust")
@@ -57,7 +57,7 @@ class ThrustAlong(Record):
 
 
 class Expense(Record):
-    """What a transfer takes."""
+    """Expense of a transfer."""
 
     impulse = Field(unit="m/s", description="integral of thrust over mass")
     excess = Field(unit="1", description="largest relative excess over a limit, 0 within all of them")
@@ -74,7 +74,7 @@ class Capture(Record):
 def transfer(
     position: Vector3, speed: Vector3, acceleration: Vector3, jerk: Vector3, goal: Vector3, duration: float
 ) -> Transfer:
-    """The transfer from position (m), speed, acceleration and jerk to rest at goal, without jerk there."""
+    """Return the transfer from position (m), speed, acceleration and jerk to rest at goal, without jerk there."""
     v = speed * duration
     a = 0.5 * acceleration * duration * duration
     j = jerk * duration * duration * duration / 6.0
@@ -123,7 +123,7 @@ def transfer_jerk(c: Transfer, t: float, duration: float) -> Vector3:
 
 
 def transfer_snap(c: Transfer, t: float, duration: float) -> Vector3:
-    """Derivative of the jerk (m/s4)."""
+    """Return the derivative of the jerk (m/s4)."""
     s = t / duration
     high = ((840.0 * c.c7 * s + 360.0 * c.c6) * s + 120.0 * c.c5) * s + 24.0 * c.c4
     return high / duration / duration / duration / duration
@@ -164,7 +164,7 @@ def slow_duration(way: float, speed: float, acceleration: float) -> float:
 def expense(
     c: Transfer, duration: float, lift: Vector3, mass: float, limits: TransferLimits, bearable: float
 ) -> Expense:
-    """What a transfer takes, as far as it is not dearer than ``bearable`` (m/s).
+    """Return the expense of a transfer, as far as it is not dearer than ``bearable`` (m/s).
 
     Angular acceleration counts but at the start, which is given. By the trapezoidal rule, mass (kg) from that at the
     start by the rocket equation.
@@ -203,7 +203,7 @@ def capture(
     mass: float,
     limits: TransferLimits,
 ) -> Capture:
-    """The transfer from flight to rest at goal that takes least thrust, with a price on limits exceeded."""
+    """Return the transfer to rest at goal that takes least thrust, with a price on limits exceeded."""
     quickest = transfer(position, speed, acceleration, jerk, goal, FIRST)
     best = Capture(duration=0.0, expense=Expense(impulse=0.0, excess=0.0), transfer=quickest)
     minimum = math.inf

@@ -1,7 +1,7 @@
-"""The Moon as a sphere, seen from the landing site. Kernel functions.
+"""The Moon as a sphere, relative to the landing site. Kernel functions.
 
-Frame: landing site, origin on the sphere of ``radius`` (m), z up, not rotating: the Moon's centre
-is at (0, 0, -radius).
+Frame: landing site, origin on the sphere of ``radius`` (m), z up, not rotating: the Moon's centre is at (0, 0,
+-radius).
 """
 
 import math
@@ -12,7 +12,7 @@ STANDARD_GRAVITY = 9.80665  # m/s2, which specific impulse refers to
 
 
 def from_centre(position: Vector3, radius: float) -> Vector3:
-    """The position (m) from the Moon's centre."""
+    """Return the position (m) from the Moon's centre."""
     return vector(position.x, position.y, position.z + radius)
 
 
@@ -22,7 +22,7 @@ def altitude_of(position: Vector3, radius: float) -> float:
 
 
 def vertical_at(position: Vector3, radius: float) -> Vector3:
-    """The unit vector upwards at ``position`` (m); z at the Moon's centre itself."""
+    """Return the unit vector upwards at ``position`` (m); z at the Moon's centre itself."""
     centred = from_centre(position, radius)
     distance = norm(centred)
     if distance > 0.0:
@@ -38,7 +38,7 @@ def central_gravity(position: Vector3, radius: float, gravitational_parameter: f
 
 
 def gravity_difference(displacement: Vector3, up: Vector3, gradient: float) -> Vector3:
-    """What gravity differs by (m/s2) at a small displacement (m): gradient (3 up up' - 1) displacement.
+    """Return the change of gravity (m/s2) over a small displacement (m): gradient (3 up up' - 1) displacement.
 
     ``up`` is the unit vector away from the centre, ``gradient`` the gravitational parameter over the cube of the
     distance from it (1/s2). Source: Battin 1999, section 8.1.

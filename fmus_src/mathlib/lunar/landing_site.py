@@ -10,24 +10,24 @@ from .gravity import vertical_at
 
 
 def above_site(site: Vector3, altitude: float, radius: float) -> Vector3:
-    """The place (m) at an altitude (m) on the local vertical of ``site``."""
+    """Return the position (m) at an altitude (m) on the local vertical of ``site``."""
     up = vertical_at(site, radius)
     high = (radius + altitude) * up
     return vector(high.x, high.y, high.z - radius)
 
 
 def site_below(position: Vector3, radius: float) -> Vector3:
-    """The place (m) on the sphere straight below ``position`` (or above it)."""
+    """Return the point (m) on the sphere straight below ``position`` (or above it)."""
     return above_site(position, 0.0, radius)
 
 
 def redesignate(site: Vector3, move: Vector2, radius: float) -> Vector3:
-    """The site moved by x and y (m), put back on the sphere along its vertical."""
+    """Return the site moved by x and y (m), put back on the sphere along its vertical."""
     return site_below(vector(site.x + move.x, site.y + move.y, site.z), radius)
 
 
 def within_reach(move: Vector2, reach: float) -> tuple[bool, Vector2]:
-    """Whether a move is no longer than ``reach`` (m), and the move, shortened to it where it is longer."""
+    """Return if a move is no longer than ``reach`` (m), and the move, shortened to it where it is longer."""
     length = math.sqrt(move.x * move.x + move.y * move.y)
     if length <= reach:
         return True, move

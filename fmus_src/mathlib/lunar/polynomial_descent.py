@@ -43,7 +43,7 @@ def second_exponent(shape: DescentShape) -> float:
 
 
 def is_regular(shape: DescentShape) -> bool:
-    """True if both exponents are 0 or more and differ, so that a profile exists."""
+    """Return True if both exponents are 0 or more and differ, so that a profile exists."""
     gamma_2 = second_exponent(shape)
     return shape.gamma >= 0.0 and gamma_2 >= 0.0 and gamma_2 != shape.gamma
 

@@ -114,5 +114,5 @@ def missing(s: SteeringState) -> SteeringState:
 
 
 def has_solution(s: SteeringState) -> bool:
-    """True if the last iteration had a solution."""
+    """Return True if the last iteration had a solution."""
     return s.change >= 0.0

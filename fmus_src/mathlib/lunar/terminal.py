@@ -21,7 +21,7 @@ class LinearThrust(Record):
 
 
 def impulse_and_miss(dr: Vector3, v: Vector3, dv: Vector3, g: float, time_to_go: float) -> tuple[Vector3, Vector3]:
-    """A (m/s), velocity still to gain, and B (m), the miss without thrust, both after time_to_go."""
+    """Return A (m/s), velocity still to gain, and B (m), the miss without thrust, both after time_to_go."""
     drift = dr - time_to_go * v
     fall = 0.5 * g * time_to_go * time_to_go
     return vector(dv.x, dv.y, dv.z + g * time_to_go), vector(drift.x, drift.y, drift.z + fall)
@@ -81,7 +81,7 @@ def cubic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
 
 
 def steady(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
-    """Whether a thrust that meets |A| T = 2 |B| with ``time`` (s) does not turn round: A.B > 0."""
+    """Return True if a thrust that meets |A| T = 2 |B| with ``time`` (s) does not turn round: A.B > 0."""
     a, b = impulse_and_miss(dr, v, dv, g, time)
     return dot(a, b) > 0.0
 
@@ -100,18 +100,17 @@ def effort_slope(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight: float, 
 
 
 def effort_rises(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
-    """Whether the integral of |a0 + a1 t|^2 would be larger for a flight longer than ``time`` (s)."""
+    """Return True if the integral of |a0 + a1 t|^2 would be larger for a flight longer than ``time`` (s)."""
     c = [0.0] * 5
     effort_slope(dr, v, dv, g, 0.0, c)
     return evaluate(c, time) > 0.0
 
 
 def least_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
-    """Time-to-go (s) that makes the integral of |a0 + a1 t|^2 least (the first minimum), 0 where there is none.
+    """Return the time-to-go (s) with the least integral of |a0 + a1 t|^2 (the first minimum), 0 where there is none.
 
-    With g > 0 and dr other than 0 it exists: hovering a height h above or below the target, or
-    beside it at that distance, it is sqrt(6 h/g).
-    Source: D'Souza 1997, with a velocity at the target.
+    With g > 0 and dr other than 0 it exists: hovering a height h above or below the target, or at that distance to its
+    side, it is sqrt(6 h/g). Source: D'Souza 1997, with a velocity at the target.
     """
     return weighted_effort_time(dr, v, dv, g, 0.0)
 
@@ -138,10 +137,10 @@ def weighted_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight:
 
 
 def linear_thrust(a: Vector3, b: Vector3, time: float, span: float, direction: Vector3, rate: Vector3) -> LinearThrust:
-    """The thrust a0 + a1 t over ``span`` (s).
+    """Return the thrust a0 + a1 t over ``span`` (s).
 
-    The size is that of the mean vector. Where a0 = 0, the direction is that of the mean and its rate 0; where
-    there is no thrust at all, direction and rate are as given.
+    The size is that of the mean vector. Where a0 = 0, the direction is that of the mean and its rate 0; where there is
+    no thrust at all, direction and rate are the arguments.
     """
     p = 3.0 * b - time * a
     q = time * a - 2.0 * b

@@ -27,7 +27,7 @@ class AttitudeState(Record):
 
 
 def index_of_measured(j: int) -> int:
-    """Which of (roll, yaw, pitch, rates) is the j-th that is measured: all but yaw."""
+    """Return the index in (roll, yaw, pitch, rates) of the j-th measured state: all but yaw."""
     if j == 0:
         return 0
     return j + 1
@@ -59,7 +59,7 @@ def evaluate_angles(angles: Vector3) -> AngleFunctions:
 
 
 def radial_direction(a: AngleFunctions) -> Vector3:
-    """The orbital frame's y axis, radially up, in body axes."""
+    """Return the orbital frame's y axis, radially up, in body axes."""
     return vector(a.sin_pitch, a.cos_roll * a.cos_pitch, -a.sin_roll * a.cos_pitch)
 
 
@@ -75,7 +75,7 @@ def angle_rates(a: AngleFunctions, w: Vector3, w0: float) -> Vector3:
 
 
 def angle_rate_derivatives(a: AngleFunctions, w: Vector3, w0: float) -> tuple[Matrix, Matrix]:
-    """Derivatives of angle_rates by the angles and by w, 3 x 3."""
+    """Return derivatives of angle_rates by the angles and by w, 3 x 3."""
     q = w.y * a.cos_roll - w.z * a.sin_roll
     r = w.y * a.sin_roll + w.z * a.cos_roll
     square = a.cos_pitch * a.cos_pitch
@@ -109,7 +109,7 @@ def gyric_matrix(inertia: Matrix, inverse_inertia: Matrix, v: Vector3) -> Matrix
 
 
 def linear_model(inertia: Matrix, inverse_inertia: Matrix, w0: float) -> Matrix:
-    """The 6 x 6 matrix of (angles, w - wp)' about the wanted state: angles 0, wp = (0, 0, -w0)."""
+    """Return the 6 x 6 matrix of (angles, w - wp)' about the reference state: angles 0, wp = (0, 0, -w0)."""
     by_radial = gyric_matrix(inertia, inverse_inertia, vector(0.0, 1.0, 0.0))
     a = zeros(6, 6)
     a[ROLL, YAW] = -w0

@@ -26,7 +26,7 @@ def ground_range(position: Vector3, radius: float) -> float:
 
 
 def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> TurningDirection:
-    """The direction against the horizontal velocity, which turns with the vertical.
+    """Return the direction against the horizontal velocity, which turns with the vertical.
 
     Both are 0 where there is no horizontal velocity.
     """
@@ -40,7 +40,7 @@ def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> T
 
 
 def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:
-    """Speed (m/s) at the apocentre of an ellipse, both given as distances (m) from the centre.
+    """Return the speed (m/s) at the apocentre of an ellipse, both as distances (m) from the centre.
 
     Source: vis-viva, such as Battin 1999, section 3.4.
     """
@@ -50,7 +50,8 @@ def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:
 def deorbit_burn(
     position: Vector3, velocity: Vector3, pericentre: float, radius: float, mu: float, acceleration: float
 ) -> float:
-    """How long (s) to brake with ``acceleration`` (m/s2) until here is the apocentre of an ellipse down to pericentre.
+    """Return the time (s) to brake with ``acceleration`` (m/s2) until here is the apocentre of an ellipse to
+    pericentre.
 
     ``pericentre`` is a distance (m) from the centre. Below 0 where the horizontal speed is already too small; the
     vertical speed is not looked at. ``position`` must not be the centre.

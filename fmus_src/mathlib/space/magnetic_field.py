@@ -1,8 +1,8 @@
 """Magnetic field of the Earth to degree 13: IGRF-14 from 2025 to 2030. Kernel functions.
 
 Source: Alken et al., International Geomagnetic Reference Field: the fourteenth generation, 2025: main field at 2025.0
-and secular variation to degree 8, in Schmidt quasi-normalisation. Outside these years the line through both ends goes
-on, of which nobody knows how good it is.
+and secular variation to degree 8, in Schmidt quasi-normalisation. Outside these years the line through both ends is
+continued, with unknown accuracy.
 """
 
 from ...kernel.matrices import Matrix, zeros
@@ -54,7 +54,7 @@ VARIATION = (
 
 
 def in_validity(t: float) -> bool:
-    """True if t (s TT since J2000.0) is from 2025 to 2030."""
+    """Return True if t (s TT since J2000.0) is from 2025 to 2030."""
     return t >= START and t <= START + SPAN * DAY
 
 

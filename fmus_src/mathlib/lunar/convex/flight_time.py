@@ -22,7 +22,7 @@ VELOCITY_TOLERANCE = 0.1  # m/s
 
 
 class TimeBracket(Record):
-    """Times between which a search goes on."""
+    """Times between which a search continues."""
 
     time = Field(unit="s", description="guess")
     low = Field(unit="s", description="too short")
@@ -32,12 +32,12 @@ class TimeBracket(Record):
 
 
 def is_met(s: PlanSummary) -> bool:
-    """True if a plan ends at its target."""
+    """Return True if a plan ends at its target."""
     return s.solved and s.position_miss < POSITION_TOLERANCE and s.velocity_miss < VELOCITY_TOLERANCE
 
 
 def is_long_enough(s: PlanSummary) -> bool:
-    """True if a plan ends at its target and would take more with more time."""
+    """Return True if a plan ends at its target and would take more with more time."""
     return is_met(s) and s.slope > 0.0
 
 

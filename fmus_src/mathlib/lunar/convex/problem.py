@@ -130,7 +130,7 @@ def roll_out(p: DescentProblem, expansion: list, k: int, point: list) -> None:
 
 
 def set_rows(p: DescentProblem, expansion: list, x: list, affine: float, c: list, field: int) -> None:
-    """Set rows from ``field`` of ``c`` on: slacks of the point x with ``affine`` = 1, and with 0 their linear part."""
+    """Set rows from ``field`` of ``c`` on: slacks of the point x with ``affine`` = 1, and with 0 their linear terms."""
     half = 0.5 * p.step / p.exhaust
     for k in range(INTERVALS):
         at = field + STAGE * k

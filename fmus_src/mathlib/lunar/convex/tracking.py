@@ -37,7 +37,7 @@ def reference(plan: list, step: float, elapsed: float) -> tuple[Vector3, Vector3
 def mean_thrust(plan: list, step: float, elapsed: float, span: float) -> Vector3:
     """Return the mean thrust acceleration (m/s2) of a plan over a ``span`` (s) from ``elapsed`` (s) on.
 
-    Before its start and after its end a plan goes on with its first and its last thrust.
+    Before its start and after its end a plan continues with its first and its last thrust.
     """
     k = interval_at(step, elapsed)
     end = elapsed + span
