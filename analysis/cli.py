@@ -26,7 +26,7 @@ USAGE = "perilune [--help] [--version] VERB ..."
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Carry out one command; returns the exit status, which does not depend on who reads its output."""
+    """Carry out one command; return the exit status, which does not depend on the reader of its output."""
     with steady_streams() as output:
         status = _carry_out(sys.argv[1:] if arguments is None else list(arguments))
         output.flush()
@@ -112,7 +112,8 @@ def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
 
 
 def parser_of(given: Sequence[str]) -> Parser:
-    """All verbs by name; only the one that is given has its options read, which is what keeps completion quick."""
+    """Return the parser of all verbs by name; only the called one has its options read, which keeps completion
+    quick."""
     parser = Parser(prog="perilune", usage=USAGE, description=overview(), add_help=False)
     parser.add_argument("--help", "-h", action="help", help="show this help")
     parser.add_argument("--version", action=_Version, nargs=0, help="show the version, and the commit where known")
@@ -153,7 +154,7 @@ def _find_completer(name: str) -> Completer:
 
 
 def run() -> NoReturn:
-    """The console script: `main`, then leave at once."""
+    """Run the console script: `main`, then leave at once."""
     open_closed_streams()
     warn_in_one_line()
     try:

@@ -66,7 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _loop_platforms(portable: bool) -> list[str]:
-    """The platforms that the loop is built for: all that a ``portable`` build serves, else this machine's."""
+    """Return the platforms that the loop is built for: all that a ``portable`` build serves, else this machine's."""
     return available_platforms(FMI) if portable else [name for name in [local_platform(FMI)] if name is not None]
 
 

@@ -1,4 +1,4 @@
-"""A block of a user's own to start from, in a file of its own."""
+"""Template of a user's block, in a separate file."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Written:
 
 
 def block_slots() -> list[str]:
-    """The slots that there is a block for to start from."""
+    """Return the slots for which a block template exists."""
     return [Path(name).stem for name in template_names(SLOTS)]
 
 
@@ -54,7 +54,7 @@ def new_block(name: str, slot: str | None) -> Written:
 
 
 def where_it_flies(slot: str) -> tuple[str, str]:
-    """The system of fewest components that has a slot, or a block of that name, and which component it is."""
+    """Return the smallest system with a slot, or with a block of that name, and the component that it is."""
     blocks = catalogue()
     interface = slots().get(slot) or blocks[slot]
     candidates = []
@@ -75,13 +75,13 @@ SUFFIX = ".jinja"
 
 
 def template_names(folder: str) -> list[str]:
-    """The files that the templates below a folder make, by their names in it."""
+    """Return the files rendered from the templates below a folder, by their names in it."""
     root = FOLDER / folder
     return sorted(path.relative_to(root).as_posix().removesuffix(SUFFIX) for path in root.rglob(f"*{SUFFIX}"))
 
 
 def render(template: str, **content: Any) -> str:
-    """The text of a file; a value that its template needs and does not get is an error."""
+    """Return the text of a file; a missing value of its template is an error."""
     environment = Environment(
         loader=FileSystemLoader(FOLDER),
         undefined=StrictUndefined,

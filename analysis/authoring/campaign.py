@@ -16,7 +16,7 @@ PLAIN_KEY = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def describe_campaign(system: str, campaign: str) -> dict[str, Any]:
-    """A campaign of a system, or in a file. Raises InputError.
+    """Describe a campaign of a system, or in a file. Raises InputError.
 
     ``files`` are the campaign's own file and those that it extends, ``values`` the merged entries in the order in which
     they are read: ``name`` as TOML writes it in full, ``value``, ``file``, ``line``.
@@ -37,7 +37,7 @@ def describe_campaign(system: str, campaign: str) -> dict[str, Any]:
 
 
 def toml_value(value: Any) -> str:
-    """A number, a text, a list or an inline table as TOML writes it."""
+    """Return a number, a text, a list or an inline table as TOML writes it."""
     if isinstance(value, Mapping):
         inside = ", ".join(f"{_key(name)} = {toml_value(each)}" for name, each in value.items())
         return f"{{ {inside} }}" if inside else "{}"
@@ -63,5 +63,6 @@ def _key(name: str) -> str:
 
 
 def _file(label: str) -> str:
-    """A file as a user of the system's folder knows it: ``campaigns/NAME.toml``; one from elsewhere by its path."""
+    """Return a file as a user of the system's folder knows it: ``campaigns/NAME.toml``; one from elsewhere by its
+    path."""
     return label.rpartition("!")[2]

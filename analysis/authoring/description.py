@@ -18,7 +18,8 @@ CAUSALITIES = ("input", "output", "structuralParameter", "parameter", "calculate
 
 
 def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Mapping[str, str] | None = None) -> list:
-    """A row for each variable: name, size, causality, tunable, type, unit, value, limits, description, items.
+    """Return a row for each variable: name, size, causality, tunable, type, unit, value, limits, description, items. ;;
+    in its own units => in its units
 
     ``values`` are put in place of the FMU's starts, in its own units, and ``origins`` say where they come from.
     ``size`` is 1, or as the elements are counted: 3, or [2, 3]; ``value`` is then a list, in row order.
@@ -73,7 +74,7 @@ def _number(text: Any) -> float | None:
 
 
 def _join_elements(before: str | None, now: str | None) -> str | None:
-    """Where the elements of a vector come from, each place once, lines that follow each other as one stretch."""
+    """Join the origins of a vector's elements, each once, consecutive lines as one range."""
     if now is None or before is None:
         return before or now
     *remainder, last = before.split("; ")
@@ -142,7 +143,7 @@ def _component(prepared: PreparedSystem, name: str) -> dict[str, Any]:
 
 
 def connections(prepared: PreparedSystem) -> list[dict[str, Any]]:
-    """What leads from where to where, the elements of a vector brought together."""
+    """Return the connections, the elements of a vector joined."""
     by_ends: dict[tuple[str, str, str, str], dict[str, Any]] = {}
     for link in prepared.network.links():
         ends = []

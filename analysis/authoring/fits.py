@@ -1,4 +1,4 @@
-"""Which FMUs fit where another one stands: those that have all its connectors, and the parameters given to it."""
+"""Replacement of FMUs: those that have all connectors of another one, and its parameters with values."""
 
 from __future__ import annotations
 
@@ -36,13 +36,14 @@ def _all_connectors() -> Mapping[str, set[Demand]]:
 
 
 def fitting(demanded: Iterable[Demand]) -> list[str]:
-    """The FMUs of this repository, and those of the working folder, that have all demanded connectors, by name."""
+    """Return the FMUs of this repository and of the working folder that have all demanded connectors, by name."""
     wanted = set(demanded)
     return [name for name, has in _all_connectors().items() if wanted <= has]
 
 
 def slots() -> dict[str, type[Block]]:
-    """The interfaces that make blocks swappable, by name in snake case; thin bases between them and a block too."""
+    """Return the interfaces that make blocks swappable, by name in snake case; thin bases between them and a block
+    too."""
     interfaces: dict[str, type[Block]] = {}
     for block in catalogue().values():
         for base in block.__mro__[1:]:
@@ -52,5 +53,5 @@ def slots() -> dict[str, type[Block]]:
 
 
 def blocks_of_slot(slot: type[Block]) -> list[type[Block]]:
-    """The repository's blocks of an interface."""
+    """Return the repository's blocks of an interface."""
     return [block for block in catalogue().values() if issubclass(block, slot)]

@@ -1,4 +1,4 @@
-"""What a block or a system of a user's own may be called."""
+"""Names permitted for a user's block or system."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..runtime.ssp.archive import system_names
 
 
 def class_name(name: str) -> str:
-    """The class whose FMU has this name: ``linear_guidance`` -> ``LinearGuidance``."""
+    """Return the class whose FMU has this name: ``linear_guidance`` -> ``LinearGuidance``."""
     return "".join(part.capitalize() for part in name.split("_"))
 
 
@@ -42,7 +42,7 @@ def check_name(name: str, fmus: tuple[str, ...]) -> None:
 
 
 def _suggest_name(name: str) -> str:
-    """A good name that is near."""
+    """Return a permitted name that is near."""
     words = re.sub(r"[^a-z0-9]+", "_", snake_case(name)).strip("_")
     words = re.sub(r"_(?=\d)", "", words).lstrip("0123456789_")
     return f"my_{words}" if not words or keyword.iskeyword(words) else words

@@ -1,4 +1,4 @@
-"""A system of a user's own to start from: blocks, description, parameter sets, a campaign, in a folder of its own."""
+"""Template of a user's system: blocks, description, parameter sets, a campaign, in a separate folder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A system composed: the FMUs of its components loaded, connections made, the description written and prepared."""
+"""Composed system: the FMUs of its components loaded, connections resolved, the description written and prepared."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ def _of(component: str, wiring: Wiring, order: Iterable[str]) -> dict[str, Conne
 
 
 def _system_order(source: SystemSource, wiring: Wiring) -> list[str]:
-    """The system's own connectors as the file declares them, the elements of each in order."""
+    """Return the system's own connectors as the file declares them, the elements of each in order."""
     names = [name for component, name in wiring.connectors if not component]
     position = {name: index for index, name in enumerate(source.connectors)}
     return sorted(names, key=lambda name: position.get(name, position.get(name.partition("[")[0], 0)))
@@ -143,5 +143,5 @@ def _annotations(source: SystemSource) -> list[bytes]:
 
 
 def _number(number: float) -> str:
-    """The shortest text that is read as the same number."""
+    """Return the shortest text that is read as the same number."""
     return repr(number).removesuffix(".0")

@@ -37,7 +37,7 @@ def _ordered(element: etree._Element) -> etree._Element:
 
 
 def _difference(one: etree._Element, other: etree._Element) -> str:
-    """The innermost element of one that has no counterpart in the other."""
+    """Return the innermost element of one that has no counterpart in the other."""
     counterparts = Counter(canonical(each) for each in other if isinstance(each.tag, str))
     for each in one:
         if isinstance(each.tag, str) and not counterparts[canonical(each)]:

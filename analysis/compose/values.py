@@ -41,7 +41,7 @@ def write_values(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring) 
 
 
 def _types(source: SystemSource, name: str, fmus: Mapping[str, Fmu], wiring: Wiring) -> dict[str, str]:
-    """The elements of a parameter, or of an input, by name, with their types."""
+    """Return the elements of a parameter, or of an input, by name, with their types."""
     component, variable = split_name(name, fmus)
     if component:
         known = {
@@ -79,7 +79,7 @@ def _typed(
 def _flatten(
     source: SystemSource, name: str, setting: SetValue, shapes: Mapping[str, Shape]
 ) -> Sequence[ParameterValue]:
-    """The elements of a value row by row; rows are to be those of the matrix that the name is of."""
+    """Return the elements of a value row by row; rows are to be those of the matrix that the name is of."""
     if isinstance(setting, str) or not isinstance(setting, Sequence):
         return (setting,)
     rows = [each for each in setting if isinstance(each, Sequence) and not isinstance(each, str)]

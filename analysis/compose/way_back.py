@@ -84,7 +84,7 @@ def _components(description: Description) -> Iterator[tuple[str, ComponentSource
 
 
 def _parameters(description: Description, element: Element) -> tuple[str, ...]:
-    """The parameter sets bound to an element, by the names that a system.toml has for them."""
+    """Return the parameter sets bound to an element, by the names that a system.toml has for them."""
     names = []
     for binding in element.bindings:
         if binding.source is None or _is_adapted(binding):
@@ -101,7 +101,7 @@ def _is_adapted(binding: Binding) -> bool:
 
 
 def _annotations(ssd: bytes, description: Description) -> bytes:
-    """The content of the annotations of the SSD itself, byte for byte."""
+    """Return the content of the annotations of the SSD itself, byte for byte."""
     if not description.annotations:
         return b""
     start = ssd.rfind(b"</ssd:DefaultExperiment>")
@@ -112,7 +112,7 @@ def _annotations(ssd: bytes, description: Description) -> bytes:
 
 
 def _wiring(pairs: list[tuple[Point, Point]], declared: Mapping[Point, str], fmus: Mapping[str, Fmu]) -> dict[str, Any]:
-    """Connections, connectors of the system, and those that nothing is connected to, whole vectors as one."""
+    """Return connections, connectors of the system, and open ones, whole vectors as one."""
     shapes = {
         (component, array): shape
         for component, fmu in fmus.items()
@@ -154,7 +154,8 @@ def _whole(points: list[Point], shapes: Mapping[Point, Shape]) -> list[str]:
 
 
 def _connections(pairs: list[tuple[Point, Point]], shapes: Mapping[Point, Shape]) -> Iterator[Entry]:
-    """Connections by their source, in the order of the SSD; arrays as one where all elements are connected alike."""
+    """Yield connections by their source, in the order of the SSD; arrays as one where all elements are connected
+    alike."""
     present = set(pairs)
     targets: dict[str, dict[str, None]] = {}
     for start, end in pairs:

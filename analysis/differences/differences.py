@@ -37,12 +37,12 @@ class SignalDifference:
 
     @property
     def differs(self) -> bool:
-        """Whether it differs anywhere."""
+        """True if it differs anywhere."""
         return self.greatest > 0.0
 
     @property
     def row(self) -> int:
-        """Where the difference is greatest."""
+        """Row of the greatest difference."""
         return int(np.argmax(np.abs(self.difference)))
 
     @property
@@ -88,7 +88,7 @@ class RunDifferences:
 
 
 def compare_runs(first: RecordedRun, second: RecordedRun) -> RunDifferences:
-    """The differences of two runs, matched by the names of signals, units converted into the first's.
+    """Return the differences of two runs, matched by the names of signals, units converted into the first's.
 
     Raises InputError for runs without a common time or a common signal.
     """
@@ -132,7 +132,7 @@ def _conversion(unit: str | None, into: str | None, *, is_relative: bool) -> tup
 
 
 def _sample(run: RecordedRun, name: str, time: np.ndarray, *, hold: bool) -> np.ndarray:
-    """A signal at times within its run."""
+    """Return a signal at times within its run."""
     values = run.signals[name]
     if hold:
         return values[np.searchsorted(run.time, time, side="right") - 1]

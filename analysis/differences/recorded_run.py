@@ -43,7 +43,7 @@ class RecordedRun:
 
 
 def read_run(path: Path) -> RecordedRun:
-    """A run from a Parquet file, or from a CSV file with units and types in its .json file. Raises InputError.
+    """Read a run from a Parquet file, or from a CSV file with units and types in its .json file. Raises InputError.
 
     Whole numbers of a CSV file without a .json file may be Reals, and are taken as such.
     """
@@ -100,7 +100,7 @@ def _document(metadata: Mapping[bytes, bytes]) -> dict[str, Any]:
 
 
 def _read_document(path: Path) -> dict[str, Any]:
-    """What the .json file of a CSV file says of it; nothing where there is none. Raises InputError."""
+    """Read the .json file of a CSV file; nothing where there is none. Raises InputError."""
     if not path.exists():
         return {}
     remedy = "remove it, or simulate again"

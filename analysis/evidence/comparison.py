@@ -31,17 +31,18 @@ class SignalCheck:
 
     @property
     def met(self) -> bool:
-        """Whether no sample differs by more than it may."""
+        """True if no sample differs by more than permitted."""
         return self.excess <= 1.0
 
 
 def time_margin(time: np.ndarray) -> np.ndarray:
-    """What times (s) may differ by, each, and be equal."""
+    """Return the difference (s) below which times are equal, for each."""
     return CLOSE * np.maximum(np.abs(time), 1.0)
 
 
 def match_rows(flown: np.ndarray, reference: np.ndarray) -> np.ndarray | None:
-    """The rows of a flight at a reference's times (s), the last of equal ones; None where one lies between rows."""
+    """Return the rows of a flight at a reference's times (s), the last of equal ones; None where one is between
+    rows."""
     margin = time_margin(reference)
     rows = np.clip(np.searchsorted(flown, reference + margin, side="right") - 1, 0, None)
     return rows if np.all(np.abs(flown[rows] - reference) <= margin) else None
@@ -50,7 +51,7 @@ def match_rows(flown: np.ndarray, reference: np.ndarray) -> np.ndarray | None:
 def compare_signal(
     name: str, time: np.ndarray, reference: np.ndarray, actual: np.ndarray, permitted: np.ndarray | None
 ) -> SignalCheck:
-    """A signal's worst sample, [n] each. ``permitted`` None asks for the same bits; NaN is as good as NaN."""
+    """Return a signal's worst sample, [n] each. ``permitted`` None requires the same bits; NaN equals NaN."""
     same = (reference.view(np.int64) == actual.view(np.int64)) | (np.isnan(reference) & np.isnan(actual))
     with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
         difference = np.where(same, 0.0, np.abs(actual - reference))
@@ -73,9 +74,9 @@ def _magnitude(reference: np.ndarray) -> float:
 def permitted_differences(
     name: str, reference: np.ndarray, tolerances: Tolerances | None, relative: float
 ) -> np.ndarray | None:
-    """What each sample of a signal may differ by, [n]; None where it has to be the same bits.
+    """Return the permitted difference of each sample of a signal, [n]; None where the same bits are required.
 
-    By its own tolerance where one is declared; else by ``relative`` of the signal's greatest magnitude, or of SMALLEST.
+    It is the signal's tolerance where one is declared; else ``relative`` of its greatest magnitude, or of SMALLEST.
     """
     declared = None if tolerances is None else tolerances.get(name)
     if declared is not None:

@@ -60,7 +60,7 @@ class Plan:
 
 
 def plan_experiments(manifest: Manifest, files: Mapping[str, bytes], label: str) -> Plan:
-    """The experiments of an archive. Raises InputError for files of experiments that cannot be read."""
+    """Plan the experiments of an archive. Raises InputError for files of experiments that cannot be read."""
     experiments: list[PlannedExperiment] = []
     notes: list[str] = []
     for file, element in _elements(manifest, files, label):
@@ -95,7 +95,7 @@ def _elements(manifest: Manifest, files: Mapping[str, bytes], label: str) -> Ite
 
 
 def _read(element: etree._Element, file: str, label: str) -> PlannedExperiment | str:
-    """An experiment, or why it is not simulated."""
+    """Return an experiment, or the reason why it is not simulated."""
     name = element.get("name") or "experiment"
     kind = next((kind for kind in KINDS if element.find(kind) is not None), None)
     if kind is not None:

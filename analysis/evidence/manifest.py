@@ -45,7 +45,7 @@ class RelatedFile:
 
 @dataclass(frozen=True)
 class Manifest:
-    """What a manifest lists; ``flaws`` are rules of the schema that it breaks, each in a line."""
+    """Content of a manifest; ``flaws`` are rules of the schema that it breaks, each in a line."""
 
     root: etree._Element
     files: tuple[RelatedFile, ...]
@@ -53,7 +53,8 @@ class Manifest:
 
 
 def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
-    """The manifest of an archive's files. Raises InputError where there is none, or another document in its stead."""
+    """Read the manifest of an archive's files. Raises InputError where there is none, or another document in its
+    stead."""
     if MANIFEST not in files:
         problem = f"holds no {MANIFEST}: nothing to verify"
         raise InputError(label, "evidence", problem, "export it with Perilune, or add reference trajectories")
@@ -84,7 +85,7 @@ def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
 
 
 def file_of(source: str, base: str) -> str | None:
-    """The name in the archive that a URI means, relative to the folder ``base``; None for any other text."""
+    """Return the name in the archive that a URI means, relative to the folder ``base``; None for any other text."""
     try:
         uri = urlsplit(source)
     except ValueError:
@@ -94,7 +95,7 @@ def file_of(source: str, base: str) -> str | None:
 
 
 def check_listed(manifest: Manifest, files: Mapping[str, bytes]) -> dict[str, str]:
-    """What is wrong, by name, with listed files that are missing, or not those that were listed."""
+    """Return the problems, by name, of listed files that are missing, or differ from those listed."""
     digests: dict[tuple[str, str], str] = {}  # of a file that is listed often once
     problems = {}
     for related in manifest.files:

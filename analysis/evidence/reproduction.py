@@ -54,7 +54,7 @@ class Reproduction:
 
     @property
     def exact(self) -> bool:
-        """Whether all signals have the bits of the reference."""
+        """True if all signals have the bits of the reference."""
         return not any(each.difference or each.excess for each in self.signals)
 
     @property
@@ -122,7 +122,8 @@ def reproduce(
 
 
 def _variables(prepared: PreparedSystem, reference: Trajectory) -> tuple[dict[str, str], list[str]]:
-    """What is compared: variables as the flight records them, by column; and a problem for each column without one."""
+    """Return the compared variables by column, as the simulation records them; and a problem
+    for each column without one."""
     network, prefix = prepared.network, ""
     if prepared.archive.is_fmu:
         prefix = f"{next(iter(network.fmus))}."
@@ -194,7 +195,8 @@ def _prepare(
 
 
 def _step(time: np.ndarray, proposed: float | None) -> float | None:
-    """The step (s) of a default experiment: the FMU's where all times are whole steps of it, else their spacing."""
+    """Return the step (s) of a default experiment: the FMU's where all times are whole steps of it, else their
+    spacing."""
     spacing = np.diff(time)
     if not (spacing > 0.0).any():
         return proposed
@@ -206,7 +208,7 @@ def _step(time: np.ndarray, proposed: float | None) -> float | None:
 
 
 def _with_component(content: bytes, component: str, file: str) -> bytes:
-    """A parameter set of an FMU's own names as one of a system that has the FMU as ``component``."""
+    """Return a parameter set of an FMU's names as one of a system that has the FMU as ``component``."""
     root = read_document(content, "ssv", file)
     for parameter in root.iter(f"{{{NAMESPACES['ssv']}}}Parameter"):
         parameter.set("name", f"{component}.{parameter.get('name', '')}")

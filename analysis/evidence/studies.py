@@ -1,4 +1,4 @@
-"""Studies as evidence: the verdicts of a campaign, the margins of the loops, made anew and compared."""
+"""Studies as evidence: the verdicts of a campaign and the margins of the loops, repeated and compared."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ NAMED = 6
 
 
 def known_studies(archive: SystemArchive) -> list[str]:
-    """What a system has to be studied: its campaigns by name, and `STABILITY` where it declares loops."""
+    """Return the studies of a system: its campaigns by name, and `STABILITY` where it declares loops."""
     if archive.is_fmu:
         return []
     has_loops = bool(read_declaration(read_description(archive)).loops)

@@ -13,7 +13,7 @@ SEPARATORS = ("  ", " *")  # of text, and of binary mode
 
 
 def check_sums(files: Mapping[str, bytes], label: str) -> tuple[dict[str, str], list[str]]:
-    """What is wrong, by name, with files that are missing or changed, and the names of files that were added.
+    """Return the problems, by name, of missing or changed files, and the names of added files.
 
     Nothing without SHA256SUMS. Raises InputError for a line that sha256sum would not write.
     """

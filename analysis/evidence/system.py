@@ -40,7 +40,7 @@ TRAJECTORY, EXPERIMENT = f"{FOLDER}/outputs.csv", f"{FOLDER}/outputs.exp"
 
 
 def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
-    """The requested studies, for `ALL` all that there are. Raises InputError for one that there is not."""
+    """Return the requested studies, for `ALL` all of the system's. Raises InputError for an unknown one."""
     known = known_studies(archive)
     for name in studies:
         if name not in (*known, ALL):
@@ -52,7 +52,7 @@ def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
 
 
 def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes]:
-    """The files of a packed system with its evidence: a flight of the system as it stands, and reports of ``studies``.
+    """Return the files of a packed system with its evidence: a simulation as it stands, and reports of ``studies``.
 
     A system that cannot be simulated as it stands has no trajectory, which a warning says. Raises InputError.
     """
@@ -82,7 +82,7 @@ def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes
 
 
 def _listed(files: dict[str, bytes]) -> list[Related]:
-    """What the system's own files are."""
+    """Return the kinds of the system's own files."""
     related = []
     for name in sorted(files):
         stem = PurePosixPath(name).stem
@@ -97,7 +97,7 @@ def _listed(files: dict[str, bytes]) -> list[Related]:
 
 
 def _table(flight: Flight, prepared: PreparedSystem) -> bytes:
-    """Outputs over time (s), rows thinned to `ROWS` with the first and the last."""
+    """Return outputs over time (s), rows thinned to `ROWS` with the first and the last."""
     last = flight.time.size - 1
     rows = np.unique(np.linspace(0.0, last, min(ROWS, last + 1)).round().astype(int))
     columns = {"time": flight.time[rows].tolist()}
@@ -120,6 +120,6 @@ def _experiment(prepared: PreparedSystem) -> bytes:
 
 
 def _is_exact(fmu: Fmu) -> bool:
-    """Whether an FMU gives the same bits on every processor: Perilune's without Python libraries."""
+    """Return True if an FMU gives the same bits on every processor: Perilune's without Python libraries."""
     block = catalogue().get(fmu.name)
     return fmu.is_own and (fmu.is_native or (block is not None and not block.python_only))

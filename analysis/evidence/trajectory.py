@@ -40,7 +40,7 @@ class Trajectory:
 
 
 def read_trajectory(content: bytes, file: str) -> Trajectory:
-    """The trajectory of a CSV file. Raises InputError, naming the column, for what is none."""
+    """Read the trajectory of a CSV file. Raises InputError, naming the column, for any other content."""
     try:
         table = pyarrow.csv.read_csv(io.BytesIO(content))
     except pyarrow.ArrowException as error:
@@ -66,7 +66,7 @@ def read_trajectory(content: bytes, file: str) -> Trajectory:
 
 
 def _numbers(column: pyarrow.ChunkedArray) -> np.ndarray | None:
-    """A column as float64, truths as 0 and 1; None of texts."""
+    """Return a column as float64, truths as 0 and 1; None of texts."""
     if pyarrow.types.is_boolean(column.type):
         column = column.cast(pyarrow.int8())
     if not (pyarrow.types.is_integer(column.type) or pyarrow.types.is_floating(column.type)):

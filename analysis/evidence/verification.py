@@ -1,4 +1,4 @@
-"""Whether an FMU or a system is what was handed on: its files unchanged, its trajectories reproduced."""
+"""Verification of an FMU or a system: its files unchanged, its trajectories reproduced."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ NAMED = 10  # files that were added, flaws of a manifest
 
 @dataclass(frozen=True)
 class Verification:
-    """What is known of one archive: its experiments simulated, its ``studies`` repeated; ``problems``, ``notes``.
+    """Findings on one archive: its experiments simulated, its ``studies`` repeated; ``problems``, ``notes``.
 
     ``reproduced`` are those of ``studies`` that equal their reports.
     """
@@ -80,7 +80,7 @@ def _repeat_studies(
     options: SystemOptions,
     timeout: float | None,
 ) -> tuple[tuple[str, ...], tuple[str, ...], list[str]]:
-    """The studies that were repeated, those of them that equal their reports, and where others differ."""
+    """Return the repeated studies, those of them that equal their reports, and differences of the others."""
     studies, reproduced, problems = [], [], []
     for related in manifest.files:
         if related.study is None or related.name is None or related.name not in files:

@@ -1,1 +1,1 @@
-"""What `perilune export` writes: FMUs, systems with their FMUs inside, the blocks of a file."""
+"""Outputs of `perilune export`: FMUs, systems with their FMUs inside, the blocks of a file."""

@@ -29,7 +29,7 @@ def check_there(file: Path) -> None:
 
 
 def find_block_file(name: str) -> Path | None:
-    """The file of the working folder that a block's name means: NAME.py, or the one with a class of that name.
+    """Return the file of the working folder that a block's name means: NAME.py, or the one with a class of that name.
 
     None for what is known by this name otherwise, and where there is none. Raises InputError for several.
     """
@@ -46,7 +46,7 @@ def find_block_file(name: str) -> Path | None:
 
 
 def export_file(file: Path, request: ExportRequest, only: str | None = None) -> Written:
-    """The blocks of a file, or ``only`` one, into the working folder's build/fmus, where ``use`` finds them by name.
+    """Export the blocks of a file, or ``only`` one, into build/fmus, where ``use`` finds them by name.
 
     Raises InputError.
     """

@@ -38,18 +38,18 @@ def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[
 
 
 def no_compiler(element: str | os.PathLike[str], fmi: int) -> InputError:
-    """That native FMUs cannot be made here, and what to do."""
+    """Return the error that native FMUs cannot be built here, with the remedy."""
     other = "give `flavour` python" if fmi == 2 else "leave out `fmi`"
     return InputError("export", str(element), "no C compiler here", f"pip install ziglang, or {other}")
 
 
 def needs_python(file: str | os.PathLike[str], element: str, fmi: int) -> InputError:
-    """That a block cannot be compiled, and what to do."""
+    """Return the error of a block that cannot be compiled, with the remedy."""
     if fmi == 3:
         return InputError(file, element, "needs Python, and Python FMUs are of FMI 2.0", "leave out `fmi`")
     return InputError(file, element, "needs Python and has no native form", "give `flavour` python")
 
 
 def zig_is_here() -> bool:
-    """Whether libraries are compiled against an old C library; only zig serves both of these platforms."""
+    """Return True if libraries are compiled against an old C library; only zig serves both of these platforms."""
     return "win64" in available_platforms()

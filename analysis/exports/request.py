@@ -1,4 +1,4 @@
-"""What `perilune export` is to write, and how."""
+"""Request for `perilune export`."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class ExportRequest:
             raise InputError("`studies`", self.studies[0], problem, "leave it out, or leave out `as_fmu`")
 
     def find_platforms(self, *, prebuilt: bool) -> list[str]:
-        """The requested platforms; else those that an installed package has, or a compiler is here for."""
+        """Return the requested platforms; else those of an installed package, or of the available compilers."""
         if self.platforms:
             return list(self.platforms)
         return platforms_of(2) if prebuilt and self.fmi == 2 and not IS_CHECKOUT else available_platforms(self.fmi)
@@ -56,7 +56,7 @@ class ExportRequest:
 
 @dataclass(frozen=True)
 class Written:
-    """What was written, in which flavours, for which platforms: none where all of it is Python."""
+    """Written files, in which flavours, for which platforms: none where all of it is Python."""
 
     paths: tuple[Path, ...]
     flavours: tuple[str, ...]

@@ -24,7 +24,7 @@ from .request import ExportRequest
 def export_system(
     archive: SystemArchive, path: Path, flavour: str, platforms: Sequence[str], request: ExportRequest
 ) -> None:
-    """The system's folder as one archive, with the FMUs of this repository and of the working folder that it names.
+    """Export the system's folder as one archive, with the FMUs of this repository and the working folder that it names.
 
     Raises InputError.
     """

@@ -50,12 +50,12 @@ class Fault:
 
 
 def number_text(value: float | bool) -> str:
-    """A number in so many digits that it is read back as it was."""
+    """Return a number in enough digits to be read back as it was."""
     return str(value).lower() if isinstance(value, bool) else repr(float(value)).removesuffix(".0")
 
 
 def parse_fault(text: str, option: str = "`faults`") -> Fault:
-    """The fault that a text of the form `FORM` stands for; without a second T it has no end.
+    """Return the fault that a text of the form `FORM` stands for; without a second T it has no end.
 
     ``option`` is what errors name. Raises InputError.
     """
@@ -83,6 +83,6 @@ def faults_of(given: Iterable[Fault | str]) -> list[Fault]:
 
 
 def _value(text: str) -> float | bool:
-    """A value as it is written; raises ValueError."""
+    """Return a value as it is written; raises ValueError."""
     text = text.strip()
     return text == "true" if text in ("true", "false") else float(text)

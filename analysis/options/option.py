@@ -29,7 +29,7 @@ class StructuredArray(Protocol):
 
 @dataclass(frozen=True)
 class Option:
-    """What is said of an option; its name is the key that it annotates.
+    """Declaration of an option, whose name is the key that it annotates.
 
     ``default`` holds where the option is not given; a mutable one is an empty constant. ``flag`` is the name on the
     command line where it differs: the singular of an option that may be repeated. ``above``, ``minimum`` and
@@ -57,7 +57,7 @@ class Option:
 
 
 class Kind(Enum):
-    """What the command line reads for an option."""
+    """Kind of text that the command line reads for an option."""
 
     FLAG = "flag"
     NUMBER = "number"
@@ -93,7 +93,7 @@ class Declared:
 
 @cache
 def options_of(group: type) -> Mapping[str, Declared]:
-    """The options of a group by name, those of the groups that it inherits from first."""
+    """Return the options of a group by name, those of the groups that it inherits from first."""
     declared = {}
     for name, hint in get_type_hints(group, include_extras=True).items():
         if get_origin(hint) is not Annotated:
@@ -105,12 +105,12 @@ def options_of(group: type) -> Mapping[str, Declared]:
 
 
 def defaults_of(group: type) -> dict[str, object]:
-    """The value of each option that is not given."""
+    """Return the default of each option."""
     return {name: each.option.default for name, each in options_of(group).items()}
 
 
 def members_of(annotation: object) -> tuple[object, ...]:
-    """The alternatives of a type, without None."""
+    """Return the alternatives of a type, without None."""
     if get_origin(annotation) in (Union, types.UnionType):
         return tuple(inner for member in get_args(annotation) for inner in members_of(member))
     return () if annotation is type(None) else (annotation,)
@@ -135,7 +135,7 @@ _Mapping = get_origin(Mapping[str, str])
 
 
 def _kinds(annotation: object) -> tuple[Kind, Kind]:
-    """The kind of a type, and that of its elements."""
+    """Return the kind of a type, and that of its elements."""
     members = members_of(annotation)
     origins = {get_origin(member) for member in members}
     paths = {get_origin(member) or member for member in members} & {os.PathLike}

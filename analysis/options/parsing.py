@@ -118,7 +118,7 @@ def _read_group(group: type, parsed: argparse.Namespace) -> dict[str, Any]:
 
 
 def flags_of(verb: Verb) -> Mapping[str, str]:
-    """What a verb's parameters are called on the command line, by name."""
+    """Return the command-line names of a verb's parameters, by name."""
     flags = {
         argument.name: f"--{argument.name}" if argument.is_option else argument.metavar for argument in verb.arguments
     }

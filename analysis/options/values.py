@@ -13,7 +13,7 @@ from .option import Declared, Kind, options_of
 
 
 def read_value(declared: Declared, texts: Sequence[str]) -> object:
-    """The argument that the texts of a command line give an option; several where it is repeated. Raises InputError."""
+    """Return an option's argument by the texts of a command line; several where it is repeated. Raises InputError."""
     if declared.kind is Kind.PAIRS:
         return _read_pairs(declared, texts)
     if declared.kind is Kind.LIST:
@@ -38,7 +38,7 @@ def _parse_number(declared: Declared, kind: Kind, text: str, name: str = "") -> 
 
 
 def check_number(declared: Declared, argument: float | int, text: str = "") -> float | int:
-    """The number, if it is finite and within the bounds of its option. Raises InputError."""
+    """Return the number, if it is finite and within the bounds of its option. Raises InputError."""
     option, text = declared.option, text or f"{argument:g}"
     if not math.isfinite(argument):
         raise InputError(f"`{declared.name}`", repr(text), f"not a finite number{_of_unit(declared)}", "give one")
@@ -74,7 +74,7 @@ def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, object]:
 
 
 def check_value(declared: Declared, argument: Any) -> object:
-    """An argument that a Python caller gives, as the function gets it. Raises InputError.
+    """Return a Python caller's argument as the function receives it. Raises InputError.
 
     None stands for the default; lists and mappings are copied, so that nobody changes them afterwards.
     """
@@ -169,7 +169,7 @@ def _as_text(setting: object) -> object:
 
 
 def value_texts(declared: Declared, argument: Any) -> list[str]:
-    """The text after each occurrence of the option's flag; for a flag without argument one empty text."""
+    """Return the text after each occurrence of the option's flag; for a flag without argument one empty text."""
     if declared.kind is Kind.FLAG:
         return [""] if argument else []
     if declared.kind is Kind.PAIRS:
@@ -181,7 +181,7 @@ def value_texts(declared: Declared, argument: Any) -> list[str]:
 
 
 def _text(argument: object) -> str:
-    """An argument as the command line reads it back, to the last bit."""
+    """Return an argument as the command line reads it back, to the last bit."""
     if isinstance(argument, bool):
         return str(argument).lower()
     if isinstance(argument, float):

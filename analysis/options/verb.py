@@ -19,8 +19,8 @@ Function = TypeVar("Function", bound=Callable[..., object])
 def verb(declared: Verb) -> Callable[[Function], Function]:
     """Give a Python function the options of a verb: its signature, defaults, checks and docstring.
 
-    The function takes ``**options`` and gets all of them, those that are not given with their defaults. A keyword that
-    the verb does not have raises TypeError, a value out of bounds InputError.
+    The function takes ``**options`` and gets all of them, missing ones with their defaults. A keyword that the verb
+    does not have raises TypeError, a value out of bounds InputError.
     """
     options = options_of(declared.options)
 

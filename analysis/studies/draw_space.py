@@ -47,7 +47,7 @@ class DrawSpace:
 
     @property
     def independent(self) -> bool:
-        """Whether each coordinate is a draw by itself."""
+        """True if each coordinate is a draw by itself."""
         return all(len(names) == 1 for names, _ in self._varied)
 
     @property
@@ -59,7 +59,7 @@ class DrawSpace:
         return self._columns(len(u), [distribution.from_normals(block) for distribution, block in self._blocks(u)])
 
     def to_normals(self, columns: Mapping[str, np.ndarray]) -> np.ndarray:
-        """The inverse of `from_normals`; infinite at an interval's ends."""
+        """Return the inverse of `from_normals`; infinite at an interval's ends."""
         return np.column_stack(
             [distribution.to_normals([columns[name] for name in names]) for names, distribution in self._varied]
         )
@@ -73,7 +73,7 @@ class DrawSpace:
         return self._columns(len(points), [distribution.from_box(block, sigmas) for distribution, block in blocks])
 
     def to_box(self, columns: Mapping[str, np.ndarray], sigmas: float) -> np.ndarray:
-        """The inverse of `from_box`; draws outside the box have coordinates below 0 or above 1."""
+        """Return the inverse of `from_box`; draws outside the box have coordinates below 0 or above 1."""
         return np.column_stack(
             [distribution.to_box([columns[name] for name in names], sigmas) for names, distribution in self._varied]
         )
@@ -90,20 +90,20 @@ class DrawSpace:
         }
 
     def _blocks(self, points: np.ndarray) -> list[tuple[Continuous, np.ndarray]]:
-        """The coordinates of each draw that varies."""
+        """Return the coordinates of each draw that varies."""
         distributions = [distribution for _, distribution in self._varied]
         ends = np.cumsum([distribution.size for distribution in distributions])
         return list(zip(distributions, np.split(points, ends, axis=1)[:-1], strict=True))
 
     def _columns(self, points: int, varied: list[list[np.ndarray]]) -> Columns:
-        """The columns of all draws, the held ones too, in the order of the file."""
+        """Return the columns of all draws, the held ones too, in the order of the file."""
         columns = {name: np.full(points, value) for name, value in self.held.items()}
         for (names, _), values in zip(self._varied, varied, strict=True):
             columns |= dict(zip(names, values, strict=True))
         return {name: np.ascontiguousarray(columns[name]) for draw in self.campaign.draws for name in draw.names}
 
     def _coordinates(self, draw: Draw) -> tuple[tuple[str, ...], Continuous] | None:
-        """The names and the distribution of a draw; None where it is held. Raises InputError."""
+        """Return the names and the distribution of a draw; None where it is held. Raises InputError."""
         distribution = draw.distribution
         values = distribution.values if isinstance(distribution, Discrete) else ()
         given = [name for name in draw.names if name in self.held]

@@ -41,9 +41,9 @@ class Failure:
         self._margin = _margin(ast.parse(expression.text, mode="eval").body, False, expression.where)
 
     def margins(self, values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
-        """The margin of every trial (trials,): 0 or more exactly where the expression is true.
+        """Return the margin of every trial (trials,): 0 or more exactly where the expression is true.
 
-        ``values`` has an array (trials,) for every name; ``flown`` (trials,) says which flights came to their end: one
+        ``values`` has an array (trials,) for every name; ``flown`` (trials,) says which flights reached their end: one
         that did not is a failure.
         """
         given = {name: np.asarray(values[name], dtype=float) for name in self.names}
@@ -55,7 +55,7 @@ class Failure:
 
 
 def failure_of(campaign: Campaign, text: str | None) -> Failure:
-    """The failure that an expression over metrics and draws is, or without one that the campaign is no success.
+    """Return the failure of an expression over metrics and draws, or without one that of the campaign's success.
 
     Raises InputError.
     """
@@ -69,7 +69,7 @@ def failure_of(campaign: Campaign, text: str | None) -> Failure:
 
 
 def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
-    """The margin of a part of an expression, or of its opposite."""
+    """Return the margin of a sub-expression, or of its opposite."""
     match node:
         case ast.UnaryOp(op=ast.Not(), operand=operand):
             return _margin(operand, not negated, where)
@@ -88,13 +88,13 @@ def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
 
 
 def _join_limit_states(margins: list[Margin], either: bool) -> Margin:
-    """The margin of one of several (``either``), or of all of them."""
+    """Return the margin of one of several (``either``), or of all of them."""
     join = np.maximum if either else np.minimum
     return lambda values: join.reduce(np.broadcast_arrays(*(margin(values) for margin in margins)))
 
 
 def _difference(left: ast.expr, operator: type[ast.cmpop], right: ast.expr, where: Where) -> Margin:
-    """The margin of one comparison, from its sides' difference; nan where that is not known."""
+    """Return the margin of one comparison, from its sides' difference; nan where that is not known."""
     above = Expression(f"({ast.unparse(left)}) - ({ast.unparse(right)})", where)
 
     def margin(values: Mapping[str, np.ndarray]) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Flights of given draws, as many times as a study asks for them, by workers that stay."""
+"""Simulations of samples, for as many calls as a study needs, by workers that stay."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ from .noise import make_samples, noise_of
 
 
 class SampleFlights:
-    """Flies draws of one variant of a campaign that somebody chooses. Use it as a context manager: it holds workers.
+    """Simulates chosen samples of one variant of a campaign. Use it as a context manager: it holds workers.
 
-    ``first`` are draws with which everything is checked before anything flies; ``noise_trial`` is the trial of the
-    campaign whose random streams all flights have, None where `fly` is given them. ``workers`` (default: one per
+    ``first`` are samples with which everything is checked before any simulation; ``noise_trial`` is the trial of the
+    campaign whose random streams all simulations use, None where `fly` receives them. ``workers`` (default: one per
     processor) does not change results. Raises InputError, also for a campaign that compares FMUs.
     """
 
@@ -53,7 +53,7 @@ class SampleFlights:
         self._progress = progress_bar(unit="flight")
 
     def fly(self, columns: Columns, streams: Streams) -> tuple[TrialTable, Mapping[str, np.ndarray]]:
-        """The trials of given draws and random streams, in their order, with the drawn and derived values.
+        """Return the trials of samples and random streams, in their order, with the drawn and derived values.
 
         ``streams`` are those of all sources of the noise, by component. Raises InputError.
         """
@@ -87,13 +87,13 @@ def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> TrialTable | None:  # o
 
 
 def plan_of_samples(plan: BatchPlan, first: Columns) -> BatchPlan:
-    """A plan of draws ``first``, without what a study leaves out of its campaign: records, groups and scatters."""
+    """Return a plan of draws ``first``, without the campaign's records, groups and scatters."""
     campaign = replace(plan.campaign, record=Record(), group=None, scatters=())
     return replace(plan, campaign=campaign).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
 
 
 class StudyProvenance(Provenance, total=False):
-    """What the numbers of a study depend on; ``loop``, ``point`` and ``time`` (s) are those of a margin."""
+    """Inputs of the numbers of a study; ``loop``, ``point`` and ``time`` (s) are those of a margin."""
 
     loop: str
     point: str
@@ -101,7 +101,7 @@ class StudyProvenance(Provenance, total=False):
 
 
 def study_provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> StudyProvenance:
-    """The provenance of a batch without what a study of samples has not."""
+    """Return the provenance of a batch without entries that a study of samples lacks."""
     entries: StudyProvenance = {**provenance(plan, systems)}
     del entries["trials"], entries["record"]
     entries.pop("group", None)

@@ -1,4 +1,4 @@
-"""What a study has flown, a row per flight, and what the results of all studies have."""
+"""Simulations of a study, a row each, and the base of the results of all studies."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Columns = Mapping[str, np.ndarray]
 
 
 def strict(value: float) -> float | None:
-    """A number as strict JSON can hold it."""
+    """Return a number as strict JSON can hold it."""
     return float(value) if np.isfinite(value) else None
 
 
@@ -70,7 +70,7 @@ class Flown:
         }
 
     def draw_table(self, names: list[str], rows: np.ndarray) -> pyarrow.Table:
-        """The draws of some flights, as `perilune batch --draws` takes them; ``names`` are the campaign's.
+        """Return the draws of some flights, as `perilune batch --draws` takes them; ``names`` are the campaign's.
 
         Their random streams are columns of the table, too.
         """
@@ -78,19 +78,21 @@ class Flown:
         return pyarrow.table({name: self.draws[name][rows] for name in (*names, *streams)})
 
     def streams(self, row: int) -> dict[str, int]:
-        """The trials whose random streams components had in one flight, by component; `ALL` stands for the others."""
+        """Return the trials whose random streams components had in one flight, by component;
+        `ALL` stands for the others."""
         columns = ((stream_component(name), column) for name, column in self.draws.items())
         return {component: int(column[row]) for component, column in columns if component is not None}
 
     def table(self, value_name: str) -> pyarrow.Table:
-        """A row per flight: draws, metrics and, under the name ``value_name``, the value."""
+        """Return a row per flight: draws, metrics and, under the name ``value_name``, the value."""
         columns = {f"draw.{name}": column for name, column in self.draws.items()}
         columns |= {f"metric.{name}": column for name, column in self.metrics.items()}
         return pyarrow.table(columns | {value_name: self.values})
 
 
 class Commands(NamedTuple):
-    """``replay`` flies a trial of a file of draws again, ``monte_carlo`` so many trials of the campaign itself."""
+    """Commands: ``replay`` repeats a trial of a file of draws, ``monte_carlo`` simulates a
+    number of trials of the campaign."""
 
     replay: Callable[[Path, int], str]
     monte_carlo: Callable[[int], str] | None = None
@@ -98,11 +100,11 @@ class Commands(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StudyResult:
-    """What all studies come to: the draws as a ``space``, and every flight in ``flown``.
+    """Base of results of studies: the draws as a ``space``, and every simulation in ``flown``.
 
-    ``facts`` are what the numbers depend on, ``noise`` the random numbers that components draw themselves, ``units``
-    those of draws and metrics by name. ``commands`` write the command lines that fly flights again, where known.
-    ``lost`` counts flights that crashed, hung or ran out of memory: they are failures, and no successes.
+    ``facts`` are the inputs of the numbers, ``noise`` the random numbers that components draw themselves, ``units``
+    those of draws and metrics by name. ``commands`` write the command lines that repeat simulations, where known.
+    ``lost`` counts simulations that crashed, hung or ran out of memory: they are failures, and no successes.
     """
 
     DRAWS: ClassVar[str]  # the file of draws with which flights are flown again
@@ -121,17 +123,17 @@ class StudyResult:
 
     @property
     def conditions(self) -> str:
-        """What the numbers are conditional on, as the end of a line; empty where they are not."""
+        """Conditions of the numbers, as the end of a line; empty where there are none."""
         words = lost_words(self.lost)
         lost = f", {words} of {self.flights} simulations counted as failures" if words else ""
         return f"{conditions(self.noise, self.space.held)}{lost}"
 
     def replay(self, folder: Path | None, trial: int) -> str:
-        """The command that flies a row of the file of draws again; empty where it is not written to a folder."""
+        """Return the command that repeats a row of the file of draws; empty where it is not written to a folder."""
         return "" if folder is None or self.commands is None else self.commands.replay(folder / self.DRAWS, trial)
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """The machine-readable result; ``folder`` is where it has been written, if it has."""
+        """Return the machine-readable result; ``folder`` is where it has been written, if it has."""
         raise NotImplementedError
 
     def _condition_document(self) -> dict[str, object]:

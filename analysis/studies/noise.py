@@ -29,7 +29,7 @@ class Noise:
 
     @property
     def is_held(self) -> bool:
-        """Whether all flights have the noise of one trial, and there is any."""
+        """True if all flights have the noise of one trial, and there is any."""
         return self.trial is not None and bool(self.components)
 
     def of(self, streams: np.ndarray) -> Streams:
@@ -41,7 +41,7 @@ class Noise:
         return dict.fromkeys(self.sources, streams)
 
     def document(self) -> dict[str, object]:
-        """What results say of it as JSON; ``noise_trial`` is None where the noise is random, or there is none."""
+        """Return its entry in JSON results; ``noise_trial`` is None where the noise is random, or there is none."""
         return {
             "noise_trial": self.trial if self.components else None,
             "noise": {"components": list(self.components), "random": bool(self.sources)},
@@ -49,7 +49,7 @@ class Noise:
 
 
 def noise_of(prepared: PreparedSystem, trial: int | None, seed: int) -> Noise:
-    """The noise of a system in a study. Raises InputError where there is no such trial."""
+    """Return the noise of a system in a study. Raises InputError where there is no such trial."""
     if trial is not None and trial < 0:
         raise InputError("`noise_trial`", str(trial), "no such trial", "give 0 or more")
     return Noise(tuple(with_streams(prepared)), trial, seed)
@@ -63,7 +63,7 @@ def make_samples(columns: Columns, streams: Streams, noise: Noise) -> GivenDraws
 
 
 def conditions(noise: Noise, held: Mapping[str, float]) -> str:
-    """What a result is conditional on, as the end of a line; empty where it is on nothing."""
+    """Return the conditions of a result, as the end of a line; empty where there are none."""
     given = [f"{name} = {value:g}" for name, value in held.items()]
     given += [f"the noise realisation of trial {noise.trial}"] if noise.is_held else []
     return f", conditional on {' and '.join(given)}" if given else ""

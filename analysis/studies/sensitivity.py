@@ -1,4 +1,4 @@
-"""What drives the metrics of a campaign: Sobol' indices of a plan of their own, and what comes of it."""
+"""Sensitivity of a campaign's metrics to its draws: Sobol' indices by a separate plan, and their result."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ def sensitivity(
     workers: int | None = None,
     tell: Callable[[str], object] = lambda price: None,
 ) -> SensitivityResult:
-    """First-order and total Sobol' indices of every metric and of success, by ``base`` * (draws + 3) flights.
+    """Compute first-order and total Sobol' indices of every metric and of success, by ``base`` * (draws + 3) flights.
 
-    The noise of all components is one input beside the draws, unless ``noise_trial`` gives all flights the same: then,
-    and where no component has any, it is ``base`` * (draws + 2) flights.
-    ``base`` is a power of two, 32 or more; draws that are jointly normal are refused, as their shares cannot be told
-    apart: hold them. ``hold`` and ``noise_trial`` are as in `rare_failure`. ``tell`` is given the price before anything
-    flies. The campaign's seed is that of the points; ``workers`` does not change the result. Raises InputError.
+    The noise of all components is one input in addition to the draws, unless ``noise_trial`` fixes it for all flights:
+    then, and where no component has any, it is ``base`` * (draws + 2) flights. ``base`` is a power of two, 32 or more;
+    draws that are jointly normal are refused, as their shares cannot be separated: hold them. ``hold`` and
+    ``noise_trial`` are as in `rare_failure`. ``tell`` receives the price before any simulation. The campaign's seed is
+    that of the points; ``workers`` does not change the result. Raises InputError.
     """
     if base < 32 or base & (base - 1):
         raise InputError("`base`", str(base), "not a power of two from 32 on", "give 64, 128, 256, ...")
@@ -106,7 +106,7 @@ class InputIndices(TypedDict, total=False):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SensitivityResult(StudyResult):
-    """Sobol' ``indices`` of the numbers ``told`` (None where there are none), and why others have none, ``untold``.
+    """Sobol' ``indices`` of the numbers ``told`` (None where there are none), and the reasons of others, ``untold``.
 
     ``ranks`` are rank correlations by number and draw; the noise, one input more where it is random, has none.
     """
@@ -121,11 +121,11 @@ class SensitivityResult(StudyResult):
 
     @property
     def inputs(self) -> list[str]:
-        """What varies: the draws, and the noise as one input where it is random."""
+        """Varied inputs: the draws, and the noise as one input where it is random."""
         return [*self.space.names, *([NOISE] if self.noise.sources else [])]
 
     def of(self, number: str) -> dict[str, InputIndices]:
-        """What each input does to a metric or to ``success``."""
+        """Return the effect of each input on a metric or on ``success``."""
         rows: dict[str, InputIndices] = {name: {"rank": self.ranks[number].get(name)} for name in self.inputs}
         if self.indices is not None and number in self.told:
             row = self.told.index(number)
@@ -139,7 +139,7 @@ class SensitivityResult(StudyResult):
         return rows
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """The machine-readable result; ``folder`` is where it has been written, if it has."""
+        """Return the machine-readable result; ``folder`` is where it has been written, if it has."""
         replay = self.replay(folder, 0)
         return {
             **self.facts,

@@ -56,7 +56,7 @@ def with_noise(points: np.ndarray, base: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def indices(values: np.ndarray, base: int, random: np.random.Generator) -> Indices:
-    """Indices of numbers (numbers, base * (inputs + 2)) at the points of `saltelli_points`, or of `with_noise`.
+    """Compute indices of numbers (numbers, base * (inputs + 2)) at the points of `saltelli_points`, or of `with_noise`.
 
     They are finite, and none is the same everywhere. The intervals are percentiles of a bootstrap over the rows.
     """

@@ -14,7 +14,7 @@ SUMS = (ast.Add, ast.Sub)
 
 
 def units_of(space: DrawSpace, prepared: PreparedSystem, facts: StudyProvenance) -> dict[str, str]:
-    """The units of draws and metrics by name, of those that have one."""
+    """Return the units of draws and metrics by name, of those that have one."""
     units: dict[str, str | None] = {name: fact["unit"] for name, fact in facts["metrics"].items()}
     for draw in space.campaign.draws:
         for name in draw.names:
@@ -28,7 +28,8 @@ def units_of(space: DrawSpace, prepared: PreparedSystem, facts: StudyProvenance)
 
 
 def unit_of_expression(expression: Expression, units: Mapping[str, str]) -> str:
-    """The unit of a sum or a comparison of one metric or draw with numbers, or of several of one unit; else nothing."""
+    """Return the unit of a sum or comparison of one metric or draw with numbers, or of several
+    of one unit; else nothing."""
     candidates = {units.get(name, "") for name in expression.names}
     return candidates.pop() if len(candidates) == 1 and _is_linear(ast.parse(expression.text, mode="eval").body) else ""
 

@@ -22,7 +22,7 @@ PARTICLES = ("Input", "Procedure", "Output", "Rationale")  # of a step, in the o
 
 
 def tag(prefix: str, name: str) -> str:
-    """A name in a namespace, as lxml writes it."""
+    """Return a name in a namespace, as lxml writes it."""
     return f"{{{NAMESPACES[prefix]}}}{name}"
 
 
@@ -40,7 +40,7 @@ class Task:
         self._known: dict[Path, str] = {}
 
     def step(self, phase: str, name: str) -> Step:
-        """A step of a phase; phases come in the order of their first steps."""
+        """Return a step of a phase; phases come in the order of their first steps."""
         if phase not in self._phases:
             self._phases[phase] = etree.SubElement(self.root, tag("stmd", phase))
         return Step(self, etree.SubElement(self._phases[phase], tag("stmd", name)))
@@ -61,7 +61,7 @@ class Task:
         etree.SubElement(content, tag("srmd", "SimulationResourceMetaData"), document | digest)
 
     def write(self) -> bytes:
-        """The document."""
+        """Return the document."""
         return etree.tostring(self.root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
 
 
@@ -73,11 +73,11 @@ class Step:
         self._element = element
 
     def add_file(self, particle: str, path: Path, kind: str, mime: str, description: str) -> None:
-        """A file in ``Input``, ``Procedure``, ``Output`` or ``Rationale``. Raises OSError."""
+        """Add a file in ``Input``, ``Procedure``, ``Output`` or ``Rationale``. Raises OSError."""
         self._task.add_file(self._particle(particle), path, kind, mime, description)
 
     def add_text(self, particle: str, text: str, kind: str, description: str) -> None:
-        """A text, inline."""
+        """Add a text, inline."""
         attributes = {"kind": kind, "type": "text/plain", "description": description}
         resource = etree.SubElement(self._particle(particle), tag("stc", "Resource"), attributes)
         etree.SubElement(resource, tag("stc", "Content")).text = text

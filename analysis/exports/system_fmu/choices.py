@@ -68,11 +68,12 @@ class Preparation:
         return choices
 
     def combinations(self) -> list[dict[str, str]]:
-        """What takes the place of each slot's component, for every choice."""
+        """Return the replacements of each slot's component, for every choice."""
         return [dict(zip(self.slots, use, strict=True)) for use in itertools.product(*self.slots.values())]
 
     def choice(self, use: Mapping[str, str], *more: str) -> Choice:
-        """The system with these candidates and, behind the chosen ones, ``more`` parameter sets. Raises InputError."""
+        """Return the system with these candidates and, after the chosen ones, ``more``
+        parameter sets. Raises InputError."""
         options = self.options
         parameters = (*options.parameters, *more)
         changed = options.but(
@@ -90,7 +91,7 @@ class Preparation:
         return Choice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
 
     def _values_for(self, use: Mapping[str, str]) -> dict[str, SetValue]:
-        """The values that are given; of SLOT.CANDIDATE.PARAMETER those of these candidates."""
+        """Return the values of options; of SLOT.CANDIDATE.PARAMETER those of these candidates."""
         chosen = {}
         for name, number in self.options.set.items():
             slot, _, inside = name.partition(".")
@@ -114,12 +115,12 @@ class Preparation:
 
 
 def candidate_name(use: str) -> str:
-    """The name of a candidate, of a block or of a file."""
+    """Return the name of a candidate, of a block or of a file."""
     return Path(use).stem if names_fmu(use) else use
 
 
 def _start_of(network: Network, name: str) -> float | bool | str:
-    """The start of an input of the system: that of the first input of a component that it reaches."""
+    """Return the start of an input of the system: that of the first input of a component that it reaches."""
     start, node = _start_reached(network, name), network.nodes[name]
     if start is None or (node.type_name == "Enumeration" and start not in node.enumeration.values()):
         return _no_start(network, name)
@@ -127,7 +128,7 @@ def _start_of(network: Network, name: str) -> float | bool | str:
 
 
 def _no_start(network: Network, name: str) -> float | bool | str:
-    """Nothing, false, or the first item of an enumeration."""
+    """Return 0, false, or the first item of an enumeration."""
     node = network.nodes[name]
     check_type(network, node)
     if node.enumeration:
@@ -136,7 +137,7 @@ def _no_start(network: Network, name: str) -> float | bool | str:
 
 
 def _start_reached(network: Network, name: str) -> float | None:
-    """The value with which the first input of a component that a connector reaches has its start."""
+    """Return the value with which the first input of a component that a connector reaches has its start."""
     for link in network.driver.values():
         if link.source.name != name or link.transformation.table or not link.transformation.factor:
             continue
@@ -161,7 +162,7 @@ def check_type(network: Network, node: Node) -> None:
 
 
 def system_connectors(network: Network, kind: str) -> list[str]:
-    """The connectors of the system itself that are of this kind."""
+    """Return the connectors of the system itself that are of this kind."""
     return [name for name, connector in network.description.system.connectors.items() if connector.kind == kind]
 
 
@@ -173,7 +174,7 @@ def _check(prepared: PreparedSystem) -> None:
 
 
 def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem, options: SystemOptions) -> int:
-    """Which of a slot's candidates flies where nobody chooses: that of the system, else the first; counted from 1."""
+    """Return a slot's default candidate: that of the system, else the first; counted from 1."""
     given = options.use.get(slot)
     component = dict(prepared.network.components()).get(slot)
     names = [candidate_name(each) for each in candidates]
@@ -182,7 +183,7 @@ def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem,
 
 
 def parameter_chain(network: Network, values: Mapping[str, float | str], target: str) -> list[str]:
-    """The connectors that bring a parameter its value, from the outermost that has one down to ``target``."""
+    """Return the connectors that bring a parameter its value, from the outermost that has one down to ``target``."""
     chain = [target]
     while chain[-1] in network.driver:
         chain.append(network.driver[chain[-1]].source.name)

@@ -106,7 +106,8 @@ class ComponentSource:
 
 
 def read_component_source(fmu: Fmu, name: str) -> ComponentSource:
-    """The source of an FMU of ours, whose names begin with ``name``. Raises InputError for the C of another build."""
+    """Read the source of an FMU of ours, whose names begin with ``name``. Raises InputError for the C of another
+    build."""
     sources = fmu.read_sources()
     main = sources.get(f"{fmu.description.coSimulation.modelIdentifier}.c", "")
     if "system_steps.h" in sources:
@@ -126,7 +127,7 @@ def read_component_source(fmu: Fmu, name: str) -> ComponentSource:
 
 
 def rename(text: str, prefix: str) -> str:
-    """The text of a block's file, all names that it defines with a prefix; comments and strings as they are."""
+    """Return the text of a block's file, all names that it defines with a prefix; comments and strings as they are."""
     defined = {name for pattern in (STRUCT, STATIC, MACRO) for name in pattern.findall(text)} | {"Block"}
     checked = set(CHECKED.findall(text))
     names: Mapping[str, str] = {
@@ -142,7 +143,7 @@ def rename(text: str, prefix: str) -> str:
 
 
 def write_kind(source: ComponentSource) -> str:
-    """The file of a kind of component, which the system's file includes."""
+    """Return the file of a kind of component, which the system's file includes."""
     name = source.prefix.removesuffix("_")
     return FILE.format(
         name=name,

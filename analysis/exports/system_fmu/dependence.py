@@ -1,4 +1,4 @@
-"""Which outputs of a system depend directly on its inputs: within one step, through components that do."""
+"""Direct dependence of a system's outputs on its inputs: within one step, through components that have it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .choices import system_connectors
 def find_dependencies(
     systems: Sequence[PreparedSystem], inputs: Sequence[str], faulty: Sequence[str]
 ) -> dict[str, list[str]]:
-    """The inputs that each output depends on directly in one of the systems, which differ in their candidates.
+    """Return the inputs that each output depends on directly in one of the systems, which differ in their candidates.
 
     Those of the faults of a connector are among them where its value reaches the output in the same step.
 
@@ -28,7 +28,7 @@ def find_dependencies(
 
 
 def fault_inputs(connector: str) -> list[str]:
-    """The FMU's inputs for the faults of a connector: which kind of fault, and its value."""
+    """Return the FMU's inputs for the faults of a connector: the kind of fault, and its value."""
     return [f"fault.{connector}.kind", f"fault.{connector}.value"]
 
 
@@ -44,7 +44,7 @@ def _followed(prepared: PreparedSystem, start: str) -> list[str]:
 
 
 def _reached(prepared: PreparedSystem, start: str) -> list[str]:
-    """The system's outputs that a value at ``start`` reaches in the same communication point."""
+    """Return the system's outputs that a value at ``start`` reaches in the same communication point."""
     network = prepared.network
     stepping = {} if prepared.algorithm == "jacobi" else prepared.schedule.feedthrough.stepping
     readers: dict[str, list[str]] = {}

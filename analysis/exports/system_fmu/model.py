@@ -1,4 +1,4 @@
-"""What is inside a system's FMU, whichever candidates fly: components with their C, signals, names in C."""
+"""Content of a system's FMU, for all candidates: components with their C, signals, names in C."""
 
 from __future__ import annotations
 
@@ -50,22 +50,22 @@ class Candidate:
     label: str
 
     def member(self, variable: str) -> Member:
-        """The member of the block's struct that is a variable."""
+        """Return the member of the block's struct that is a variable."""
         return self.source.members[self.fmu.variables[variable].reference]
 
     def path_of(self, variable: str) -> str:
-        """Where a variable lies in the system's struct."""
+        """Return the path of a variable in the system's struct."""
         return f"{self.identifier}.block.{self.member(variable).path}"
 
 
 @dataclass
 class Identifiers:
-    """Names of C, each given away once; ``used`` are those that are gone."""
+    """Names of C, each issued once; ``used`` are those taken."""
 
     used: set[str] = field(default_factory=set)
 
     def new(self, text: str) -> str:
-        """The text as a name, with a number behind it where that is not enough."""
+        """Return the text as a name, with a number after it where it is taken."""
         base = re.sub(r"\W+", "_", text, flags=re.ASCII).strip("_") or "x"
         name = base = f"n_{base}" if base[0].isdigit() else base
         number = 2
@@ -186,7 +186,7 @@ class SystemModel:
         return self._candidates[component, candidate]
 
     def _find_exposed(self, names: Sequence[str]) -> list[str]:
-        """The variables that names mean, of whichever candidate has them."""
+        """Return the variables that names mean, of any candidate that has them."""
         exposed: dict[str, None] = {}
         for name in names:
             error = None
@@ -243,7 +243,7 @@ def _is_known(network: Network, name: str) -> bool:
 
 
 def _find_faulty(choices: Sequence[Choice], names: Sequence[str]) -> list[str]:
-    """The connectors and tunable parameters whose faults are inputs: of all candidates. Raises InputError."""
+    """Return the connectors and tunable parameters whose faults are inputs: of all candidates. Raises InputError."""
     for name in names:
         for choice in choices:
             changeable(choice.prepared.network, name, ("`faults`", name), tunable=True)

@@ -27,7 +27,7 @@ class OtherSets:
 
 
 def other_parameter_sets(preparation: Preparation, system: System, declared: Sequence[FmuVariable]) -> OtherSets:
-    """What each further set of the ``system`` changes of the ``declared`` parameters and inputs."""
+    """Return the changes of the ``declared`` parameters and inputs by each further set of the ``system``."""
     files, unfit = {}, []
     starts = {each.name: each.start for each in declared if each.causality in ("parameter", "input")}
     for file in _others(preparation, system):
@@ -41,7 +41,7 @@ def other_parameter_sets(preparation: Preparation, system: System, declared: Seq
 
 
 def _others(preparation: Preparation, system: System) -> list[str]:
-    """The sets of a system that are neither chosen nor bound by its description."""
+    """Return the sets of a system that are neither chosen nor bound by its description."""
     files = preparation.archive.files
     used = _bound(system)
     for name in preparation.options.parameters:
@@ -50,7 +50,7 @@ def _others(preparation: Preparation, system: System) -> list[str]:
 
 
 def _bound(element: Element) -> set[str]:
-    """The files of parameter bindings of a system, and of all that is in it."""
+    """Return the files of parameter bindings of a system, and of all that is in it."""
     inner = element.elements.values() if isinstance(element, System) else ()
     files = {posixpath.normpath(binding.source) for binding in element.bindings if binding.source is not None}
     return files.union(*map(_bound, inner))

@@ -19,14 +19,15 @@ OUTPUTS, EXPERIMENT = "outputs.csv", "outputs.exp"
 
 
 def find_default_program(programs: Sequence[ChoiceProgram], defaults: Mapping[str, int]) -> ChoiceProgram:
-    """Of the choice that flies where nobody chooses; ``defaults`` are candidates by slot, counted from 1."""
+    """Return the program of the default choice; ``defaults`` are candidates by slot, counted from 1."""
     return next(program for program in programs if program.choice.numbers == tuple(defaults.values()))
 
 
 def record_reference(
     name: str, program: ChoiceProgram, declared: list[FmuVariable]
 ) -> tuple[dict[str, bytes], list[Related]]:
-    """Outputs and exposed signals with all parameters and inputs at their starts; nothing of a system without any.
+    """Record outputs and exposed signals with all parameters and inputs at their starts; nothing of a system without
+    any.
 
     Signals that only other candidates have are left out.
     """

@@ -1,4 +1,4 @@
-"""How a system becomes one FMU."""
+"""Request for a system as one FMU."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ...runtime.system.options import SystemOptions
 
 @dataclass(frozen=True)
 class OneFmu:
-    """How a system becomes one FMU: ``slots`` have candidates by component, ``exposed`` are signals that it shows,
+    """Request for a system as one FMU: ``slots`` have candidates by component, ``exposed`` are visible signals,
     ``faulty`` connectors and tunable parameters with inputs for faults; ``options`` are those of the system. Raises
     InputError."""
 

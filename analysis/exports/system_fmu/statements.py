@@ -28,8 +28,8 @@ SKIPPED = (codes.SETUP, codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.READ_BAC
 class Statements:
     """Writes the statements of one choice; ``constants`` are the signals' numbers in C by name.
 
-    ``unsettled`` are the components that have been given something in the initialisation, which is under way where
-    ``is_starting``, and have not computed since.
+    ``unsettled`` are the components with inputs set in the initialisation, which is under way where ``is_starting``,
+    and not computed since.
     """
 
     choice: ChoiceProgram
@@ -51,7 +51,7 @@ class Statements:
         return self._of(range(first, end))
 
     def renewal(self, component: int, rows: np.ndarray) -> list[str]:
-        """The connections of a component from the system's inputs, which these rows carry, carried on into it."""
+        """Carry the connections of a component from the system's inputs, which these rows hold, into it."""
         candidate = self.choice.candidates[component]
         lines: list[str] = []
         targets: list[int] = []
@@ -72,11 +72,11 @@ class Statements:
         return np.flatnonzero(self.choice.program.fault_slot == slot).tolist()
 
     def injection(self, number: int, function: str = "inject") -> str:
-        """A fault applied to its signal."""
+        """Write a fault applied to its signal."""
         return f"{function}(&{self.signal(int(self.choice.program.fault_slot[number]))}, &self->fault[{number}]);"
 
     def give(self, candidate: Candidate, slot: int) -> list[str]:
-        """A signal to the variable of a component at its slot."""
+        """Write a signal to the variable of a component at its slot."""
         member = candidate.source.members[int(self.choice.program.reference[slot])]
         path, signal = f"self->{candidate.identifier}.block.{member.path}", self.signal(slot)
         variable = candidate.fmu.variables[self.choice.names[slot].removeprefix(f"{candidate.component}.")]
@@ -98,11 +98,11 @@ class Statements:
         return f"s[{self.constants[self.choice.names[slot]]}]"
 
     def slots(self, row: Instruction) -> list[tuple[int, str]]:
-        """The slots of an instruction, each with its signal."""
+        """Return the slots of an instruction, each with its signal."""
         return [(slot, self.signal(slot)) for slot in range(row.first, row.first + row.size)]
 
     def variable(self, row: Instruction, slot: int) -> tuple[str, str]:
-        """The variable of the component at a slot: where it lies, and its kind."""
+        """Return the path and kind of the component's variable at a slot."""
         candidate = self.candidate(row)
         member = candidate.source.members[int(self.choice.program.reference[slot])]
         return f"self->{candidate.identifier}.block.{member.path}", member.kind
@@ -111,7 +111,7 @@ class Statements:
         return self.choice.candidates[row.component]
 
     def settle(self, component: int) -> list[str]:
-        """Have a component initialised where it has not been with what it is given now."""
+        """Initialise a component that has inputs set since it last computed."""
         if not self.is_starting or component not in self.unsettled:
             return []
         self.unsettled.discard(component)
@@ -139,7 +139,7 @@ def check(subject: str) -> str:
 
 
 def quoted(text: str) -> str:
-    """A text as C has it, on one line."""
+    """Return a text as C has it, on one line."""
     escaped = text.replace("\\", r"\\").replace('"', r"\"").replace("?", r"\?").replace(" ", NO_BREAK)
     return f'"{escaped}"'
 
@@ -175,7 +175,7 @@ def _map(to: Statements, row: Instruction) -> list[str]:
 
 
 def map_value(source: str, target: str, entries: Iterable[tuple[float, float]], subject: str) -> list[str]:
-    """A mapping by a table: an entry from NaN leaves other values as they are, without it they are a failure."""
+    """Write a mapping by a table: an entry from NaN leaves other values as they are, without it they are a failure."""
     tests, otherwise = [], f"FAIL({quoted(subject)}, {quoted('a mapping has no entry for its value')})"
     for given, becomes in entries:
         if math.isnan(given):

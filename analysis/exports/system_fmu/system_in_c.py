@@ -58,7 +58,7 @@ FOOTER = """\
 
 
 def write_system(name: str, about: str, guid: str, model: SystemModel, variables: Variables) -> str:
-    """The file that is compiled, of an FMU with this GUID; it includes the others."""
+    """Write the file that is compiled, of an FMU with this GUID; it includes the others."""
     header = HEADER.format(
         name=name,
         about=comment(about),
@@ -87,7 +87,7 @@ def write_system(name: str, about: str, guid: str, model: SystemModel, variables
 
 
 def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables) -> list[str]:
-    """The initialisation and the step of one choice."""
+    """Write the initialisation and the step of one choice."""
     statements = Statements(program, model.signals)
     initialise = Lines()
     initialise.open(f"static void initialize{program.choice.name}(Block *self, Fault *fault)\n{{")
@@ -150,7 +150,8 @@ def _take_inputs(program: ChoiceProgram, model: SystemModel, variables: Variable
 
 
 def _renewal(statements: Statements, phase: int) -> list[str]:
-    """The system's inputs, and parameters with faults, to the components that step with the inputs of the start."""
+    """Write the system's inputs, and parameters with faults, to the components that step with the inputs of the
+    start."""
     program = statements.choice
     prepared = program.prepared
     names = list(prepared.network.fmus)
@@ -159,7 +160,7 @@ def _renewal(statements: Statements, phase: int) -> list[str]:
 
 
 def _passed_signals(program: ChoiceProgram, variables: Variables) -> dict[str, list[str]]:
-    """The parameters of systems that signals come from, each with the chain of connectors that brings its value."""
+    """Return the parameters of systems that signals come from, each with the chain of connectors to its value."""
     network, values = program.prepared.network, program.prepared.settings.nodes
     nodes = (network.nodes[name] for name in program.layout.slots if name in network.nodes)
     names = [node.name for node in nodes if node.component is None and node.kind in PARAMETERS]
@@ -177,7 +178,7 @@ def _check_faults(model: SystemModel) -> list[str]:
 
 
 def _end_step(statements: Statements, model: SystemModel, variables: Variables) -> list[str]:
-    """What a step leaves: whether the system has come to its end, its outputs, the faults that were applied."""
+    """Write the end of a step: if the system has ended, its outputs, the faults that were applied."""
     program = statements.choice
     finished = program.program.finished_slot
     lines = [f"self->has_finished = {statements.signal(finished)} != 0.0;"] if finished >= 0 else []
@@ -193,7 +194,7 @@ def _end_step(statements: Statements, model: SystemModel, variables: Variables) 
 
 
 def _entry_points(model: SystemModel, variables: Variables) -> str:
-    """What the wrapper calls, for the choice that the slots' parameters make."""
+    """Write the functions that the wrapper calls, for the choice by the slots' parameters."""
     lines = Lines()
     lines.open("static void model_set_start_time(Block *self, double start_time)\n{")
     lines.add("self->start_time = start_time;")

@@ -47,13 +47,13 @@ class FmuVariable:
 
     @property
     def role(self) -> str:
-        """What the wrapper lets be done with it."""
+        """Role that decides on the wrapper's permissions."""
         parameter = "ROLE_TUNABLE" if self.tunable else "ROLE_PARAMETER"
         return {"input": "ROLE_INPUT", "parameter": parameter}.get(self.causality, "ROLE_OUTPUT")
 
     @property
     def is_member(self) -> bool:
-        """Whether it is a member of the system's struct itself."""
+        """True if it is a member of the system's struct itself."""
         return "." not in self.path and "[" not in self.path
 
 
@@ -267,7 +267,7 @@ def _type_of(node: Node) -> str:
 
 
 def _in_a_system(type_name: str) -> str:
-    """The type of the numbers that a system's FMU hands on."""
+    """Return the type of the numbers that a system's FMU passes on."""
     return "Integer" if type_name == "Enumeration" else type_name
 
 

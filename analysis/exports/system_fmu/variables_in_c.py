@@ -69,7 +69,7 @@ def write_starts(model: SystemModel, variables: Variables) -> str:
 
 
 def write_parameters(model: SystemModel, variables: Variables) -> str:
-    """The parameters of components that follow from those of systems."""
+    """Write the parameters of components that follow from those of systems."""
     lines = Lines()
     lines.comment("Parameters of components that follow from those of systems.")
     lines.open("static void pass_parameters(Block *self, Fault *fault)\n{")
@@ -107,7 +107,7 @@ def write_use(model: SystemModel, variables: Variables) -> str:
 
 
 def pass_along(network: Network, chain: Sequence[str]) -> list[str]:
-    """The ``value`` of a system's parameter, the first of a chain of connectors, to that of the last."""
+    """Pass the ``value`` of a system's parameter, the first of a chain of connectors, to that of the last."""
     return [line for number, name in enumerate(chain[1:]) for line in _pass_on(network, network.driver[name], number)]
 
 

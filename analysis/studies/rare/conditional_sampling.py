@@ -1,4 +1,4 @@
-"""Samples of draws and noise given that a margin is above a threshold: chains from those that are known.
+"""Samples of draws and noise on condition that a margin is above a threshold: chains from those that are known.
 
 Two moves alternate (`_NoiseMoves.choose`). The draws move by adaptive conditional sampling (Papaioannou, Betz,
 Zwirglmaier and Straub 2015, section 4.3): a candidate is rho u + sqrt(1 - rho^2) xi with xi standard normal, which
@@ -29,7 +29,7 @@ class Points:
     streams: np.ndarray
 
     def rows(self, rows: np.ndarray) -> Points:
-        """Some of the points, by their numbers or by whether they are among them."""
+        """Return some of the points, by number or by mask."""
         return Points(self.draws[rows], self.streams[rows])
 
     def __len__(self) -> int:
@@ -40,13 +40,13 @@ MarginOf = Callable[[Points], np.ndarray]
 
 
 class FreshStreams:
-    """Numbers of streams, each given once, from 0 on: the noise of trials that nothing has flown before."""
+    """Unused numbers of streams, each returned once, from 0 on: the noise of trials not simulated before."""
 
     def __init__(self) -> None:
         self._next = 0
 
     def take(self, count: int) -> np.ndarray:
-        """The next ``count`` numbers."""
+        """Return the next ``count`` numbers."""
         self._next += count
         return np.arange(self._next - count, self._next)
 
@@ -76,7 +76,7 @@ class Chains:
 
 
 class _NoiseMoves:
-    """Which streams are renewed: one source at a time, those that change no margin along with every move.
+    """Choice of the streams to renew: one source at a time, those that change no margin along with every move.
 
     A source is chosen with a probability inverse to its acceptance rate so far, so that all are renewed about as often:
     the acceptance rate of all noise moves together is then near the harmonic mean of the sources'. A source is inert
@@ -103,7 +103,7 @@ class _NoiseMoves:
         self._weights = (self.moves[~inert] + 2.0) / (self.accepted[~inert] + 1.0)
 
     def choose(self, chains: np.ndarray, step: int, draws: float | None) -> np.ndarray:
-        """Which ``chains`` (by number) renew noise in a step, and do not move draws.
+        """Return the ``chains`` (by number) that renew noise in a step, and do not move draws.
 
         They alternate, unless draws are renewed as a whole, with the acceptance rate ``draws``: then they are chosen as
         often as a source of that rate, if that is less often.
@@ -142,11 +142,11 @@ def grow_chains(
     fresh: FreshStreams,
     random: tuple[np.random.Generator, np.random.Generator],
 ) -> Chains:
-    """Chains of ``length`` points from ``seeds``, whose ``margins`` (chains,) reach ``threshold``.
+    """Grow chains of ``length`` points from ``seeds``, whose ``margins`` (chains,) reach ``threshold``.
 
-    ``margin`` maps points to margins (points,); chains are independent of each other given the
-    moves, which change from one group of them to the next (ibid., equations 25 to 27). ``random`` are the generators of
-    draw moves and of noise moves. Where there are no sources, all moves are draw moves, and the other way round.
+    ``margin`` maps points to margins (points,); chains are independent of each other but for the moves, which change
+    from one group of them to the next (ibid., equations 25 to 27). ``random`` are the generators of draw moves and of
+    noise moves. Where there are no sources, all moves are draw moves, and the other way round.
     """
     chains, dimensions = seeds.draws.shape
     draws = np.empty((chains, length, dimensions))

@@ -1,4 +1,4 @@
-"""What follows from a rare failure's simulations: its levels, the influence of parameters, Monte Carlo as good."""
+"""Conclusions from a rare failure's simulations: its levels, the influence of parameters, equivalent Monte Carlo."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ class Span(NamedTuple):
 
 
 def level_spans(result: RareResult) -> list[Span]:
-    """The levels by the numbers of their simulations, counted from 1: a chain's seed was flown at the level before."""
+    """Return the levels by the numbers of their simulations, counted from 1: a chain's seed
+    belongs to the level before."""
     spans: list[Span] = []
     levels = result.simulation.levels
     first, seeds, reached = 1, 0, 1.0
@@ -45,10 +46,10 @@ def level_spans(result: RareResult) -> list[Span]:
 
 
 def influence(result: RareResult) -> dict[str, float]:
-    """How far failures lie from the first level's samples in each dispersed parameter, the largest first.
+    """Return the distance of failures from the first level's samples in each dispersed parameter, the largest first.
 
-    In standard deviations of the first level: the larger of the shift of the mean and of that of the mean distance
-    from the median, which sees failures at both ends.
+    In standard deviations of the first level: the larger of the shift of the mean and of that of the mean distance from
+    the median, which detects failures at both ends.
     """
     count = level_spans(result)[0].last
     failed = result.flown.values >= 0.0
@@ -77,7 +78,7 @@ class Equivalent(NamedTuple):
 
 
 def equivalents(result: RareResult) -> list[Equivalent]:
-    """This study, Monte Carlo with as many simulations, and with as many as give the same coefficient of variation.
+    """Return this study, Monte Carlo with as many simulations, and with as many for the same coefficient of variation.
 
     Of Monte Carlo it is Clopper and Pearson's interval of the expected number of failures, as a whole number.
     """

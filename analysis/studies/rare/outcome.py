@@ -50,7 +50,7 @@ class RareResult(StudyResult):
 
     @property
     def probability(self) -> float | None:
-        """Of the failure; None where it was not reached."""
+        """Probability of the failure; None where it was not reached."""
         return self.simulation.probability
 
     @property
@@ -60,7 +60,7 @@ class RareResult(StudyResult):
 
     @property
     def brute_force(self) -> float | None:
-        """How many plain Monte Carlo flights of the campaign say as much; None where nothing says."""
+        """Number of plain Monte Carlo flights of the campaign with the same information; None where it is unknown."""
         return self.simulation.equivalent_trials
 
     @property
@@ -93,7 +93,8 @@ class RareResult(StudyResult):
 
     @cached_property
     def _places(self) -> np.ndarray:
-        """Of the failures among those flown: nearest to the origin first, where the draws are most probable.
+        """Positions of the failures among the simulations: nearest to the origin first, where the draws are most
+        probable.
 
         Where no draw varies, those nearest to the limit.
         """
@@ -110,13 +111,13 @@ class RareResult(StudyResult):
         return np.array(chosen, dtype=int)
 
     def values(self) -> dict[str, float]:
-        """The numbers that requirements are about: probability, interval[1] and [2], flights."""
+        """Return the numbers that requirements are about: probability, interval[1] and [2], flights."""
         fraction = math.nan if self.probability is None else self.probability
         low, high = self.interval
         return {"probability": fraction, "interval[1]": low, "interval[2]": high, "flights": float(self.flights)}
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """The machine-readable result; ``folder`` is where it has been written, if it has."""
+        """Return the machine-readable result; ``folder`` is where it has been written, if it has."""
         simulation = self.simulation
         failures = self.failures
         if self.replay(folder, 0):
@@ -149,7 +150,7 @@ class RareResult(StudyResult):
 
     @property
     def digits(self) -> int:
-        """How many digits of the probability its interval leaves."""
+        """Number of digits of the probability that its interval leaves."""
         return significant_digits(*self.interval)
 
     @property

@@ -31,13 +31,13 @@ def rare_failure(
     least: float = LEAST,
     workers: int | None = None,
 ) -> RareResult:
-    """The probability of a failure over a campaign's draws and the noise of its components. Raises InputError.
+    """Compute the probability of a failure over a campaign's draws and the noise of its components. Raises InputError.
 
-    ``failure`` is an expression over metrics and draws, by default that a trial is no success. ``hold`` gives draws one
-    value, which choices and grids need. The noise is random, a source for each component that draws random numbers,
-    unless ``noise_trial`` is the trial of the campaign whose noise all flights have.
-    Every level has ``samples`` points; a failure less likely than ``least`` is given up. The campaign's seed is that of
-    the points, too; ``workers`` does not change the result.
+    ``failure`` is an expression over metrics and draws, by default that a trial is no success. ``hold`` sets draws to
+    one value, which choices and grids need. The noise is random, a source for each component that draws random numbers,
+    unless ``noise_trial`` is the trial of the campaign whose noise all flights have. Every level has ``samples``
+    points; one less likely than ``least`` is abandoned. The campaign's seed is that of the points, too; ``workers``
+    does not change the result.
     """
     if samples < 100:
         raise InputError("`samples`", str(samples), "too few", "give 100 or more")

@@ -66,7 +66,8 @@ class Level:
 
 @dataclass(frozen=True, eq=False)
 class SubsetSimulation:
-    """What came of it: ``probability``, or None where no failure was reached and only the interval's end is known.
+    """Result of a subset simulation: ``probability``, or None where no failure was reached and only the interval's end
+    is known.
 
     ``failures`` are the points that failed at the last trusted level, with their ``margins``. ``families`` is of how
     many of the first points the last event's are descendants. ``equivalent_trials`` are the plain Monte Carlo trials
@@ -86,7 +87,7 @@ class SubsetSimulation:
 
 
 class StuckError(Exception):
-    """So many of a level's points share one margin that no next event can be told; ``args`` are margin and share."""
+    """Error of a level too many of whose points share one margin for a next event; ``args`` are margin and share."""
 
 
 @dataclass(eq=False)
@@ -104,11 +105,12 @@ class _Population:
 def subset_simulation(
     margin: MarginOf, dimensions: int, sources: int = 0, *, seed: int = 0, samples: int = 4500, least: float = 1e-9
 ) -> SubsetSimulation:
-    """The probability that ``margin`` is 0 or more over standard normal draws and the noise of independent sources.
+    """Compute the probability that ``margin`` is 0 or more over standard normal draws and the noise of independent
+    sources.
 
     ``margin`` maps points of ``dimensions`` draws and ``sources`` streams to margins (points,), the larger the nearer
     to failure; inf is a failure and none is nan. Each level has ``samples`` points. A failure less likely than about
-    ``least`` is given up. The interval counts that points of a chain, and chains of one family, are alike. The same
+    ``least`` is abandoned. The interval counts that points of a chain, and chains of one family, are alike. The same
     seed gives the same bits. Raises StuckError where margins do not vary, ValueError for fewer than 100 samples, a
     ``least`` not in (0, 1), or nothing random.
     """
@@ -183,7 +185,7 @@ def subset_simulation(
 def _bound(
     population: _Population, reached: float, samples: int, levels: list[Level], evaluations: int
 ) -> SubsetSimulation:
-    """What the last trusted level says, whose chains are in an event of the probability ``reached``.
+    """Return the result of the last trusted level, whose chains are in an event of the probability ``reached``.
 
     Its points are as many plain Monte Carlo trials as would give that probability with the variance that the families
     of all its points have. The failures among them are counted as theirs, with the interval of Clopper and Pearson.
@@ -210,7 +212,7 @@ def _bound(
 
 
 def _next_threshold(margins: np.ndarray) -> float:
-    """The margin of the next event: that of the last of the worst tenth, 0 where they have all failed.
+    """Return the margin of the next event: that of the last of the worst tenth, 0 where they have all failed.
 
     Where many share that margin, the event is that of larger ones only. Raises StuckError where there are none.
     """
@@ -228,7 +230,7 @@ def _next_threshold(margins: np.ndarray) -> float:
 
 
 def _level(population: _Population, inside: np.ndarray | None) -> Level:
-    """The facts of a level, whose points ``inside`` are in the next event; None where it has none."""
+    """Return the facts of a level, whose points ``inside`` are in the next event; None where it has none."""
     of_moves: _Moves = {} if population.grown is None else _moves(population.grown)
     if inside is None:
         return Level(population.threshold, population.margins.size, None, **of_moves)

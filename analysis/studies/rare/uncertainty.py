@@ -1,4 +1,4 @@
-"""How sure a probability by subset simulation is: correlation within chains, and within families of chains."""
+"""Uncertainty of a probability by subset simulation: correlation within chains, and within families of chains."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ CONFIDENCE = 0.95
 
 
 class Interval(NamedTuple):
-    """A confidence interval and the coefficient of variation that it is made of."""
+    """A confidence interval and the coefficient of variation that it is based on."""
 
     low: float
     high: float
@@ -47,12 +47,12 @@ def fractional_interval(failures: float, samples: float, confidence: float) -> I
 
 
 def equivalent_trials(probability: float, variation: float) -> float | None:
-    """The number of plain Monte Carlo trials whose share has the same coefficient of variation; None where it is 0."""
+    """Return the number of plain Monte Carlo trials with the same coefficient of variation; None where it is 0."""
     return None if variation == 0.0 else (1.0 - probability) / (probability * variation**2)
 
 
 def chain_correlation(inside: np.ndarray) -> float:
-    """The factor gamma of Au and Beck (2001, equation 29), of whether the points of chains are inside an event.
+    """Return the factor gamma of Au and Beck (2001, equation 29) for chains whose points are inside an event or not.
 
     ``inside`` (chains, length) is true or false. The variance of their mean is 1 + gamma times that of independent
     points, were the chains independent of each other.
@@ -71,7 +71,8 @@ def chain_correlation(inside: np.ndarray) -> float:
 
 
 def family_interval(probability: float, families: np.ndarray, first: int, confidence: float) -> Interval:
-    """The interval of a probability by levels, whose failed points belong to ``families`` of ``first`` first points.
+    """Return the interval of a probability by levels, whose failed points belong to ``families`` of ``first`` first
+    points.
 
     The failed descendants of each first point are as one draw, independent of those of the others: the relative
     variance of their mean is that of the estimate, with all correlation in chains, between chains of one origin and

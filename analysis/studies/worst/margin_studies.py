@@ -68,7 +68,7 @@ class MarginStudies:
         self._progress = progress_bar(unit="study")
 
     def fly(self, columns: Columns, streams: Streams) -> tuple[Studied, Mapping[str, np.ndarray]]:
-        """The margins of given draws and random streams, in their order, with the drawn and derived values.
+        """Return the margins of samples and random streams, in their order, with the drawn and derived values.
 
         ``streams`` are those of all sources of the noise, by component. Raises InputError.
         """
@@ -97,7 +97,7 @@ class MarginStudies:
 
 
 def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
-    """The study of the point without draws, and the memory that matters there. Raises InputError."""
+    """Return the study of the point without draws, and the memory that matters there. Raises InputError."""
     where = (asked.request.label, f"loop {asked.loop.name} at {asked.point.name}")
     remedy = "what perilune stability cannot study has no worst"
     try:
@@ -112,7 +112,7 @@ def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
 
 
 def _margins(study: PointStudy, cells: Sequence[int], plan: BatchPlan) -> list[Margins] | str:
-    """The margins of every channel at a plan's one trial, or why there are none."""
+    """Return the margins of every channel at a plan's one trial, or the reason of their absence."""
     try:
         return [model.margins() for model in models_of_trial(study, plan, 0, cells).values()]
     except (InputError, StudyError) as error:

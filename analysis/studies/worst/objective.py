@@ -1,4 +1,5 @@
-"""What is to be worst: a number of every trial, of its metrics or of a loop's margins, the larger the worse."""
+"""Objective of a worst-case search: a number of every trial, of its metrics or of a loop's
+margins, the larger the worse."""
 
 from __future__ import annotations
 
@@ -36,7 +37,7 @@ class Objective:
 
 
 def metric_objective(campaign: Campaign, text: str | None) -> Objective:
-    """Of an expression over metrics and draws, or without one of the margin by which a trial is no success.
+    """Return the objective of an expression over metrics and draws, or without one of the margin of success.
 
     Raises InputError.
     """
@@ -67,7 +68,8 @@ LARGEST = "largest_multiplier"
 
 
 def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[Margins] | None]) -> dict[str, np.ndarray]:
-    """The margins of all channels, a row for each of ``found`` and a column for each margin and largest multiplier.
+    """Return the margins of all channels, a row for each of ``studied``, a column for each margin and largest
+    multiplier.
 
     A margin of an unstable loop is `UNSTABLE`, one without a crossing inf; a row of None is nan.
     """
@@ -82,7 +84,7 @@ def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[Margins] 
 
 
 def margin_objective(name: str, point: str, channels: Sequence[str], margin: str) -> Objective:
-    """Of the least margin of a loop's channels at a point; ``margin`` is one of `SIZES`.
+    """Return the objective of the least margin of a loop's channels at a point; ``margin`` is one of `SIZES`.
 
     Of an unstable channel it is its largest multiplier less 1, which continues where margins end at 0.
     """
@@ -101,7 +103,7 @@ def margin_objective(name: str, point: str, channels: Sequence[str], margin: str
 
 
 def _size(value: float) -> float:
-    """The margin that a value is of; nan where there is none."""
+    """Return the margin of a value; nan where there is none."""
     if value == math.inf:
         return math.nan
     return UNSTABLE if value > 0.0 else 0.0 - value

@@ -72,7 +72,7 @@ class WorstResult(StudyResult):
 
     @property
     def flown_text(self) -> str:
-        """What of the noise the value of the worst point is; empty where the noise is not random."""
+        """Statistic of the noise at the worst point; empty where the noise is not random."""
         if self.over is None:
             return ""
         return ONE if self.noise_matters is False else self.over.text
@@ -88,21 +88,21 @@ class WorstResult(StudyResult):
         return float(self.flown.values[searched][same].max())
 
     def as_json(self, value: float) -> float | str | None:
-        """A value as JSON has it: null where it failed, of a margin a word where it is no number."""
+        """Return a value as JSON has it: null where it failed, of a margin a word where it is no number."""
         return self.badness.fact(self.badness.size(value))
 
     @property
     def places(self) -> list[int]:
-        """Of the worst flight and of the worst random one, among those flown."""
+        """Rows of the worst flight and of the worst random one."""
         return [self.row, self.random]
 
     @property
     def unit(self) -> str:
-        """The unit of the number that is made worst; empty where it has none, or its text says it."""
+        """Unit of the objective; empty where it has none, or its text says it."""
         return "" if self.badness.expression is None else unit_of_expression(self.badness.expression, self.units)
 
     def values(self) -> dict[str, float]:
-        """The numbers that requirements are about; those of fresh noise are nan where there was none."""
+        """Return the numbers that requirements are about; those of fresh noise are nan where there was none."""
         values = {"worst": self.value, "random": float(self.flown.values[self.random])}
         values |= {
             "fresh_worst": math.nan if self.fresh is None else self.fresh.worst,
@@ -111,7 +111,7 @@ class WorstResult(StudyResult):
         return {name: self.badness.size(value) for name, value in values.items()} | {"flights": float(self.flights)}
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """The machine-readable result; ``folder`` is where it has been written, if it has."""
+        """Return the machine-readable result; ``folder`` is where it has been written, if it has."""
         replay = self.replay(folder, 0)
         return {
             **self.facts,
@@ -132,7 +132,7 @@ class WorstResult(StudyResult):
         }
 
     def _noise_document(self) -> dict[str, object]:
-        """What the value of a point is under random noise; empty where the noise is not random."""
+        """Return the value of a point under random noise; empty where the noise is not random."""
         if self.over is None:
             return {}
         entries = {"objective": self.flown_text, "quantile": self.over.quantile, "realisations": self.over.count}

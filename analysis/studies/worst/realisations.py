@@ -28,7 +28,7 @@ class Realisations:
 
     @property
     def fresh(self) -> int:
-        """How many realisations, which the search has not seen, the point that wins flies."""
+        """Number of realisations, new to the search, with which the winning point is simulated."""
         return FRESH * self.count
 
     @property
@@ -44,14 +44,14 @@ class Realisations:
         return f"{self.name}{quantile} of {self.count} noise realisations"
 
     def objective(self, values: np.ndarray) -> np.ndarray:
-        """The quantile of values (points, realisations) over the realisations."""
+        """Return the quantile of values (points, realisations) over the realisations."""
         return quantiles(values.T, (self.quantile,))[0]
 
 
 def read_realisations(
     count: int | None, quantile: float | None, flights: int, noise_trial: int | None, *, default: int = REALISATIONS
 ) -> Realisations:
-    """What is asked of the noise, for a search of so many ``flights``. Raises InputError."""
+    """Read the options on noise, for a search of ``flights`` flights. Raises InputError."""
     for option, value in (("`realisations`", count), ("`quantile`", quantile)):
         if value is not None and noise_trial is not None:
             problem = f"all flights have the noise of trial {noise_trial}"

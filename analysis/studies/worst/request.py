@@ -1,4 +1,4 @@
-"""What is asked of a search for the worst margin: a loop at one operating point, over a campaign."""
+"""Request for a search for the worst margin: a loop at one operating point, over a campaign."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class MarginAsked:
         return self.request.plan
 
     def open_request(self) -> PointStudy:
-        """The point with the campaign's layer and what it draws, to be closed. Raises InputError, StudyError."""
+        """Open the point with the campaign's layer and its draws, to be closed. Raises InputError, StudyError."""
         (variant,) = self.plan.campaign.variants()
         layer = self.plan.campaign.layer_of(variant)
         subject = Subject(self.request.system, self.request.options).with_options(campaign=layer)
@@ -67,7 +67,7 @@ def margin_asked(
     at: float | None,
     seed: int | None,
 ) -> MarginAsked:
-    """A loop that a system names, or a connector that is cut at the time ``at`` (s), over the draws of a campaign.
+    """Return a loop of a system, or a connector cut at the time ``at`` (s), over the draws of a campaign.
 
     ``point`` is needed where the loop has several, ``configuration`` where the campaign has. Raises InputError.
     """

@@ -24,7 +24,7 @@ LEAST = 100  # evaluations
 
 
 class Phase(NamedTuple):
-    """A part of a search: its method, and how many evaluations it has used."""
+    """Phase of a search: its method, and the number of its evaluations."""
 
     name: str
     evaluations: int
@@ -39,7 +39,7 @@ class Maximum(NamedTuple):
 
 
 class _EndError(Exception):
-    """Nothing is left to do: the evaluations are spent, or something is infinite, than which nothing is larger."""
+    """Error of a finished search: the evaluations are spent, or a value is infinite, which nothing exceeds."""
 
 
 class _Counted:
@@ -76,7 +76,7 @@ class _Counted:
 def largest(
     function: Function, points: np.ndarray, values: np.ndarray, evaluations: int, random: np.random.Generator
 ) -> Maximum:
-    """The point (dimensions,) of the unit cube with the largest value that is found, that value, and the phases.
+    """Return the point (dimensions,) of the unit cube with the largest value found, that value, and the phases.
 
     ``function`` maps points (points, dimensions) to values (points,), of which none is nan and inf ends the search;
     ``points`` and ``values`` are known ones to begin with, one or more; ``evaluations`` are spent besides.

@@ -35,7 +35,8 @@ RANDOM = 0.2  # of the flights are random trials, which the worst is told beside
 
 
 class Flights(Protocol):
-    """Who flies draws, or studies them; ``fly`` gives what they come to, and the drawn and derived values."""
+    """Evaluates samples by simulation or by a stability study; ``fly`` returns the evaluations,
+    and the drawn and derived values."""
 
     facts: StudyProvenance
     noise: Noise
@@ -46,7 +47,7 @@ class Flights(Protocol):
 
 
 class Sampled(Protocol):
-    """What draws come to: columns (draws,) by name, and of which there is anything (draws,)."""
+    """Evaluations of samples: columns (draws,) by name, and a mask of those that exist (draws,)."""
 
     @property
     def metrics(self) -> Mapping[str, np.ndarray]: ...
@@ -68,7 +69,7 @@ class SearchOptions(TypedDict, total=False):
 def worst_case(
     plan: BatchPlan, metric: str | None = None, *, flights: int = FLIGHTS, **options: Unpack[SearchOptions]
 ) -> WorstResult:
-    """The draws that make an expression largest, within ``sigmas`` of normal draws and the ends of others.
+    """Search for the draws that make an expression largest, within ``sigmas`` of normal draws and the ends of others.
 
     ``metric`` is over metrics and draws, by default the margin by which a trial is no success. ``hold`` and
     ``noise_trial`` are as in `rare_failure`. Where components have noise, every point flies the same ``realisations``
@@ -86,11 +87,11 @@ def worst_case(
 def worst_margin(
     asked: MarginAsked, margin: str = MARGIN, *, flights: int = STUDIES, **options: Unpack[SearchOptions]
 ) -> WorstResult:
-    """The draws that make the least margin of a loop's channels smallest, in the box of `worst_case`.
+    """Search for the draws that make the least margin of a loop's channels smallest, in the box of `worst_case`.
 
-    ``margin`` is one of `SIZES`. An unstable loop is worse than any margin, by its spectral radius; draws that
-    cannot be studied are the worst there is. The rest is as in `worst_case`, but for ``realisations``: 1, since noise
-    moves a loop's margin only by where it has brought the flight to. Raises InputError.
+    ``margin`` is one of `SIZES`. An unstable loop is worse than any margin, by its spectral radius; draws that cannot
+    be studied are the worst there is. The rest is as in `worst_case`, but for ``realisations``: 1, since noise moves a
+    loop's margin only by where it has brought the flight to. Raises InputError.
     """
     if margin not in SIZES:
         raise InputError("`margin`", margin, "no such margin", f"give {', '.join(SIZES)}")
@@ -130,7 +131,7 @@ class _Search:
         return self._space.from_box(np.full((1, self._space.size), 0.5), self._sigmas)
 
     def result(self, flights_of: Flights, objective: Objective) -> WorstResult:
-        """The worst of random trials and of a search from them. Raises InputError."""
+        """Return the worst of random trials and of a search from them. Raises InputError."""
         space, sigmas = self._space, self._sigmas
         points = _Points(flights_of, objective, self._over if flights_of.noise.sources else None)
         budget = self._flights - (0 if points.over is None else points.over.fresh)  # those of fresh noise left out
@@ -188,7 +189,7 @@ class _Points:
         self._varied = False
 
     def fly(self, places: np.ndarray, columns: Mapping[str, np.ndarray]) -> np.ndarray:
-        """The objective of points (points,)."""
+        """Return the objective of points (points,)."""
         count = self.realisations
         columns = {name: np.repeat(column, count) for name, column in columns.items()}
         values = self._fly(np.repeat(places, count, axis=0), columns, np.tile(np.arange(count), len(places)))
@@ -203,7 +204,7 @@ class _Points:
             self.realisations = self.realisations if self._varied else 1
 
     def fly_fresh(self, row: int, names: Sequence[str]) -> Fresh:
-        """The point of a flight with noise that no flight of the search had."""
+        """Simulate the point of a flight with noise that no flight of the search had."""
         assert self.over is not None
         whole, count = self.flown.whole(), self.over.fresh
         columns = {name: np.full(count, whole.draws[name][row]) for name in names}
@@ -211,7 +212,7 @@ class _Points:
         return Fresh(values, self.over.quantile)
 
     def row_of(self, place: np.ndarray, value: float) -> int:
-        """The first flight of a point that has its objective: quantiles are values of flights."""
+        """Return the first flight of a point that has its objective: quantiles are values of flights."""
         whole = self.flown.whole()
         return int(np.argmax(np.all(whole.points == place, axis=1) & (whole.values == value)))
 
