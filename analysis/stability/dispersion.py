@@ -53,7 +53,8 @@ def disperse(
 
 
 def models_of_trial(study: PointStudy, plan: BatchPlan, trial: int, cells: Sequence[int]) -> dict[str, LoopModel]:
-    """The loop of every channel at the draws of one trial; ``study`` is of a system that has the campaign's layer.
+    """Return the loop of every channel at the draws of one trial; ``study`` is of a system that has the campaign's
+    layer.
 
     Raises InputError, StudyError.
     """
@@ -67,7 +68,7 @@ def models_of_trial(study: PointStudy, plan: BatchPlan, trial: int, cells: Seque
 
 
 def vary(plan: BatchPlan) -> list[str]:
-    """The parameters that trials of a campaign set."""
+    """Return the parameters that trials of a campaign set."""
     (variant,) = plan.campaign.variants()
     prepared = plan.prepare(variant)
     return sorted(plan.parameters(prepared, 0))

@@ -24,12 +24,12 @@ Judgeable = LoopReport | JointReport | Dispersion
 
 
 def in_both_orders(request: Request, make: Callable[[Request], StabilityReport]) -> StabilityReport:
-    """The study that ``make`` makes of a request, judged in both orders where a loop passes an undeclared FMU.
+    """Run the study ``make`` of a request, in both orders where a loop passes an undeclared FMU.
 
-    Of several such FMUs the extremes are studied: none of them with feedthrough, which is what flies, and all. Where
-    all would close an algebraic loop, those at which the initialisation cuts it stay without: a component that cannot
-    be direct is stepped as it must be. Sweeps and nonlinear elements are those of what flies. Where no flight with
-    feedthrough can be studied, what passes or fails without it is withheld. Raises as ``make`` does for the request.
+    Of several such FMUs the extremes are studied: none of them with feedthrough, as simulated, and all. Where all would
+    close an algebraic loop, those at which the initialisation cuts it stay without: a component that cannot be direct
+    is stepped as it must be. Sweeps and nonlinear elements are those of the simulated order. Where no flight with
+    feedthrough can be studied, verdicts without it are withheld. Raises as ``make`` does for the request.
     """
     report = make(request)
     subject = Subject(request.system, request.options)
@@ -66,7 +66,7 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityReport])
 
 
 def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> bool:
-    """Whether components can have feedthrough together: whether that closes no algebraic loop."""
+    """Return True if components can have feedthrough together without closing an algebraic loop."""
     options = subject.options.but(feedthrough=(*subject.options.chosen["feedthrough"], *names))
     trial = replace(subject, options=options)
     try:
@@ -78,7 +78,7 @@ def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> 
 
 
 def _on_loops(prepared: PreparedSystem) -> set[str]:
-    """The components whose outputs come back to them over connections."""
+    """Return the components whose outputs return to them over connections."""
     readers: dict[str, set[str]] = {}
     for link in prepared.network.links():
         start = origin(prepared.network, link).component
@@ -99,7 +99,7 @@ def _on_loops(prepared: PreparedSystem) -> set[str]:
 
 
 def _merge_verdicts(report: StabilityReport, orders: Orders) -> StabilityReport:
-    """The report with the requirements of both orders, where there are two."""
+    """Return the report with the requirements of both orders, where there are two."""
     if orders.report is None:
         return replace(report, orders=orders)
     loops = {(loop.name, loop.point): loop for loop in orders.report.loops}
@@ -116,7 +116,7 @@ def _merge_verdicts(report: StabilityReport, orders: Orders) -> StabilityReport:
 
 
 def _withhold(lost: Unstudied, other: StabilityReport) -> Unstudied:
-    """A loop that fails without figures in one order only is withheld."""
+    """Withhold a loop that fails without figures in one order only."""
     here = (lost.name, lost.point)
     fails = any((each.name, each.point) == here and each.verdict is Verdict.FAIL for each in other.unstudied)
     unstable = any((loop.name, loop.point) == here and loop.margins.unstable for loop in other.loops)
@@ -126,7 +126,8 @@ def _withhold(lost: Unstudied, other: StabilityReport) -> Unstudied:
 
 
 def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
-    """A loop with the requirements of both orders; where the responses differ in the other order, nothing passes."""
+    """Return a loop with the requirements of both orders; where the responses differ in the
+    other order, nothing passes."""
     note = "" if other is None or not other.doubted else DIFFERENT
     judged = replace(loop, requirements=_both(loop, other, note))
     if loop.dispersion is not None:
@@ -136,7 +137,7 @@ def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
 
 
 def _both(one: Judgeable, another: Judgeable | None, note: str = "") -> tuple[Requirement, ...]:
-    """The requirements of one order, each with that of the other."""
+    """Return the requirements of one order, each with that of the other."""
     by_title = {} if another is None else {other.title: other for other in another.requirements}
     paired = []
     for item in one.requirements:

@@ -34,7 +34,7 @@ Replay = Callable[[Request, str, int], str]  # the command that studies a loop a
 
 @dataclass
 class PointResult:
-    """What the study of one point finds; ``cells`` is the memory that matters there, None without a linear model."""
+    """Result of the study of one point; ``cells`` is the memory that matters there, None without a linear model."""
 
     report: PointReport
     loops: list[LoopReport]
@@ -174,7 +174,7 @@ def _vary(
     unstudied: list[Unstudied],
     tell: Tell,
 ) -> None:
-    """What needs the linearisation with something changed: the step, the campaign."""
+    """Add results that repeat the linearisation with a change: the step, the campaign."""
     loops = [loop for loop in request.loops_at(point) if any(report.loop == loop.name for report in reports)]
     steps = vary_step(subject, point, loops, step, cells, [report.name for report in reports], tell)
     spread: dict[str, Dispersion] = {}

@@ -65,7 +65,7 @@ def run_sweep(
 
 
 def _unit(prepared: PreparedSystem, parameter: str) -> str | None:
-    """The unit of ``component.variable``; None where there is no such parameter, which the settings refuse."""
+    """Return the unit of ``component.variable``; None where there is no such parameter, which the settings refuse."""
     for component, fmu in prepared.network.fmus.items():
         variable = fmu.variables.get(parameter.removeprefix(f"{component}."))
         if parameter.startswith(f"{component}.") and variable is not None:
@@ -74,9 +74,9 @@ def _unit(prepared: PreparedSystem, parameter: str) -> str | None:
 
 
 def _crossings(at: At, low: float, high: float, wanted: dict[Quantity, float]) -> list[SweepCrossing]:
-    """What is crossed between two neighbouring values.
+    """Return the limits crossed between two neighbouring values.
 
-    Where the loop becomes unstable in between, limits are looked for on the stable side only: a margin that is still
+    Where the loop becomes unstable in between, limits are searched on the stable side only: a margin that is still
     above its limit there does not reach it, it ends.
     """
     crossings: list[SweepCrossing] = []

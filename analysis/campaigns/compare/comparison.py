@@ -80,7 +80,7 @@ class Comparison:
 
     @cached_property
     def rates(self) -> list[Metric | None]:
-        """What is a yes or a no in every trial: success (None), then metrics that are true or false."""
+        """Metrics that are true or false in every trial, after success (None)."""
         return [None, *(metric for metric in self._all_metrics if metric.name in self._truths)]
 
     @cached_property
@@ -107,12 +107,12 @@ class Comparison:
         return truths
 
     def values(self, label: str, metric: str) -> np.ndarray:
-        """A metric in every trial of a contender; nan where its batch does not have that metric."""
+        """Return a metric in every trial of a contender; nan where its batch does not have that metric."""
         trials = self.contenders[label].trials
         return np.asarray(trials.metrics.get(metric, np.full(len(trials), np.nan)), dtype=float)
 
     def outcomes(self, label: str, rate: Metric | None) -> np.ndarray:
-        """Whether each trial of a contender is a yes; one whose metric is not finite is a no."""
+        """Return for each trial of a contender if it is a yes; one whose metric is not finite is a no."""
         if rate is None:
             return self.contenders[label].trials.success
         values = self.values(label, rate.name)
@@ -165,7 +165,7 @@ class Comparison:
         return pairs
 
     def against_reference(self, pair: tuple[str, str]) -> bool:
-        """Whether B of a pair is what others are put against: the reference variant, or the first batch."""
+        """Return True if B of a pair is the reference of others: the reference variant, or the first batch."""
         first, second = (self.contenders[label] for label in pair)
         return second.name == self.reference if first.batch == second.batch else second.batch == 0
 
@@ -173,7 +173,7 @@ class Comparison:
         return compare_rates(self.outcomes(pair[0], rate), self.outcomes(pair[1], rate))
 
     def pair_values(self, pair: tuple[str, str], metric: str, successful: bool) -> PairedValues:
-        """A metric of two contenders on the same trials: those in which both succeed, or all."""
+        """Return a metric of two contenders on the same trials: those in which both succeed, or all."""
         a, b = (self.values(label, metric) for label in pair)
         if successful:
             both = self.outcomes(pair[0], None) & self.outcomes(pair[1], None)
@@ -182,11 +182,11 @@ class Comparison:
 
     @property
     def has_faults(self) -> bool:
-        """Whether any of the batches flew with faults."""
+        """True if any of the batches has faults."""
         return any(batch.faults for batch in self.batches.values())
 
     def content(self) -> dict[str, object]:
-        """The comparison as JSON: provenance of every batch, per contender its numbers, per pair theirs."""
+        """Return the comparison as JSON: provenance of every batch, per contender its numbers, per pair theirs."""
         group: dict[str, object] = {} if self.group is None else {"group": self.group}
         return group | {
             "batches": {str(batch.folder): batch.provenance for batch in self.batches.values()},
@@ -216,7 +216,7 @@ class Comparison:
         return set().union(*(expression.names for expression in self.judged_expressions))
 
     def text(self, metrics: Sequence[str] = ()) -> str:
-        """The comparison for a terminal: rates with intervals, then metrics of the successful trials.
+        """Return the comparison for a terminal: rates with intervals, then metrics of the successful trials.
 
         ``metrics`` are those to print, or ``all``; else those of success and requirements. Raises InputError for one
         that no batch has.
@@ -247,7 +247,7 @@ class Comparison:
 
 
 def rate_text(rate: Rate, text: Callable[[float], str] = percent) -> str:
-    """A rate with its interval, in per cent as ``text`` writes it."""
+    """Format a rate with its interval, in per cent as ``text`` writes it."""
     low, high = rate.interval
     return f"{text(rate.rate)} ({text(low)} to {text(high)})"
 

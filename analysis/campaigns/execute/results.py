@@ -1,4 +1,4 @@
-"""What a batch leaves: a table of trials, a summary, files."""
+"""Results of a batch: a table of trials, a summary, files."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class BatchResult:
 
     @classmethod
     def finish(cls, campaign: PreparedCampaign, rows: Mapping[str, TrialTable], **more: Any) -> Self:
-        """The result of a campaign's first trials, by variant; its summary completes the campaign's folder.
+        """Return the result of a campaign's first trials, by variant; its summary completes the campaign's folder.
 
         ``more`` are further fields of a derived class.
         """
@@ -80,13 +80,14 @@ class BatchResult:
 
     @cached_property
     def plotted(self) -> dict[str, PlottedSample]:
-        """What figures show of each variant."""
+        """Samples of each variant that figures show."""
         campaign = self.plan.campaign
         metrics = [metric.name for metric in campaign.metrics]
         return {variant: select_trials(rows, campaign.input_names(), metrics) for variant, rows in self.rows.items()}
 
     def table(self) -> pyarrow.Table:
-        """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
+        """Return a row per variant and trial: variant, trial, status, draws, the campaign's faults, final values,
+        metrics.
 
         The metadata of a column's field say its ``unit``, ``kind`` and ``meaning``.
         """
@@ -95,11 +96,11 @@ class BatchResult:
         return pyarrow.Table.from_arrays(table.columns, schema=schema)
 
     def content(self) -> dict[str, object]:
-        """The machine-readable result: provenance and the summary of each variant."""
+        """Return the machine-readable result: provenance and the summary of each variant."""
         return {**self.provenance, "variants": to_json(self.summary)}
 
     def text(self, metrics: Sequence[str] = ()) -> str:
-        """The summary for a terminal, with these metrics or ``all``; else those of success and requirements.
+        """Return the summary for a terminal, with these metrics or ``all``; else those of success and requirements.
 
         Raises InputError for a metric that the campaign does not have.
         """

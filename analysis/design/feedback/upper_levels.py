@@ -49,7 +49,7 @@ class UpperLevels:
     """All gains that give the level above the zeroth its poles, by ``size`` numbers."""
 
     def __init__(self, level: ZerothLevel, upper: Spectrum) -> None:
-        """Raises PlacementError for a pole that is repeated more often than the level has inputs."""
+        """Raise PlacementError for a pole that is repeated more often than the level has inputs."""
         self.level, self.upper = level, upper
         self.levels, self.family = family_of(*level.above, upper)
         self.divisors = null_space(level.above[1])

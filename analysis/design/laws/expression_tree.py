@@ -28,7 +28,7 @@ class Node:
 
 
 def expression_tree(matrix: Sequence[Sequence[int]]) -> tuple[Node, ...]:
-    """The nodes of the outputs, u1 and u2."""
+    """Return the nodes of the outputs, u1 and u2."""
     nodes: dict[int, Node] = {}
     for column in range(SIZE):
         terms = [(matrix[row][column], nodes[row + 1]) for row in range(column) if matrix[row][column]]

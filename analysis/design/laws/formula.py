@@ -1,4 +1,4 @@
-"""A law in writing: a line for every shared part and for each output, as a reader would put it down."""
+"""A law as formulas: a line for every shared subexpression and for each output, as a reader would write it."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ NEEDS_A_NAME = {
 
 
 class Text(NamedTuple):
-    """Part of a formula and how tightly it binds."""
+    """Fragment of a formula, with the level at which it binds."""
 
     text: str
     level: int
 
     def at(self, level: int) -> str:
-        """The text as it stands where at least ``level`` is needed."""
+        """Return the text as it stands where at least ``level`` is needed."""
         return self.text if self.level >= level else f"({self.text})"
 
 

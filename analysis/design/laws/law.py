@@ -62,7 +62,7 @@ class Law:
 
 
 def find_law(name: str, folder: Path | None = None) -> Path:
-    """The file of a law: NAME for laws/NAME.json of this repository, else a path, relative to ``folder``."""
+    """Return the file of a law: NAME for laws/NAME.json of this repository, else a path, relative to ``folder``."""
     if (LAWS / f"{name}.json").is_file() and Path(name).name == name:
         return LAWS / f"{name}.json"
     path = (folder or Path()) / name
@@ -73,7 +73,7 @@ def find_law(name: str, folder: Path | None = None) -> Path:
 
 
 def read_law(path: Path) -> Law:
-    """The law in a file. Raises InputError, for a wrong matrix with the cell: matrix[row,column], from 1."""
+    """Read the law in a file. Raises InputError, for a wrong matrix with the cell: matrix[row,column], from 1."""
     try:
         text = read_input(path, "give a law's file", CAMPAIGN_BYTES).decode("utf-8")
     except UnicodeDecodeError as error:
@@ -86,7 +86,7 @@ def read_law(path: Path) -> Law:
 
 
 def law_of(document: object, file: str) -> Law:
-    """The law in the content of a JSON file called ``file`` in errors. Raises InputError."""
+    """Read the law in the content of a JSON file called ``file`` in errors. Raises InputError."""
 
     def refuse(element: str, problem: str, remedy: str) -> NoReturn:
         raise InputError(file, element, problem, remedy)
@@ -138,7 +138,7 @@ def _matrix(rows: object, file: str) -> Matrix:
 
 
 def _wrong(row: int, column: int, entry: object) -> tuple[str, str] | None:
-    """What is wrong with a cell, and what to do; rows and columns from 1."""
+    """Return the problem of a cell, and its remedy; rows and columns from 1."""
     if isinstance(entry, bool) or not isinstance(entry, int):
         return f"{entry!r} is not a whole number", "write an integer"
     if row > column:
@@ -176,7 +176,7 @@ def _refuse_constant(text: str) -> NoReturn:
 
 
 def law_parameters(law: Law, component: str) -> dict[str, int | float]:
-    """The law as values of ``component``'s parameters matrix, q and exp_saturation, by name."""
+    """Return the law as values of ``component``'s parameters matrix, q and exp_saturation, by name."""
     values: dict[str, int | float] = {}
     for row, entries in enumerate(law.matrix, 1):
         for column, entry in enumerate(entries, 1):
@@ -188,5 +188,5 @@ def law_parameters(law: Law, component: str) -> dict[str, int | float]:
 
 
 def parameter_set(law: Law, component: str) -> bytes:
-    """The content of an .ssv file with the whole law, zeros of the matrix included."""
+    """Return the content of an .ssv file with the whole law, zeros of the matrix included."""
     return write_parameter_set(law.name, law_parameters(law, component), law.description)

@@ -75,7 +75,7 @@ class Layout:
         self.layers = best
 
     def crossings(self) -> int:
-        """How many pairs of edges cross between neighbouring layers."""
+        """Count the pairs of edges that cross between neighbouring layers."""
         total = 0
         for left, right in itertools.pairwise(self.layers):
             position = {place: index for index, place in enumerate(right)}
@@ -107,7 +107,7 @@ class Layout:
 
 
 def longest_paths(nodes: Sequence[int], edges: Sequence[Edge]) -> Mapping[int, int]:
-    """The number of edges on the longest way to each node; ``nodes`` in an order in which edges lead forward."""
+    """Return the number of edges on the longest way to each node; ``nodes`` in an order in which edges lead forward."""
     length = dict.fromkeys(nodes, 0)
     for node in nodes:
         for start, end in edges:

@@ -37,7 +37,7 @@ def ackermann(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback
 def ackermann_of(
     a: np.ndarray, b: np.ndarray, coefficients: np.ndarray, wanted: np.ndarray | None = None
 ) -> StateFeedback:
-    """The gain of given N (p, m, m); ``wanted`` are its poles where they are known. Raises PlacementError."""
+    """Return the gain of N (p, m, m); ``wanted`` are its poles where they are known. Raises PlacementError."""
     rows, condition = last_rows(a, b)
     gain = rows
     for block in coefficients[::-1]:  # Horner
@@ -48,7 +48,7 @@ def ackermann_of(
 
 
 def coefficients_of(a: np.ndarray, b: np.ndarray, gain: np.ndarray) -> np.ndarray:
-    """The N (p, m, m) of any u = -K x: N = (K - T A^p) V^-1. Raises PlacementError."""
+    """Return the N (p, m, m) of any u = -K x: N = (K - T A^p) V^-1. Raises PlacementError."""
     stack, power, _ = row_stack(a, b)
     return split(np.linalg.solve(stack.T, (gain - power).T).T, b.shape[1])
 

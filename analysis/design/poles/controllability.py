@@ -1,7 +1,7 @@
 """Controllability of a pair (A, B): the matrix U, the indices, and placement by them for any pair and any spectrum.
 
 With Q = [b_1 .. A^(k_1 - 1) b_1, b_2 ..], t_i the row of Q^-1 at the end of block i, Gamma = [t_i A^(k_i - 1) B] and
-phi_i the wanted polynomial of degree k_i, u = -K x with K = Gamma^-1 [t_i phi_i(A)]. Inputs with k_i = 0 get no gain.
+phi_i the required polynomial of degree k_i, u = -K x with K = Gamma^-1 [t_i phi_i(A)]. Inputs with k_i = 0 get no gain.
 Source: Kalman (1960); indices and canonical form: Luenberger, "Canonical forms for linear multivariable systems", IEEE
 Transactions on Automatic Control 12 (1967); the gain was derived here: t_i (A - B K)^j = t_i A^j for j < k_i, and then
 t_i phi_i(A - B K) = 0.

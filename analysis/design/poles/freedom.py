@@ -1,16 +1,16 @@
 """The freedom of a placement with several inputs, used: least condition of the eigenvectors, or least gain.
 
-The eigenvector x of a pole lies in the null space of P (A - lambda I), P with orthonormal rows and P B = 0, of as many
+The eigenvector x of a pole is in the null space of P (A - lambda I), P with orthonormal rows and P B = 0, of as many
 dimensions as B has rank, and is free in it: Moore, "On the flexibility offered by state feedback in multivariable
 systems beyond closed loop eigenvalue assignment", IEEE Transactions on Automatic Control 21 (1976).
 
-A level's Phi_i = S_i D_i S_i^-1 has the poles D_i for any S_i, and the poles can be spread over the levels. Which
-closed loops come out are those of Moore's eigenvectors, so the search is among these, where every
-point is a closed loop and nothing is singular: quasi-Newton steps (BFGS) from several starts, the best kept. What it
-finds is put on the levels again (`on_levels`), which place it exactly. The search was made here; the criteria are
-those of Kautsky, Nichols and Van Dooren, "Robust pole assignment in linear state feedback", International Journal of
-Control 41 (1985) and of Kochetkov and Utkin, "Minimizing the feedback matrix norm in modal control problems",
-Automation and Remote Control 75 (2014).
+A level's Phi_i = S_i D_i S_i^-1 has the poles D_i for any S_i, and the poles can be spread over the levels. The
+attainable closed loops are those of Moore's eigenvectors, so the search is among these, where every point is a closed
+loop and nothing is singular: quasi-Newton steps (BFGS) from several starts, the best kept. What it finds is put on the
+levels again (`on_levels`), which place it exactly. The search is ours; the criteria are those of Kautsky, Nichols and
+Van Dooren, "Robust pole assignment in linear state feedback", International Journal of Control 41 (1985) and of
+Kochetkov and Utkin, "Minimizing the feedback matrix norm in modal control problems", Automation and Remote Control 75
+(2014).
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Eigenvectors:
     """
 
     def __init__(self, level: Level, spectrum: Spectrum) -> None:
-        """Of the pair on level 0, with as many poles as it has states."""
+        """Prepare the pair on level 0, with as many poles as it has states."""
         self.spectrum = spectrum
         self.a, self.inverse = level.a, np.linalg.pinv(level.b)
         self.reals, self.pairs, self._rank = len(spectrum.real), len(spectrum.pairs), level.rank
@@ -68,7 +68,7 @@ class Eigenvectors:
         return np.linalg.solve(vectors.T, driven.T).T
 
     def slope(self, free: np.ndarray, by_vectors: np.ndarray) -> np.ndarray:
-        """The gradient in the parameters of a function whose gradient in Y is given."""
+        """Return the gradient in the parameters of a function with the gradient ``by_vectors`` in Y."""
         directions, sizes = self._directions(free)
         parts = by_vectors.T
         middle = self.reals + self.pairs
@@ -99,7 +99,7 @@ class Eigenvectors:
 def least_condition(
     a: np.ndarray, b: np.ndarray, spectrum: Spectrum, starts: int, seed: int, tolerance: float = TOLERANCE
 ) -> StateFeedback:
-    """The placement of least kappa that ``starts`` searches find. Raises PlacementError.
+    """Return the placement of least kappa that ``starts`` searches find. Raises PlacementError.
 
     They minimise |Y|_q |Y^-1|_q of the eigenvectors Y in Schatten norms of growing order q.
     """
@@ -111,7 +111,7 @@ def least_condition(
 def least_norm(
     a: np.ndarray, b: np.ndarray, spectrum: Spectrum, starts: int, seed: int, tolerance: float = TOLERANCE
 ) -> StateFeedback:
-    """The placement of least |K| that ``starts`` searches find. Raises PlacementError.
+    """Return the placement of least |K| that ``starts`` searches find. Raises PlacementError.
 
     They minimise Schatten norms of growing order q.
     """
@@ -139,7 +139,7 @@ def gain_norm(family: Eigenvectors, vectors: np.ndarray, order: float) -> tuple[
 
 
 def on_levels(levels: Sequence[Level], family: Eigenvectors, free: np.ndarray) -> StateFeedback:
-    """The placement with these eigenvectors, by its Phi_i.
+    """Return the placement with these eigenvectors, by its Phi_i.
 
     Phi of a level has as left eigenvectors w Bt, w rows of the inverse of the eigenvectors; which rows, pivoting
     chooses, so that they are well conditioned. They are B^- but for a factor, and (Bt^+ - B^-) P' is the gain of the
@@ -162,7 +162,7 @@ def on_levels(levels: Sequence[Level], family: Eigenvectors, free: np.ndarray) -
 def family_of(
     a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE
 ) -> tuple[list[Level], Eigenvectors]:
-    """The levels of a pair, and the eigenvectors that its closed loops may have. Raises PlacementError."""
+    """Return the levels of a pair, and the eigenvectors that its closed loops may have. Raises PlacementError."""
     levels = decompose(a, b, tolerance)
     rank = levels[0].rank
     maximum = max(np.unique(spectrum.poles, return_counts=True)[1])
@@ -173,9 +173,9 @@ def family_of(
 
 
 def _search(family: Eigenvectors, objectives: Sequence[Objective], starts: int, seed: int) -> np.ndarray:
-    """The parameters at the least value of the last objective.
+    """Return the parameters at the least value of the last objective.
 
-    All starts go down the first objective a part of the way, the best of them down all objectives.
+    All starts go down the first objective for some steps, the best of them down all objectives.
     """
     random = np.random.default_rng(seed)
     first = [_down(family, objectives[0], random.normal(size=family.parameters), *_COARSE) for _ in range(starts)]
@@ -190,7 +190,7 @@ def _search(family: Eigenvectors, objectives: Sequence[Objective], starts: int, 
 def _down(
     family: Eigenvectors, objective: Objective, free: np.ndarray, slope: float, steps: int
 ) -> tuple[float, np.ndarray]:
-    """Value and place where the gradient is below ``slope``, or after so many steps."""
+    """Return value and parameters where the gradient is below ``slope``, or after ``steps`` steps."""
 
     def value(at: np.ndarray) -> tuple[float, np.ndarray]:
         size, by_vectors = objective(family.at(at))
@@ -201,7 +201,7 @@ def _down(
 
 
 def _norm(sizes: np.ndarray, order: float) -> tuple[float, np.ndarray]:
-    """The logarithm of a Schatten norm, and its gradient in the singular values."""
+    """Return the logarithm of a Schatten norm, and its gradient in the singular values."""
     largest = np.max(sizes)
     powers = (sizes / largest) ** (order - 1.0)
     total = np.sum(powers * sizes / largest)

@@ -45,12 +45,12 @@ class Level:
 def decompose(
     a: np.ndarray, b: np.ndarray, tolerance: float = TOLERANCE, sizes: Sequence[int] | None = None
 ) -> list[Level]:
-    """The levels of a pair, level 0 first.
+    """Return the levels of a pair, level 0 first.
 
     Bt = U S and R = V' of the singular value decomposition; values above ``tolerance`` of |B| are kept, on the levels
     above of |A| |Bt| of the level below. With ``sizes`` the levels are the first states, the next and so on instead,
-    and Bt picks them, so that a level's Phi is meant in these coordinates.
-    Raises PlacementError for a pair that is not controllable, or states that are not what a level drives.
+    and Bt picks them, so that a level's Phi is meant in these coordinates. Raises PlacementError for a pair that is not
+    controllable, or states that are not what a level drives.
     """
     levels: list[Level] = []
     scale = float(np.linalg.norm(b, 2))
@@ -81,7 +81,7 @@ def decompose(
 def assemble(
     levels: Sequence[Level], wanted: Sequence[np.ndarray], above: Sequence[np.ndarray] | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """K of u = K x and B^-, both of level 0, for Phi_i = ``wanted``, real or complex, level 0 first.
+    """Return K of u = K x and B^-, both of level 0, for Phi_i = ``wanted``, real or complex, level 0 first.
 
     ``above`` has for each level the gain that the level above should have. What R of that level maps to 0 is taken from
     there: Phi does not say it. Without it that is 0.
@@ -106,7 +106,7 @@ def place_on_levels(
     method: str = "multilevel",
     above: Sequence[np.ndarray] | None = None,
 ) -> StateFeedback:
-    """The gain of u = -K x for Phi_i = ``wanted``, level 0 first, which have the ``poles`` together."""
+    """Return the gain of u = -K x for Phi_i = ``wanted``, level 0 first, which have the ``poles`` together."""
     gain = -np.real(assemble(levels, wanted, above)[0])
     closed_loop = levels[0].a - levels[0].b @ gain
     return StateFeedback(method, gain, poles, closed_loop, levels=[level.values for level in levels])

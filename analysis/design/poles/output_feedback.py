@@ -19,14 +19,14 @@ from .zeroth_level import ZerothLevel, direct, square
 
 
 class Route(StrEnum):
-    """Which plant is decomposed."""
+    """Plant that is decomposed."""
 
     DIRECT = "direct"  # (A, B, C): the upper level takes n - m poles
     DUAL = "dual"  # (A', C', B'), F transposed: n - p poles
 
 
 class Spread(StrEnum):
-    """Which of the ways to spread the poles over the levels is taken."""
+    """Way of spreading the poles over the levels."""
 
     FIRST = "first"  # that applies
     LEAST_NORM = "least_norm"  # the smallest of all
@@ -45,14 +45,14 @@ def output_feedback(
     starts: int = 20,
     seed: int = 0,
 ) -> OutputFeedback:
-    """The gain F (m, p) of **u = F y** that gives A + B F C the poles, for m + p >= n.
+    """Return the gain F (m, p) of **u = F y** with which A + B F C has the poles, for m + p >= n.
 
     ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n), of full ranks; ``poles`` as in `place`. ``method`` is direct or
     dual, both without one; ``upper`` names the poles of the upper level (n - m of them, dual n - p). Else ``choice`` is
     first, the first spread that applies; least_norm: every real spread is tried and the smallest |F| returned; or
     smallest, a search from there in the set of all F with these poles, which is m p - n numbers wide. For m + p > n
-    generic plants have a solution; for m + p = n one is searched for from ``starts`` starts.
-    Raises InputError; PlacementError where no spread that may be tried applies, with the reason of the last.
+    generic plants have a solution; for m + p = n one is searched for from ``starts`` starts. Raises InputError;
+    PlacementError where no spread that may be tried applies, with the reason of the last.
     """
     state = state_matrix(a)
     plant = state, input_matrix(b, len(state)), output_matrix(c, len(state))

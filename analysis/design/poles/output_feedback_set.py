@@ -4,13 +4,13 @@ A state feedback K(N) is an output feedback, K = -F C, when K(N) C^perp = 0. Tha
 remain free: N = N* + sum z_j N^j. The spectrum is that of the block companion of N.
 
 Plants A(q_k), k = 1 .. s, with one B and C can have a common F (m, p): a regulator free of a plant's parameters.
-Elements of the N_i that are prescribed have one value for all plants, the others are unknown for each. For all k
+Elements of the N_i that are prescribed have one value for all plants, the others are unknown for each plant. For all k
 
     T_k A_k^p + sum_i N_i,k T_k A_k^i = -F C
 
-is linear in the unknowns, each row by itself, and solved by least squares. When it holds the regulator does not
-contain q, and the prescribed part of the closed loop does not either.
-Lapin's thesis (2.3.2) has the aim; the equations were derived here.
+is linear in the unknowns, each row by itself, and solved by least squares. When it holds the regulator does not contain
+q, and the prescribed part of the closed loop does not either. Lapin's thesis (2.3.2) has the aim; the equations are
+ours.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class OutputFeedbackSet:
 
     @property
     def free(self) -> int:
-        """How many numbers z has."""
+        """Number of the elements of z."""
         return len(self.directions)
 
     def coefficients(self, z: ArrayLike) -> np.ndarray:
@@ -65,7 +65,7 @@ class OutputFeedbackSet:
         )
 
     def parameters_of(self, gain: ArrayLike) -> np.ndarray:
-        """The z (free,) of any F (m, p). Raises InputError."""
+        """Return the z (free,) of any F (m, p). Raises InputError."""
         matrix = real_matrix("F", gain, (self.b.shape[1], len(self.c)))
         stack, power, _ = row_stack(self.a, self.b)
         apart = split(np.linalg.solve(stack.T, (-matrix @ self.c - power).T).T, self.b.shape[1]) - self.particular
@@ -116,7 +116,7 @@ class CommonFeedback:
 def common_feedback(
     plants: Sequence[ArrayLike], b: ArrayLike, c: ArrayLike, wanted: Sequence[ArrayLike] | np.ndarray
 ) -> CommonFeedback:
-    """The F of u = F y that gives every plant the prescribed coefficients.
+    """Return the F of u = F y that gives every plant the prescribed coefficients.
 
     ``plants`` are A (n, n), ``b`` is B (n, m), ``c`` C (p, n), n = p_u m. ``wanted`` (p_u, m, m), N_0 first, holds the
     prescribed elements of the N_i, and nan where an element is free for each plant. Raises InputError, and

@@ -33,7 +33,7 @@ _ORTHONORMAL = 1e-9
 
 
 class Choice(StrEnum):
-    """What is done with the freedom that several inputs leave."""
+    """Use of the freedom that several inputs leave."""
 
     DIAGONAL = "diagonal"  # nothing: diagonal matrices, blocks for pairs
     LEAST_CONDITION = "least_condition"  # of the eigenvectors
@@ -61,15 +61,15 @@ def place(
     starts: int = STARTS,
     seed: int = 0,
 ) -> StateFeedback:
-    """The gain K (m, n) of **u = -K x** that gives A - B K the poles, as scipy's and python-control's functions do.
+    """Return the gain K (m, n) of **u = -K x** with which A - B K has the poles, as scipy and python-control do.
 
     ``a`` is A (n, n), ``b`` B (n, m) of x' = A x + B u, or of a sampled plant; ``poles`` are n real or complex numbers
-    (1/s, or multipliers), conjugates both given, repeated ones repeated. ``method`` is ackermann, bass_gura, indices or
+    (1/s, or multipliers), conjugates in pairs, repeated ones repeated. ``method`` is ackermann, bass_gura, indices or
     multilevel; without one it is multilevel where its levels have room for the pairs, else indices, and the result's
     ``method`` says which. ``choice`` is diagonal, least_condition (of the eigenvectors: poles that move least) or
     least_norm (of K), found by ``starts`` searches from ``seed`` and placed by multilevel. What is new in indices and
-    multilevel counts above ``tolerance`` of the matrices that it comes from, 1e-9: their units matter here.
-    Raises InputError; PlacementError where a method does not apply.
+    multilevel counts above ``tolerance`` of the matrices that it comes from, 1e-9: their units matter here. Raises
+    InputError; PlacementError where a method does not apply.
     """
     state = state_matrix(a)
     inputs = input_matrix(b, len(state))
@@ -111,13 +111,13 @@ def place_levels(
     bases: Sequence[ArrayLike] | None = None,
     tolerance: float | None = None,
 ) -> StateFeedback:
-    """The gain K of u = -K x from the matrix Phi_i that each level of the multilevel decomposition should have.
+    """Return the gain K of u = -K x from the matrix Phi_i that each level of the multilevel decomposition should have.
 
     ``matrices`` are real, (r_i, r_i), level 0 (what the inputs drive) first. ``bases`` (n, r_i) are orthonormal columns
     that span the levels; then the closed loop is z' = Phi_i z in these coordinates of the level, driven from the level
     below only, as with angles and rates: bases [I[:, 3:], I[:, :3]] of x = (angles, rates). Without them they are those
-    of singular value decompositions, and K is unique only for multiples of I. ``tolerance`` is as in `place`.
-    Raises InputError and PlacementError.
+    of singular value decompositions, and K is unique only for multiples of I. ``tolerance`` is as in `place`. Raises
+    InputError and PlacementError.
     """
     state = state_matrix(a)
     inputs = input_matrix(b, len(state))
@@ -146,7 +146,7 @@ def place_levels(
 
 
 def place_polynomial(a: ArrayLike, b: ArrayLike, coefficients: Sequence[ArrayLike] | np.ndarray) -> StateFeedback:
-    """The gain K of u = -K x with det(s I - A + B K) = det(I s^p + N_(p-1) s^(p-1) + .. + N_0), n = p m.
+    """Return the gain K of u = -K x with det(s I - A + B K) = det(I s^p + N_(p-1) s^(p-1) + .. + N_0), n = p m.
 
     ``coefficients`` are the N (p, m, m), N_0 first: generalised Ackermann formula. Raises InputError, PlacementError.
     """
@@ -158,7 +158,8 @@ def place_polynomial(a: ArrayLike, b: ArrayLike, coefficients: Sequence[ArrayLik
 
 
 def polynomial_of_gain(a: ArrayLike, b: ArrayLike, gain: ArrayLike) -> np.ndarray:
-    """The N (p, m, m) with which `place_polynomial` gives this K (m, n). Raises InputError and PlacementError."""
+    """Return the N (p, m, m) with which `place_polynomial` returns this K (m, n). Raises InputError and
+    PlacementError."""
     state = state_matrix(a)
     inputs = input_matrix(b, len(state))
     return coefficients_of(state, inputs, real_matrix("K", gain, inputs.T.shape))
@@ -173,7 +174,7 @@ def _above(tolerance: float | None) -> float:
 
 
 def _whole(bases: Sequence[np.ndarray], states: int) -> np.ndarray:
-    """The bases side by side, an orthonormal basis of the state."""
+    """Return the bases side by side, an orthonormal basis of the state."""
     if all(len(basis) == states for basis in bases) and sum(basis.shape[1] for basis in bases) == states:
         whole = np.hstack(bases)
         if np.max(np.abs(whole.T @ whole - np.eye(states))) <= _ORTHONORMAL:

@@ -1,4 +1,4 @@
-"""The matrices of a plant as they are given: checked, and made real arrays of two dimensions."""
+"""Matrices of a plant as arguments: checked and converted to real arrays of two dimensions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ....common.errors import InputError
 
 
 def state_matrix(value: ArrayLike) -> np.ndarray:
-    """A (n, n). Raises InputError."""
+    """Return A (n, n). Raises InputError."""
     matrix = real_matrix("A", value)
     if matrix.shape[0] != matrix.shape[1] or not matrix.size:
         raise InputError("modal", "A", f"it is {_size(matrix)}", "give a square matrix, n by n")
@@ -37,7 +37,7 @@ def output_matrix(value: ArrayLike, states: int) -> np.ndarray:
 
 
 def real_matrix(name: str, value: ArrayLike | Sequence[ArrayLike], shape: tuple[int, ...] | None = None) -> np.ndarray:
-    """A real, finite array of the ``shape``, or of any with two dimensions. Raises InputError."""
+    """Return a real, finite array of the ``shape``, or of any with two dimensions. Raises InputError."""
     try:
         matrix = np.asarray(value)
     except ValueError:  # rows of different lengths

@@ -1,4 +1,4 @@
-"""Monic matrix polynomials with a wanted determinant.
+"""Monic matrix polynomials with a required determinant.
 
 Phi(s) = I s^p + N_(p-1) s^(p-1) + .. + N_0 is kept as its coefficients N (p, m, m), N_0 first.
 """
@@ -15,10 +15,10 @@ from .spectrum import Spectrum
 
 
 def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
-    """N (largest degree, r, r) of a matrix polynomial that has the spectrum; column j is of degree k_j at most.
+    """Return N (largest degree, r, r) of a matrix polynomial that has the spectrum; column j is of degree k_j at most.
 
-    Each element of the diagonal has poles of its own. Where conjugate pairs outnumber what fits there, a pair a +- i b
-    lies across two elements of odd degree: [(s - a) f, -b g; b f, (s - a) g] has the determinant f g ((s - a)^2 + b^2).
+    Each element of the diagonal has separate poles. Where conjugate pairs outnumber what fits there, a pair a +- i b is
+    across two elements of odd degree: [(s - a) f, -b g; b f, (s - a) g] has the determinant f g ((s - a)^2 + b^2).
     """
     odd = [j for j, degree in enumerate(degrees) if degree % 2]
     across = max(0, len(spectrum.pairs) - sum(degree // 2 for degree in degrees))
@@ -54,7 +54,7 @@ def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
 
 
 def block_companion(coefficients: np.ndarray) -> np.ndarray:
-    """The real matrix (p m, p m) that has the spectrum of the polynomial N (p, m, m)."""
+    """Return the real matrix (p m, p m) that has the spectrum of the polynomial N (p, m, m)."""
     blocks, size, _ = coefficients.shape
     below = np.hstack(list(-coefficients))
     return np.vstack([np.eye((blocks - 1) * size, blocks * size, size), below])

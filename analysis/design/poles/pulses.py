@@ -34,7 +34,7 @@ class PulsedPlant:
 
     @classmethod
     def of(cls, a: ArrayLike, b: ArrayLike, period: float) -> PulsedPlant:
-        """Of arrays as they are given. Raises InputError."""
+        """Return the plant of these arrays. Raises InputError."""
         state = state_matrix(a)
         if not 0.0 < period < np.inf:
             raise InputError("modal", "period", f"it is {period:g} s", "give a time above 0")

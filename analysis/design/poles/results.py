@@ -1,4 +1,4 @@
-"""What every placement returns: the gain and its quality, or the error of a method that does not apply."""
+"""Results of every placement: the gain and its quality, or the error of a method that does not apply."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ class Reason(StrEnum):
 
 
 class PlacementError(InputError):
-    """A ``routine`` that does not apply to what it was given.
+    """Error of a ``routine`` that does not apply to its arguments.
 
-    ``number`` is what decided: the largest singular value left out, n/m, a condition number, a residual. It stands in
-    ``problem``, too; ``remedy`` says what to do.
+    ``number`` is the criterion: the largest singular value left out, n/m, a condition number, a residual. ``problem``
+    states it, too; ``remedy`` says what to do.
     """
 
     def __init__(self, routine: str, reason: Reason, problem: str, number: float, remedy: str) -> None:
@@ -43,11 +43,12 @@ class PlacementError(InputError):
 
 @dataclass(frozen=True)
 class Placement:
-    """A gain and the closed loop that it makes.
+    """A gain and its closed loop.
 
-    ``method`` is what found it; ``wanted`` the poles asked for (n,); ``closed_loop`` the real matrix (n, n) that has
-    them. ``condition_u`` is the condition number of the controllability matrix (of Q for "indices"), None for methods
-    that do not invert one; ``levels`` are the singular values kept on each level of a decomposition, level 0 first.
+    ``method`` is the method that found it; ``wanted`` the requested poles (n,); ``closed_loop`` the real matrix (n, n)
+    that has them. ``condition_u`` is the condition number of the controllability matrix (of Q for "indices"), None for
+    methods that do not invert one; ``levels`` are the singular values kept on each level of a decomposition, level 0
+    first.
     """
 
     method: str
@@ -70,8 +71,8 @@ class Placement:
     def kappa(self) -> float:
         """Condition number of the closed loop's eigenvectors of unit length: how far a small change moves a pole.
 
-        Of a pole wanted several times they are orthogonal where it has as many; infinite, or of the size of 1/eps,
-        where there is no full set.
+        Of a repeated pole they are orthogonal where it has as many; infinite, or of the size of 1/eps, where there is
+        no full set.
         """
         vectors = self._eigen[1].astype(complex)
         places = match(self.wanted, self.poles)
@@ -85,7 +86,7 @@ class Placement:
 
     @cached_property
     def error(self) -> float:
-        """The largest distance of a pole from the wanted one that it is matched with."""
+        """Largest distance of a pole from the required one that it is matched with."""
         return distance(self.wanted, self.poles)
 
     @cached_property

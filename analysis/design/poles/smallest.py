@@ -1,4 +1,4 @@
-"""The smallest of all F that have the wanted poles, from a few that do, and Newton steps on F itself.
+"""The smallest of all F that have the required poles, from a few that do, and Newton steps on F itself.
 
 They are a set m p - n numbers wide, given by the coefficients of the characteristic polynomial, whose derivatives are
 those of det(s I - M): d det = -tr(adj(s I - M) dM), adj(s I - M) by Faddeev and Leverrier. On it |F| is minimised by
@@ -28,7 +28,7 @@ _ALLOWED = 1000.0 * np.finfo(float).eps  # of kappa |Ac|; how far from the poles
 
 
 def polish(feedback: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
-    """The nearest to the wanted poles after some Newton steps, each the smallest that would reach them.
+    """Polish the poles by some Newton steps, each the smallest that would reach them; return the best.
 
     The formulas go through matrices that may be larger than F, and so are the errors that they bring.
     """
@@ -46,7 +46,7 @@ def polish(feedback: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray
 
 
 def smallest(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
-    """Of the feedbacks ``found`` and of where they lead the one with the least |F|.
+    """Return the feedback of least |F| of ``feedbacks`` and of the searches from them.
 
     Raises PlacementError for repeated poles, at which Newton's method has no derivative.
     """
@@ -71,7 +71,8 @@ def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
-    """Where searches end that each begin where the last one ended, as long as that is on the set and smaller."""
+    """Return the end of successive searches, each from the end of the last one, as long as that
+    is on the set and smaller."""
     for _ in range(_ROUNDS):
         end = _search(start, a, b, c)
         if end is None or end.norm >= (1.0 - _WORTH) * start.norm:
@@ -81,7 +82,7 @@ def _from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) ->
 
 
 def _search(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback | None:
-    """Where one search ends, None where that is no F with the poles."""
+    """Return the end of one search, None where that is no F with the poles."""
     radius, scale = float(np.max(np.abs(start.wanted))), float(np.linalg.norm(start.gain))
     wanted = np.poly(start.wanted / radius).real[1:]
     driven = b * (scale / radius)

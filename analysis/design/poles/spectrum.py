@@ -1,4 +1,4 @@
-"""Wanted spectra: poles closed under conjugation, their real matrices, and how they are spread over levels."""
+"""Required spectra: poles closed under conjugation, their real matrices, and their distribution over levels."""
 
 from __future__ import annotations
 
@@ -18,14 +18,15 @@ _CONJUGATE = 1e-8  # relative; how well a pole and its conjugate agree as they a
 
 @dataclass(frozen=True)
 class Spectrum:
-    """The real poles, and of each conjugate pair the one with the positive imaginary part, both ascending."""
+    """Real poles, and of each conjugate pair the one with the positive imaginary part, both ascending."""
 
     real: tuple[float, ...] = ()
     pairs: tuple[complex, ...] = ()
 
     @classmethod
     def of(cls, poles: ArrayLike, size: int, name: str = "poles") -> Spectrum:
-        """``size`` poles as they are given. Raises InputError for another number, or a pole without its conjugate."""
+        """Return the spectrum of ``size`` poles. Raises InputError for another number, or a pole without its
+        conjugate."""
         values = np.asarray(poles)
         if values.dtype.kind not in "biufc" or values.ndim != 1 or not np.all(np.isfinite(values)):
             raise InputError("modal", name, "they are no list of finite numbers", "give real or complex numbers")
@@ -68,7 +69,7 @@ class Spectrum:
         return np.real(np.poly(self.poles))[::-1] if self.size else np.ones(1)
 
     def splits(self, size: int) -> Iterator[tuple[Spectrum, Spectrum]]:
-        """Every part of ``size`` poles that is closed under conjugation, with the rest."""
+        """Yield every subset of ``size`` poles that is closed under conjugation, with the rest."""
         seen = set()
         for count in range(min(size // 2, len(self.pairs)) + 1):
             for pairs in combinations(range(len(self.pairs)), count):
@@ -80,7 +81,7 @@ class Spectrum:
                         yield part, Spectrum(single, tuple(p for i, p in enumerate(self.pairs) if i not in pairs))
 
     def without(self, part: Spectrum) -> Spectrum:
-        """What remains when ``part`` is taken away. Raises InputError for a pole that is not there."""
+        """Return the spectrum without ``part``. Raises InputError for a missing pole."""
         real, pairs = list(self.real), list(self.pairs)
         for pole in (*part.real, *part.pairs):
             if _take(real if isinstance(pole, float) else pairs, pole) is None:
@@ -106,9 +107,9 @@ class Spectrum:
         return [Spectrum.sort(*part) for part in zip(real, pairs, strict=True)]
 
     def rank(self, sizes: Sequence[int]) -> list[Spectrum] | None:
-        """Parts of the ``sizes``, the fastest poles in the first and so on as far as pairs let; None where they do not.
+        """Split the poles into the ``sizes``, the fastest poles first as far as pairs permit; None where they do not.
 
-        A pole goes to the first part that has room for it and leaves room for the pairs to come.
+        A pole goes to the first group that has room for it and leaves room for the pairs to follow.
         """
         room, real, pairs = list(sizes), _lists(sizes), _lists(sizes)
         if not self._fits(room):
@@ -130,7 +131,7 @@ class Spectrum:
 
 
 def _take(poles: list, pole: complex) -> complex | None:
-    """The nearest of the poles, taken out of the list; None when none is the same within rounding."""
+    """Take the nearest pole out of the list; return None when none is the same within rounding."""
     nearest = min(poles, key=lambda other: abs(other - pole), default=None)
     if nearest is None or abs(nearest - pole) > _CONJUGATE * abs(pole):
         return None
@@ -143,13 +144,13 @@ def _lists(sizes: Sequence[int]) -> list[list]:
 
 
 def match(wanted: np.ndarray, actual: np.ndarray) -> np.ndarray:
-    """For each pole found the wanted one, one to one, so that the sum of the distances is least."""
+    """Return for each pole found the required one, one to one, so that the sum of the distances is least."""
     rows, columns = linear_sum_assignment(np.abs(actual[:, None] - wanted[None, :]))
     return wanted[columns[np.argsort(rows)]]
 
 
 def distance(wanted: np.ndarray, actual: np.ndarray) -> float:
-    """The largest distance between poles that are matched."""
+    """Return the largest distance between poles that are matched."""
     return float(np.max(np.abs(match(wanted, actual) - actual), initial=0.0))
 
 

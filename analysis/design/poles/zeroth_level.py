@@ -1,16 +1,16 @@
 """Output feedback on the zeroth level of the decomposition.
 
-K_1 places n - m poles on (A_1, B_1) = (P A P', P A B), P B = 0. With B^- = B^+ - K_1 P, X = B^- C^perp and
-Y = B^- A C^perp (m x (n - p)) the other m are those of
+K_1 places n - m poles on (A_1, B_1) = (P A P', P A B), P B = 0. With B^- = B^+ - K_1 P, X = B^- C^perp and Y = B^- A
+C^perp (m x (n - p)) the other m are those of
 
     Phi_0 = Y X^+ + Z Q,    Q X = 0,    F = (Phi_0 B^- - B^- A) C^+,    u = F y,
 
 Z by the dual placement on (Y X^+, Q): then F C = Phi_0 B^- - B^- A, the state feedback of the multilevel placement.
 Generic for m + p > n. After Van der Woude, "A note on pole placement by static output feedback for single-input
-systems" (1988) and the thesis of Lapin (2.3.1.1); the formulas were derived here.
+systems" (1988) and the thesis of Lapin (2.3.1.1); the formulas are ours.
 
-With m + p = n Phi_0 = Y X^-1 is fixed by K_1, and K_1 is what is chosen. The eigenvectors of the upper level's poles
-are free (Phi_1 = S D S^-1); the m equations "characteristic polynomial of Phi_0 as wanted" are solved for them by least
+With m + p = n Phi_0 = Y X^-1 is fixed by K_1, and K_1 is the choice. The eigenvectors of the upper level's poles are
+free (Phi_1 = S D S^-1); the m equations "characteristic polynomial of Phi_0 as required" are solved for them by least
 squares from random starts. Ours; for m p > n solutions are generic over complex numbers (Brockett and Byrnes 1981),
 real ones not.
 """
@@ -42,7 +42,8 @@ class ZerothLevel:
     """The zeroth level of a plant with full ranks: m + p >= n."""
 
     def __init__(self, a: np.ndarray, b: np.ndarray, c: np.ndarray, basis: np.ndarray | None = None) -> None:
-        """Of A (n, n), B (n, m), C (p, n); ``basis`` (n, n - m), columns with P = basis', else those of the null space.
+        """Decompose A (n, n), B (n, m), C (p, n); ``basis`` (n, n - m) has columns with P = basis', else the null
+        space's.
 
         Raises PlacementError.
         """
@@ -60,7 +61,7 @@ class ZerothLevel:
 
     @property
     def meets(self) -> bool:
-        """Whether m + p = n."""
+        """True if m + p = n."""
         return self.b.shape[1] + len(self.c) == len(self.a)
 
     def lower_matrices(self, upper_gain: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -89,7 +90,7 @@ def direct(level: ZerothLevel, upper: Spectrum, lower: Spectrum) -> OutputFeedba
 
 
 def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
-    """The zeroth level under the gain of the upper one, ``first``. Raises PlacementError."""
+    """Return the zeroth level under the gain of the upper one, ``first``. Raises PlacementError."""
     inverse, x, y = level.lower_matrices(-first.gain if first else np.zeros((lower.size, 0)))
     condition = condition_of(x)
     own, q = y @ np.linalg.pinv(x), null_space(x.T).T
@@ -117,9 +118,10 @@ def condition_of(x: np.ndarray) -> float:
 def output_feedback_levels(
     a: ArrayLike, b: ArrayLike, c: ArrayLike, upper: ArrayLike, poles: ArrayLike, *, basis: ArrayLike | None = None
 ) -> OutputFeedback:
-    """The gain F (m, p) of **u = F y**, m + p > n, with the matrix ``upper`` on the upper level, ``poles`` below.
+    """Return the gain F (m, p) of **u = F y**, m + p > n, with the matrix ``upper`` on the upper level, ``poles``
+    below.
 
-    ``upper`` (n - m, n - m) is what moves the coordinates basis' x of the upper level in the closed loop; ``basis``
+    ``upper`` (n - m, n - m) is the matrix of the coordinates basis' x of the upper level in the closed loop; ``basis``
     (n, n - m) are orthonormal columns with basis' B = 0, else those of a singular value decomposition. ``poles`` are
     the other m. With a basis F is unique. For the dual give A', C', B' and transpose F. Raises InputError, and
     PlacementError where the upper level is not driven as a whole or the rest does not apply.

@@ -48,12 +48,12 @@ def matrix_of(name: str, value: Any, shape: tuple[int | None, int | None] = (Non
 
 
 def tidy(matrix: Symbols) -> Symbols:
-    """Return the matrix with each element as a product of factors, equal elements alike: zeros are seen."""
+    """Return the matrix with each element as a product of factors, equal elements alike, so that zeros are detected."""
     return matrix.applyfunc(_tidy)
 
 
 def _tidy(expression: Expression) -> Expression:
-    """Return a quotient of products of factors; sin^2 is 1 - cos^2, so that what is 0 is seen to be."""
+    """Return a quotient of products of factors; sin^2 is 1 - cos^2, so that zeros are detected."""
     sp = sympy()
     angles = sorted({each.args[0] for each in expression.atoms(sp.sin, sp.cos)}, key=str)
     if not angles:
@@ -69,7 +69,7 @@ def _tidy(expression: Expression) -> Expression:
 
 
 def is_zero(expression: Expression) -> bool:
-    """True if 0 for all values of its symbols."""
+    """Return True if 0 for all values of its symbols."""
     return bool(_tidy(expression) == 0)
 
 

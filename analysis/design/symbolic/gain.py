@@ -1,4 +1,4 @@
-"""K and L as formulas in symbols, and what is made of them: numbers, LaTeX, a kernel function."""
+"""K and L as formulas in symbols, and their forms: numbers, LaTeX, a kernel function."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class SymbolicGain:
     def at(self, values: Mapping[str, float]) -> np.ndarray:
         """Return the gain as numbers for ``values`` of its symbols by name. Raises InputError for one that is missing.
 
-        It is computed to 30 digits and rounded, so that it has no rounding errors of its own.
+        It is computed to 30 digits and rounded, so that it adds no rounding errors.
         """
         missing = [name for name in self.names if name not in values]
         if missing:
@@ -138,7 +138,7 @@ def _multilevel(a: Symbols, b: Symbols, required: Sequence[Any], bases: Sequence
 
 
 def _matrices(required: Sequence[Any], sizes: Sequence[int]) -> list[Symbols] | None:
-    """Square matrices of the sizes; None where poles are given."""
+    """Return square matrices of the sizes; None where poles are required instead."""
     if len(required) and not hasattr(required[0], "__len__"):
         return None
     if len(required) != len(sizes):

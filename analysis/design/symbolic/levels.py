@@ -1,9 +1,9 @@
 """Multilevel decomposition in symbols: the automated algorithm of Lapin's thesis, section 2.1.1.
 
 The formulas are those of `poles/multilevel.py` without singular values: Bt are columns of B that all others depend on,
-R = Bt^+ B, and P a basis of the left divisors of zero of Bt, not orthonormal, so that the next level is
-(P A P^+, P A Bt). Where a level's Phi is a multiple of I, or bases are given, the gain is that of the numeric route.
-Inside of this file u = K x as there.
+R = Bt^+ B, and P a basis of the left divisors of zero of Bt, not orthonormal, so that the next level is (P A P^+, P A
+Bt). Where a level's Phi is a multiple of I, or bases are prescribed, the gain is that of the numeric route. Inside of
+this file u = K x as there.
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ class Phenotype(NamedTuple):
 
 
 class Evaluation(NamedTuple):
-    """What flying a law came to: sums over the first ``flown`` trials, and how many of these were successes."""
+    """Result of a law's evaluation: sums over the first ``flown`` trials, and the number of successes among them."""
 
     objectives: tuple[float, ...]
     successes: int
@@ -58,18 +58,18 @@ class Candidate(NamedTuple):
 
 
 def phenotype(genes: Genes, bases: list[Matrix], coding: Coding) -> Phenotype:
-    """The law that genes stand for."""
+    """Return the law that genes stand for."""
     return Phenotype(prune(apply_variations(bases[genes.basis], genes.variations)), coding.decode(genes.code))
 
 
 class Bar(NamedTuple):
-    """What a candidate has to pass: it must stand before the worst of a population."""
+    """Threshold for a candidate: its standing must be better than the worst of a population."""
 
     order: ParetoOrder
     worst: Standing
 
     def rejects(self, objectives: Sequence[float]) -> bool:
-        """Whether sums that can only grow any further are too large already."""
+        """Return True if sums that can only grow any further are too large already."""
         return self.order.standing(np.array(objectives)) >= self.worst
 
 
@@ -81,7 +81,7 @@ class Task(NamedTuple):
 
 
 class Evaluator(Protocol):
-    """What the search needs to know of flights."""
+    """Evaluator of laws as the search needs it."""
 
     objectives: int  # number of objectives
     trials: int  # of an evaluation that is complete
@@ -131,7 +131,7 @@ def cross(random: np.random.Generator, first: Genes, second: Genes, coding: Codi
 
 
 def mutate(random: np.random.Generator, genes: Genes, bases: Sequence[Matrix], coding: Coding) -> Genes:
-    """One bit of the code flipped, one variation drawn anew where those before it let it apply."""
+    """Flip one bit of the code, and draw one variation again that those before it permit."""
     place = int(random.integers(len(genes.variations)))
     before = genes.variations[:place]
     variation = random_variation(random, apply_variations(bases[genes.basis], before))

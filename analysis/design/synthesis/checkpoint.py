@@ -28,7 +28,7 @@ def write_checkpoint(path: Path, state: SearchState, facts: Mapping[str, object]
 
 
 def read_checkpoint(path: Path, facts: Mapping[str, object]) -> SearchState:
-    """The state in a file that was written with the same facts. Raises InputError."""
+    """Read the state in a file that was written with the same facts. Raises InputError."""
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
         if not isinstance(document, dict) or document.get("format") != FORMAT or document.get("version") != VERSION:
@@ -47,7 +47,7 @@ def read_checkpoint(path: Path, facts: Mapping[str, object]) -> SearchState:
 
 
 def state_document(state: SearchState) -> dict[str, object]:
-    """A state as JSON can hold it; infinite objectives are null."""
+    """Return a state as JSON can hold it; infinite objectives are null."""
     return {
         "random": state.random.bit_generator.state,
         "bases": state.bases,

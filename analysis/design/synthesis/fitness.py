@@ -1,4 +1,4 @@
-"""What a law is worth: its flights in the co-simulated system, every trial of a campaign."""
+"""Fitness of a law: its simulations in the co-simulated system, every trial of a campaign."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class FlightEvaluator:
         self._pool = FlyerPool(plan, workers, native)
 
     def evaluate(self, tasks: Sequence[Task], bar: Bar | None) -> list[Evaluation]:
-        """Evaluations in the order of the tasks. Raises InputError for an objective below 0."""
+        """Return evaluations in the order of the tasks. Raises InputError for an objective below 0."""
         evaluations: dict[int, Evaluation] = {}
         work = [(self._overlay(task), self._expressions, task.known, bar) for task in tasks]
         for place, evaluation in self._pool.work(fly_law, work):
@@ -91,7 +91,7 @@ def fly_law(
 
 
 def objective_value(expression: Expression, result: TrialResult, trial: int) -> float:
-    """An objective in one trial; infinite where it is no number, as after a flight that failed."""
+    """Evaluate an objective in one trial; infinite where it is NaN, as after a simulation that failed."""
     value = float(np.asarray(expression.evaluate(result.metrics)))
     if math.isnan(value):
         return math.inf

@@ -38,7 +38,7 @@ BROOD = 16  # couples whose children are evaluated together: fixed, so that work
 
 @dataclass
 class SearchState:
-    """All that the search goes on from, apart from its settings."""
+    """State from which the search continues, apart from its settings."""
 
     random: np.random.Generator
     bases: list[Matrix]
@@ -68,7 +68,7 @@ class Search:
         return self.state.succeeded or self.state.generation >= self.settings.generations
 
     def advance(self) -> None:
-        """The first population, or the next generation, which ends early where the search does."""
+        """Evaluate the first population, or the next generation, which ends early where the search does."""
         state = self.state
         if not state.population:
             self._start()
@@ -83,7 +83,7 @@ class Search:
         self._note()
 
     def _start(self) -> None:
-        """The first population: the basic solution as coded and, unless that is enough, others around it."""
+        """Evaluate the first population: the basic solution as coded and, unless that is enough, others around it."""
         state = self.state
         basic = Genes(0, (NO_VARIATION,) * self.settings.variations, state.code)
         state.population = self._evaluate([basic])
@@ -91,7 +91,7 @@ class Search:
             state.population += self._evaluate(self._random(0, state.code, self.settings.population - 1))
 
     def choose(self) -> Candidate:
-        """The candidate to hand out: most successes, then the best compromise of the Pareto set."""
+        """Return the best candidate: most successes, then the best compromise of the Pareto set."""
         state = self.state
         assert state.champion is not None  # there is one from the start on
         maximum = state.champion.evaluation.successes
@@ -137,7 +137,7 @@ class Search:
         return True
 
     def _renew(self) -> None:
-        """The chosen candidate is the new basis; the elites stay as they are, the others are drawn anew."""
+        """Replace the basis by the chosen candidate; the elites stay as they are, the others are drawn again."""
         state = self.state
         best = self.choose().genes
         state.bases.append(apply_variations(state.bases[best.basis], best.variations))
@@ -197,7 +197,7 @@ class Search:
         state.succeeded |= self.settings.stop and evaluation.successes == self.evaluator.trials
 
     def _note(self) -> None:
-        """A line of history."""
+        """Add a line of history."""
         state = self.state
         assert state.champion is not None
         minimum = objectives_of(state.front).min(axis=0)

@@ -1,4 +1,4 @@
-"""What a synthesis leaves: the Pareto set, the chosen law as file and parameter set, a log."""
+"""Results of a synthesis: the Pareto set, the chosen law as file and parameter set, a log."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class SynthesisResult:
 
     @property
     def succeeded(self) -> bool:
-        """Whether the chosen law has every trial a success."""
+        """True if the chosen law has every trial a success."""
         return self.search.choose().evaluation.successes == self.search.evaluator.trials
 
     def pareto_set(self) -> list[Candidate]:

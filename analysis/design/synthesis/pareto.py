@@ -1,4 +1,4 @@
-"""Pareto order: of several objectives, all to be made small, none weighs more than another."""
+"""Pareto order: of several objectives, all to be minimised, none weighs more than another."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ import numpy as np
 
 
 def dominators(objectives: np.ndarray, point: np.ndarray) -> int:
-    """How many rows of ``objectives`` (n, m) dominate a point (m,): no worse in any, better in one or more."""
+    """Count the rows of ``objectives`` (n, m) that dominate a point (m,): no worse in any, better in one or more."""
     no_worse = np.all(objectives <= point, axis=1)
     return int(np.count_nonzero(no_worse & np.any(objectives < point, axis=1)))
 
 
 def is_dominated(objectives: np.ndarray, point: np.ndarray) -> np.ndarray:
-    """Which rows of ``objectives`` (n, m) a point (m,) dominates."""
+    """Return for each row of ``objectives`` (n, m) if a point (m,) dominates it."""
     return np.all(objectives >= point, axis=1) & np.any(objectives > point, axis=1)
 
 
@@ -29,7 +29,7 @@ def ranks(objectives: np.ndarray) -> np.ndarray:
 
 
 class Standing(NamedTuple):
-    """Where a point stands in a set, the smaller the better: rank first, then distance from the ideal point."""
+    """Standing of a point in a set, the smaller the better: rank first, then distance from the ideal point."""
 
     rank: int
     distance: float
@@ -67,5 +67,5 @@ class ParetoOrder:
         return np.lexsort((self.distances(self.objectives), self.ranks))
 
     def worst(self) -> int:
-        """The place of the point with the worst standing."""
+        """Return the index of the point with the worst standing."""
         return int(self.order()[-1])

@@ -12,12 +12,12 @@ from ..laws.law import PARAMETERS
 
 
 def to_gray(number: int) -> int:
-    """The reflected binary Gray code of a number >= 0 (Gray 1953)."""
+    """Return the reflected binary Gray code of a number >= 0 (Gray 1953)."""
     return number ^ (number >> 1)
 
 
 def from_gray(code: int) -> int:
-    """The number that a Gray code stands for: each bit is the parity of the code's bits from there up."""
+    """Return the number that a Gray code stands for: each bit is the parity of the code's bits from there up."""
     number = 0
     while code:
         number ^= code
@@ -45,7 +45,7 @@ class Coding:
         return self.count * self.width
 
     def encode(self, values: Sequence[float]) -> int:
-        """The code nearest to ``values``. Raises ValueError with the position of a value out of range."""
+        """Return the code nearest to ``values``. Raises ValueError with the position of a value out of range."""
         code = 0
         for position, value in enumerate(values):
             number = round(value * 2**self.fraction)
@@ -55,7 +55,7 @@ class Coding:
         return code
 
     def decode(self, code: int) -> tuple[float, ...]:
-        """The parameters that a code stands for, exact."""
+        """Return the parameters that a code stands for, exact."""
         mask = 2**self.width - 1
         parts = [code >> self.width * place & mask for place in reversed(range(self.count))]
         return tuple(from_gray(part) / 2**self.fraction for part in parts)

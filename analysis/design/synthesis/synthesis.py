@@ -35,12 +35,12 @@ def run_synthesis(
     resume: bool = False,
     evaluations: int | None = None,
 ) -> SynthesisResult:
-    """Search for laws. Raises InputError before anything flies.
+    """Search for laws. Raises InputError before any simulation.
 
-    ``seed`` replaces the campaign's; ``workers`` is the number of laws that fly at the same time (default:
-    one per processor) and does not change the result. With ``output`` a checkpoint is written there after
-    every generation, from which ``resume`` goes on, and the results at the end. The search ends
-    with the generation in which ``evaluations`` laws have flown.
+    ``seed`` replaces the campaign's; ``workers`` is the number of laws that are evaluated at the same time (default:
+    one per processor) and does not change the result. With ``output`` a checkpoint is written there after every
+    generation, from which ``resume`` continues, and the results at the end. The search ends with the generation in
+    which ``evaluations`` laws have been evaluated.
     """
     output = None if output is None else output.absolute()  # FMUs may change the working folder
     count = worker_count(workers)
@@ -88,7 +88,7 @@ def run_synthesis(
 
 
 def _checkpoint(output: Path | None, resume: bool) -> Path | None:
-    """The checkpoint's file; refuses to lose one, or to resume without."""
+    """Return the checkpoint's file; refuse to lose one, or to resume without."""
     if output is None:
         if resume:
             raise InputError("`resume`", "", "no folder to resume from", "give `output`")
@@ -100,7 +100,7 @@ def _checkpoint(output: Path | None, resume: bool) -> Path | None:
 
 
 def _check(synthesis: Synthesis, plan: BatchPlan) -> PreparedSystem:
-    """The system, with a component that a law can be given to."""
+    """Return the prepared system, with a component that takes a law."""
     without_law = BatchPlan(plan.system, plan.campaign, plan.options, plan.campaign_sha256)
     prepared = check_plan(without_law)[VARIANT]
     fmus, component = prepared.network.fmus, synthesis.component
@@ -129,7 +129,7 @@ def _rehearse(synthesis: Synthesis, plan: BatchPlan) -> None:
 
 
 def provenance(synthesis: Synthesis, plan: BatchPlan, prepared: PreparedSystem) -> dict[str, object]:
-    """What the result depends on."""
+    """Return the inputs of the result."""
     return {
         "system": prepared.archive.name,
         "system_sha256": prepared.archive.digest,

@@ -46,9 +46,9 @@ LIMITS: Mapping[str, tuple[float, float]] = {
 class Synthesis:
     """A synthesis as declared.
 
-    ``component`` is flown by ``fmu`` where one is named; ``basic`` is the law that the search begins with;
-    ``objectives`` are expressions over metrics by name, to be made small. ``step`` and ``stop_time`` (s)
-    replace the system's. ``sha256`` is that of the file.
+    ``component`` is simulated by ``fmu`` where one is named; ``basic`` is the law that the search begins with;
+    ``objectives`` are expressions over metrics by name, to be minimised. ``step`` and ``stop_time`` (s) replace the
+    system's. ``sha256`` is that of the file.
     """
 
     campaign: Campaign
@@ -62,7 +62,7 @@ class Synthesis:
     sha256: str
 
     def plan(self, seed: int | None = None) -> BatchPlan:
-        """What is flown for every candidate; ``seed`` replaces the campaign's."""
+        """Return the plan that is simulated for every candidate; ``seed`` replaces the campaign's."""
         campaign = self.campaign if seed is None else replace(self.campaign, seed=seed)
         options = SystemOptions(
             use={} if self.fmu is None else {self.component: self.fmu}, step=self.step, stop_time=self.stop_time
@@ -72,13 +72,13 @@ class Synthesis:
 
 
 def find_search(name: str) -> Path:
-    """The file of a search: NAME for laws/searches/NAME.toml of this repository, else a path."""
+    """Return the file of a search: NAME for laws/searches/NAME.toml of this repository, else a path."""
     own = SEARCHES / f"{name}.toml"
     return own if own.is_file() and Path(name).name == name else Path(name)
 
 
 def read_synthesis(path: Path) -> Synthesis:
-    """The synthesis in a TOML file. Raises InputError."""
+    """Read the synthesis in a TOML file. Raises InputError."""
     whole = read_source_file(path).table()
     if SYNTHESIS not in whole.content:
         raise whole.error(SYNTHESIS, "missing", f"add [{SYNTHESIS}] with component, law and objectives")

@@ -70,7 +70,7 @@ def apply_variations(matrix: Matrix, variations: Iterable[Variation]) -> Matrix:
 
 
 def prune(matrix: Matrix) -> Matrix:
-    """The same law without what no output depends on: what a node gathers that leads nowhere."""
+    """Return the same law without nodes that no output depends on."""
     needed = [node in OUTPUTS for node in range(SIZE)]
     for node in reversed(range(SIZE)):
         needed[node] |= any(

@@ -58,7 +58,7 @@ class PointMassPath:
 def solve_fixed_time(
     problem: PointMassProblem, duration: float, intervals: int, near: PointMassPath | None = None
 ) -> PointMassPath | None:
-    """The least propellant in ``duration`` (s) with so many intervals; None where there is no way in that time.
+    """Minimise the propellant in ``duration`` (s) with ``intervals`` intervals; None where that is infeasible.
 
     ``near``, a solution with as many intervals for another time, is expanded about first, in place of straight lines.
     """
@@ -79,7 +79,7 @@ def solve_fixed_time(
 
 
 class _Layout:
-    """Where the unknowns lie: r, v (N + 1 rows), z (N + 1), u (N rows), s (N), in scaled units."""
+    """Layout of the unknowns: r, v (N + 1 rows), z (N + 1), u (N rows), s (N), in scaled units."""
 
     def __init__(self, intervals: int, axes: int) -> None:
         points = intervals + 1
@@ -178,7 +178,7 @@ def _interleave(parts: list[sparse.csr_array]) -> sparse.csr_array:
 def _clarabel(
     cost: np.ndarray, rows: list[sparse.csr_array], right: list[np.ndarray], cones: list[object]
 ) -> np.ndarray | None:
-    """The minimiser of cost . x with right - rows x in the cones; None where there is none."""
+    """Return the minimiser of cost . x with right - rows x in the cones; None where there is none."""
     settings = clarabel().DefaultSettings()
     settings.verbose = False
     settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = TOLERANCE

@@ -1,4 +1,4 @@
-"""What a system says its landing's bound is made of: the `org.perilune.bound` annotation of its SSD, and its values."""
+"""Declared inputs of a landing's bound: the `org.perilune.bound` annotation of an SSD, and its values."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ Inputs = Mapping[str, float | tuple[float, ...]]
 
 
 def read_inputs(prepared: PreparedSystem) -> Inputs | None:
-    """The values, SI, that the bound of a system's landing is made of; None where its SSD declares no bound.
+    """Read the values, SI, of the bound of a system's landing; None where its SSD declares no bound.
 
     They are those of the prepared system with the parameter set that braking starts from on top. Raises InputError.
     """
@@ -80,7 +80,7 @@ class _Reader(AnnotationReader):
         return inputs
 
     def value(self, element: etree._Element, prepared: PreparedSystem, name: str) -> float:
-        """A parameter as it is set, or as its FMU starts; a number is itself."""
+        """Return a parameter as it is set, or as its FMU starts; a number is itself."""
         if NUMBER.fullmatch(name):
             return float(name)
         component, variable = split_name(name, prepared.network.fmus)
@@ -95,7 +95,7 @@ class _Reader(AnnotationReader):
 
 
 def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
-    """The bound's vehicle and landing, in the plane of start and site; ``file`` is what refusals name.
+    """Return the bound's vehicle and landing, in the plane of start and site; ``file`` is the name in refusals.
 
     The bound is that of an engine that can be off: its least thrust is 0.
     """
@@ -131,7 +131,7 @@ def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
 
 
 def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, float]]:
-    """The pieces that a landing is cut into, by name: what is bounded, and the mass (kg) that its propellant is of."""
+    """Return the pieces that a landing is cut into, by name: the bounded problem, and the initial mass (kg)."""
     values = _numbers(inputs)
     vehicle, landing = landing_of(inputs, file)
     pieces = {}

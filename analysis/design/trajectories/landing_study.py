@@ -17,7 +17,7 @@ from .vehicle import Landing, Vehicle
 
 @dataclass(frozen=True)
 class Direct:
-    """What the direct method finds: propellant over the initial mass, and duration (s)."""
+    """Result of the direct method: propellant over the initial mass, and duration (s)."""
 
     propellant_fraction: float
     duration: float
@@ -43,7 +43,7 @@ class LandingStudy:
         return self.bound.propellant_fraction * self.vehicle.mass
 
     def to_stored_bound(self, inputs: Inputs) -> StoredBound:
-        """What is kept of it for a system, with the inputs that it was made of."""
+        """Return the stored form of it for a system, with its inputs."""
         burns = tuple(self.bound.burns())
         return StoredBound(
             propellant=self.propellant,
@@ -64,7 +64,7 @@ def landing_study(
     intervals: int | None = None,
     pieces: Mapping[str, tuple[PointMassProblem, float]] | None = None,
 ) -> LandingStudy:
-    """The bound, and with ``direct`` its check; ``pieces`` as `pieces_of` has them.
+    """Compute the bound, and with ``direct`` its check; ``pieces`` as `pieces_of` returns them.
 
     Raises `PlanError`, and InputError for a missing solver.
     """

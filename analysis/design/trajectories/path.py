@@ -1,4 +1,4 @@
-"""How a plan goes, whatever made it: what pages and tables show of it."""
+"""Course of a plan, of any origin: data for pages and tables."""
 
 from __future__ import annotations
 

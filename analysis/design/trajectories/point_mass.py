@@ -32,7 +32,8 @@ class UniformGravity:
 
 @dataclass(frozen=True)
 class CentralGravity:
-    """Of a Moon whose centre lies ``radius`` (m) below the origin; ``parameter`` is its gravitational one (m3/s2)."""
+    """Gravity of a Moon whose centre is ``radius`` (m) below the origin; ``parameter`` is its
+    gravitational one (m3/s2)."""
 
     parameter: float
     radius: float
@@ -87,7 +88,7 @@ class PointMassProblem:
 
 
 def transfer_problem(vehicle: Vehicle, transfer: Transfer) -> PointMassProblem:
-    """A hover transfer with the attitude free, at its ends, too."""
+    """Return a hover transfer with the attitude free, at its ends, too."""
     return PointMassProblem(
         start_position=(0.0, 0.0),
         start_velocity=(0.0, 0.0),

@@ -1,4 +1,4 @@
-"""The bound of a system's landing, computed once and kept in its folder with the hash of what it was made of.
+"""The bound of a system's landing, computed once and stored in its folder with the hash of its inputs.
 
 Free of solvers: a page can show it, or say that it is missing, where none is installed.
 """
@@ -23,10 +23,9 @@ FIELDS = ("propellant", "duration", "intervals", "burns", "pieces", "sha256", "i
 
 @dataclass(frozen=True)
 class StoredBound:
-    """``propellant`` (kg) and ``duration`` (s) of a single-burn braking and landing, ``burns`` at full thrust
-    (begin and end, s), on so many ``intervals``; propellant (kg) of the ``pieces`` that the SSD cuts it into, by name;
-    ``inputs``, SI, and their hash.
-    """
+    """``propellant`` (kg) and ``duration`` (s) of a single-burn braking and landing, ``burns`` at full thrust (begin
+    and end, s), on a number of ``intervals``; propellant (kg) of the ``pieces`` that the SSD cuts it into, by name;
+    ``inputs``, SI, and their hash."""
 
     propellant: float
     duration: float
@@ -50,7 +49,7 @@ def digest(inputs: Inputs) -> str:
 
 
 def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
-    """The bound that a prepared system's folder holds for its values; None where its SSD declares none.
+    """Find the bound that a prepared system's folder holds for its values; None where its SSD declares none.
 
     Raises InputError for a file that is no bound.
     """
@@ -69,7 +68,7 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
 
 
 def read_bound(content: bytes, file: str) -> StoredBound:
-    """A stored bound; raises InputError for a file that is none, or whose inputs are not those of its hash."""
+    """Read a stored bound; raises InputError for any other file, or one whose inputs are not those of its hash."""
     remedy = "store it again with perilune design bound"
     try:
         document = json.loads(content)

@@ -1,4 +1,4 @@
-"""The lander that a plan is made for, and the control margins that a plan leaves it."""
+"""The lander of a plan, and the control margins that a plan leaves it."""
 
 from __future__ import annotations
 
@@ -40,16 +40,15 @@ class Vehicle:
 
 @dataclass(frozen=True)
 class Margins:
-    """What a plan uses of a vehicle: least and largest throttle as shares of its maximum thrust, and the angular
-    acceleration (rad/s2); the rest is left to feedback.
-    """
+    """Fractions of a vehicle's capability that a plan uses: least and largest throttle as shares of its maximum thrust,
+    and the angular acceleration (rad/s2); the rest is left to feedback."""
 
     maximum_throttle: float
     minimum_throttle: float
     angular_acceleration: float
 
     def of(self, vehicle: Vehicle) -> Vehicle:
-        """The vehicle as the plan may use it."""
+        """Return the vehicle as the plan may use it."""
         return replace(
             vehicle,
             maximum_thrust=self.maximum_throttle * vehicle.maximum_thrust,

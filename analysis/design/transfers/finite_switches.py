@@ -137,7 +137,7 @@ def _gaps(z: np.ndarray, swing: float) -> np.ndarray:
 
 
 def _is_ordered(z: np.ndarray) -> bool:
-    """True if the times follow one another as the profile has them."""
+    """Return True if the times follow one another as the profile has them."""
     t2, t3, t4, t5, t7 = z[:5]
     order = [0.0, t2 / 2.0, t3, t4, (t5 + t7) / 2.0, t7]
     return bool(np.all(np.diff(order) >= 0.0) and z[8] + z[9] <= t7 - z[10])

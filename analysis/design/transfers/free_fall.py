@@ -2,8 +2,8 @@
 
 Pitch is that of the simplified programme, whose last turn from t5 to t7 happens with the engine off: the braking burn
 ends at t5, at rest and tilted, and after t7 a vertical burn at full thrust takes up the speed of the fall. Or the
-braking burn ends later, when a part of the turn has begun. Source of the two ways: Huang 2017, after Likhachev,
-Sikharulidze and Fedotov 2013; the programme is ours.
+braking burn ends later, when the turn has begun. Source of the two ways: Huang 2017, after Likhachev, Sikharulidze and
+Fedotov 2013; the programme is ours.
 """
 
 from __future__ import annotations

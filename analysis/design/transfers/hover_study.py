@@ -70,7 +70,7 @@ class HoverStudy:
     comparisons: tuple[Comparison, ...] = ()
 
     def with_curves(self) -> Self:
-        """The same with its curves. Raises `PlanError`."""
+        """Return the study with its curves. Raises `PlanError`."""
         if self.durations is not None and self.distances is not None:
             return self
         programme = self.programme
@@ -101,8 +101,8 @@ def hover_study(
 ) -> HoverStudy:
     """Plan a transfer; ``duration`` (s) is the programme's t7, the best where it is None.
 
-    ``optimum``, ``bound`` and ``curves`` ask for more than the programme, the first two on so many ``intervals``, of
-    solvers that need to be installed; ``adjoint`` is of the optimum, ``turn_begun``, a fraction of the turn, and
+    ``optimum``, ``bound`` and ``curves`` request more than the programme, the first two on a number of ``intervals``,
+    of solvers that need to be installed; ``adjoint`` is of the optimum, ``turn_begun``, a fraction of the turn, and
     ``distances`` (m) are of the programme with ``free_fall``. Raises `PlanError`, and InputError for a missing solver.
     """
     planned = vehicle if margins is None else margins.of(vehicle)

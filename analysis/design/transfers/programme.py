@@ -89,7 +89,8 @@ class Programme:
         return np.where(full, self.vehicle.maximum_thrust, self.vehicle.minimum_thrust)
 
     def path(self, engine: float) -> PlannedPath:
-        """How it goes; ``engine`` is the thrust (N) that counts as full throttle. Every switch is one of its times."""
+        """Return its path; ``engine`` is the thrust (N) that counts as full throttle. Every switch is one of its
+        times."""
         even = np.linspace(0.0, self.duration, max(2, math.ceil(self.duration / STEP)) + 1)
         switches = [time for burn in self.burns for time in burn]
         time = np.unique(np.clip([*even, *switches], 0.0, self.duration))
@@ -106,7 +107,7 @@ class Programme:
 
 
 def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None = None) -> Programme | None:
-    """The programme on least propellant, or the one of a given ``duration`` (s); None where there is none."""
+    """Return the programme on least propellant, or the one of a ``duration`` (s); None where there is none."""
     kernel = kernel_vehicle(vehicle, transfer)
     if duration is None:
         planned = hover_programme.programme(transfer.distance, -transfer.descent, kernel)

@@ -35,7 +35,7 @@ class OptimalPath(PlannedPath):
 
 
 def find_true_optimum(programme: Programme, intervals: int, engine: float) -> OptimalPath:
-    """The optimum with the programme's vehicle, on so many equal intervals; raises `PlanError`.
+    """Find the optimum with the programme's vehicle, on a number of equal intervals; raises `PlanError`.
 
     ``engine`` is the thrust (N) that counts as full throttle. Source of the problem: Huang 2017.
     """
@@ -81,7 +81,7 @@ def find_true_optimum(programme: Programme, intervals: int, engine: float) -> Op
 
 
 def _guess(programme: Programme, intervals: int, scale: np.ndarray) -> Shooting:
-    """The programme at equal times."""
+    """Return the programme at equal times."""
     time = np.linspace(0.0, programme.duration, intervals + 1)
     motion, remainder = programme.states(time)
     throttle = programme.thrust((time[1:] + time[:-1]) / 2.0) / programme.vehicle.maximum_thrust

@@ -40,7 +40,8 @@ class Remembered:
 
 
 def cache_response(response: Response) -> Response:
-    """The response with a memory, for several readers of the same curve; one that has a memory is left as it is."""
+    """Return the response with a memory, for several readers of the same curve; one that has a memory is left as it
+    is."""
     return response if isinstance(response, Remembered) else Remembered(response)
 
 
@@ -52,15 +53,15 @@ def quotient(value: np.ndarray, reference: np.ndarray) -> np.ndarray:
 
 
 def interpolate(frequency: np.ndarray, value: np.ndarray, sample_period: float) -> Response:
-    """A response through measured lines: at ``frequency`` (rad/s, increasing, below pi/T) it has ``value``.
+    """Return a response through measured lines: at ``frequency`` (rad/s, increasing, below pi/T) it has ``value``.
 
     Log gain is a cubic spline of log tan(w T/2), the logarithm of Tustin's frequency, in which a sampled loop has the
-    straight asymptotes of a continuous one, the zero at z = -1 of a held plant included; unwrapped phase is one of
-    log w, in which a delay is as smooth near the Nyquist frequency as elsewhere. Of a double integrator with hold,
-    lead and one sample of delay, seen through 10 odd lines per decade, this loses at most 0.02 dB and 0.02 deg (20
-    lines: 0.003 dB, 0.001 deg); with both against log w 3 dB near Nyquist, with both against the other 8 deg, with
-    monotone splines (PCHIP) 0.01 dB and 0.14 deg. Neighbouring lines must turn less than pi, and a resonance needs
-    lines within its width. Raises ValueError for lines that cannot be joined, and when called outside of them.
+    straight asymptotes of a continuous one, the zero at z = -1 of a held plant included; unwrapped phase is one of log
+    w, in which a delay is as smooth near the Nyquist frequency as elsewhere. Of a double integrator with hold, lead and
+    one sample of delay, seen through 10 odd lines per decade, this loses at most 0.02 dB and 0.02 deg (20 lines: 0.003
+    dB, 0.001 deg); with both against log w 3 dB near Nyquist, with both against the other 8 deg, with monotone splines
+    (PCHIP) 0.01 dB and 0.14 deg. Neighbouring lines must turn less than pi, and a resonance needs lines within its
+    width. Raises ValueError for lines that cannot be joined, and when called outside of them.
     """
     frequency, value = np.asarray(frequency, dtype=float), np.asarray(value, dtype=complex)
     if frequency.ndim != 1 or frequency.shape != value.shape or len(frequency) < 4:
@@ -106,13 +107,13 @@ def dense(
     refine: bool = True,
     most: int = 20000,
 ) -> Curve:
-    """The response of one channel on a grid from ``low`` to ``high`` (rad/s) that resolves it.
+    """Return the response of one channel on a grid from ``low`` to ``high`` (rad/s) that resolves it.
 
-    Between neighbours the complex logarithm changes by at most ``step`` (1: a factor e, or one rad), unless they are
-    at a pole or zero on the unit circle. Unless ``refine`` is off, the grid is much finer where L comes nearest to
-    the unit circle, the negative real axis or -1. A resonance narrower than the first grid, about 4 %, can stay
-    unseen: ``include`` the frequencies of lightly damped poles. Raises ValueError when ``most`` points do not resolve
-    the response.
+    Between neighbours the complex logarithm changes by at most ``step`` (1: a factor e, or one rad), unless they are at
+    a pole or zero on the unit circle. Unless ``refine`` is off, the grid is much finer where L comes nearest to the
+    unit circle, the negative real axis or -1. A resonance narrower than the first grid, about 4 %, can be missed:
+    ``include`` the frequencies of lightly damped poles. Raises ValueError when ``most`` points do not resolve the
+    response.
     """
     frequency = base_grid(low, high, include)
     value = _finite(response, frequency)

@@ -1,12 +1,12 @@
-"""Sinusoidal-input describing functions N(a) of the elements that actuators show.
+"""Sinusoidal-input describing functions N(a) of the nonlinear elements of actuators.
 
-An element driven by a sin(wt) puts out a periodic signal; N(a) is the complex ratio of that signal's fundamental
-to the input. With y(theta) the output for the input a sin(theta), over one cycle
+An element driven by a sin(wt) puts out a periodic signal; N(a) is the complex ratio of that signal's fundamental to the
+input. With y(theta) the output for the input a sin(theta), over one cycle
 
     N(a) = 1/(pi a) integral of y(theta) (sin(theta) + j cos(theta)) d theta.
 
-None of them here depends on frequency. The imaginary part is negative where the output lags (hysteresis) and 0
-where it depends on the present input alone. All are odd: the mean of the input is taken to be 0.
+None of them here depends on frequency. The imaginary part is negative where the output lags (hysteresis) and 0 where it
+depends on the present input alone. All are odd: the mean of the input is taken to be 0.
 
 Source: Gelb and Vander Velde 1968, Multiple-Input Describing Functions and Nonlinear System Design, section 2.3
 (piecewise-linear elements and their saturation function f) and table B.1.
@@ -77,7 +77,7 @@ def _quantiser(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     step = parameters["step"]
 
     def gain(a: float) -> float:
-        """A sum of relays, each one step high, that switch half-way between two levels."""
+        """Return a sum of relays, each one step high, that switch half-way between two levels."""
         thresholds = (np.arange(math.floor(a / step + 0.5)) + 0.5) * step
         ratio = np.minimum(thresholds / a, 1.0)
         return 4.0 * step / (math.pi * a) * float(np.sum(np.sqrt((1.0 - ratio) * (1.0 + ratio))))
@@ -86,8 +86,8 @@ def _quantiser(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
 
 
 def _staircase(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
-    """What is fired follows the integral of the demand in steps of a least pulse, a whole one behind at the most: a
-    staircase of relays whose thresholds lie a least pulse apart, each with half of one as its hysteresis."""
+    """Return N of pulses that follow the integral of the demand in steps of a least pulse, at most a whole one late: a
+    staircase of relays whose thresholds are a least pulse apart, each with half of one as its hysteresis."""
     minimum = parameters["least_pulse"]
 
     def gain(a: float) -> complex:
@@ -188,7 +188,7 @@ ELEMENTS: dict[str, Element] = {
 
 
 def complete_parameters(kind: str, parameters: Parameters) -> dict[str, float]:
-    """The parameters of an element as floats, defaults included; ValueError says in one line what is wrong."""
+    """Return the parameters of an element as floats, defaults included; ValueError says in one line what is wrong."""
     if kind not in ELEMENTS:
         raise ValueError(f"{kind!r} is not a kind of element; there are {', '.join(ELEMENTS)}")
     element = ELEMENTS[kind]

@@ -27,11 +27,12 @@ class JointDisk(NamedTuple):
 
 
 def disk_margins(value: np.ndarray) -> np.ndarray:
-    """The disk margin (skew 0) of each L in ``value`` (n, m, m): one over the structured singular value of S - I/2.
+    """Return the disk margin (skew 0) of each L in ``value`` (n, m, m): one over the structured singular value of S -
+    I/2.
 
-    Every channel is scaled by a complex number of its own. The singular value is its upper bound by scaling, exact up
-    to three channels, as in python-control's `disk_margins`, which does not take frequency data.
-    Seiler, Packard and Gahinet, "An introduction to disk margins", IEEE Control Systems Magazine 40 (2020).
+    Every channel is scaled by a separate complex number. The singular value is its upper bound by scaling, exact up to
+    three channels, as in python-control's `disk_margins`, which does not take frequency data. Seiler, Packard and
+    Gahinet, "An introduction to disk margins", IEEE Control Systems Magazine 40 (2020).
     """
     identity = np.eye(value.shape[-1])
     bounds = upper_bound(np.linalg.inv(identity + value) - 0.5 * identity)
@@ -40,10 +41,10 @@ def disk_margins(value: np.ndarray) -> np.ndarray:
 
 
 def joint_disk_margin(response: Response, low: float, high: float, *, include: Iterable[float] = ()) -> JointDisk:
-    """The disk margin of the channels of ``response`` (n, m, m) between ``low`` and ``high`` (rad/s).
+    """Return the disk margin of the channels of ``response`` (n, m, m) between ``low`` and ``high`` (rad/s).
 
-    It bounds what the loops stand only where the closed loop is stable. ``include`` holds the frequencies of lightly
-    damped poles. Raises ValueError when the margin is not resolved over frequency.
+    It bounds the permitted perturbations only where the closed loop is stable. ``include`` holds the frequencies of
+    lightly damped poles. Raises ValueError when the margin is not resolved over frequency.
     """
     margins = cache_response(lambda angular: disk_margins(response(angular)))
     frequency = base_grid(low, high, include)

@@ -63,7 +63,7 @@ def encirclements(
 
 
 def _turn(difference: Response, low: float, high: float, include: list[float]) -> float:
-    """The angle (rad) by which 1 + L turns from ``low`` to ``high``."""
+    """Return the angle (rad) by which 1 + L turns from ``low`` to ``high``."""
     curve = dense(difference, low, high, include=include, refine=False)
     steps = np.angle(curve.value[1:] / curve.value[:-1])
     worst = int(np.argmax(np.abs(steps)))
@@ -76,7 +76,7 @@ def _turn(difference: Response, low: float, high: float, include: list[float]) -
 
 
 def _poles_at_one(response: Response, difference: Response, low: float, given: int | None) -> int:
-    """The number of poles of 1 + L at z = 1, checked by the slope of its gain from ``low`` to twice that."""
+    """Return the number of poles of 1 + L at z = 1, checked by the slope of its gain from ``low`` to twice that."""
     pair = np.array([low, 2.0 * low])
     slope = _slope(difference(pair))
     number = round(-slope) if given is None else given
@@ -94,7 +94,7 @@ def _poles_at_one(response: Response, difference: Response, low: float, given: i
 
 
 def _slope(value: np.ndarray) -> float:
-    """Of the log gain over log frequency, from values one octave apart."""
+    """Return the slope of the log gain over log frequency, from values one octave apart."""
     size = np.abs(value)
     if size[0] == 0.0 or size[1] == 0.0:
         return 0.0

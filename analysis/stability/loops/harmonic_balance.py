@@ -141,7 +141,8 @@ def _real_balances(loop: _Loop) -> list[tuple[float, float]]:
 
 
 def _crossing_segments(first: np.ndarray, second: np.ndarray) -> list[tuple[int, int]]:
-    """Indices of the segments of two complex polylines that intersect. A jump of the angle by over pi is no segment."""
+    """Return indices of intersecting segments of two complex polylines. A jump of the angle by over pi is no
+    segment."""
     p, r = first[:-1], np.diff(first)
     q, s = second[:-1], np.diff(second)
     segments = []
@@ -189,12 +190,12 @@ def _complex_balances(loop: _Loop) -> list[tuple[float, float]]:
 def predict(
     response: Response, low: float, high: float, element: str, parameters: Parameters, points: int = 4000
 ) -> list[Balance]:
-    """All solutions of 1 + N(a) L = 0 with low < w < high (rad/s), by amplitude; [] where there is none.
+    """Return all solutions of 1 + N(a) L = 0 with low < w < high (rad/s), by amplitude; [] where there is none.
 
     ``response`` gives L for angular frequencies, ``element`` is a kind of ``ELEMENTS``. The grid has ``points``
-    frequencies in even ratios: two crossings between neighbours are not seen. ``high`` itself is left out, since at
-    the Nyquist frequency a sample sees one phase of the sine only and N has no meaning. ValueError for wrong
-    parameters or frequencies.
+    frequencies in even ratios: two crossings between neighbours are missed. ``high`` itself is left out, since at the
+    Nyquist frequency a sample has one phase of the sine only and N has no meaning. ValueError for wrong parameters or
+    frequencies.
     """
     complete = complete_parameters(element, parameters)
     if not (0.0 < low < high and math.isfinite(high)):

@@ -1,8 +1,8 @@
 """The margins of one loop as values that can be compared: unstable is worse than any number, unlimited better.
 
 Sizes are in the unit in which margins are limited and shown: dB up or down, deg lag or lead, s, 1. The size of every
-margin of an unstable loop is `UNSTABLE`, that of a margin without a crossing `UNLIMITED`; both are floats that
-compare, sort and take part in minima and order statistics as they should.
+margin of an unstable loop is `UNSTABLE`, that of a margin without a crossing `UNLIMITED`; both are floats that compare,
+sort and enter minima and order statistics as they should.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Margins:
 
     @classmethod
     def of(cls, classical: Classical, robust: Robust, stable: bool | None, largest: float | None) -> Margins:
-        """Of the nearest crossings and the distances from -1."""
+        """Return the margins of the nearest crossings and the distances from -1."""
         gain, phase = classical.gain_margin, classical.phase_margin
         return cls(
             gain=gain.value if gain else math.inf,
@@ -72,11 +72,11 @@ class Margins:
 
     @property
     def unstable(self) -> bool:
-        """Whether the loop is known to be unstable: then it has no margins."""
+        """True if the loop is known to be unstable: then it has no margins."""
         return self.stable is False
 
     def size(self, quantity: Quantity) -> float:
-        """The size of a margin in its unit, `UNSTABLE` or `UNLIMITED`."""
+        """Return the size of a margin in its unit, `UNSTABLE` or `UNLIMITED`."""
         if self.unstable:
             return UNSTABLE
         if quantity is Quantity.GAIN:
@@ -87,5 +87,6 @@ class Margins:
 
 
 def order_statistic(sizes: Sequence[float], level: float) -> float:
-    """The least size that a share ``level`` of all do not exceed (0: the least), `UNSTABLE` before all numbers."""
+    """Return the least size that a share ``level`` of all do not exceed (0: the least), `UNSTABLE` before all
+    numbers."""
     return sorted(sizes)[quantile_rank(level, len(sizes))]

@@ -109,27 +109,28 @@ def robust(response: Response, low: float, high: float, *, include: Iterable[flo
 
 
 def disk_gain(alpha: float) -> float:
-    """The factor on the gain, and one over it, that a disk margin with skew 0 guarantees; inf from 2 on."""
+    """Return the factor on the gain, and one over it, that a disk margin with skew 0 guarantees; inf from 2 on."""
     return (1.0 + 0.5 * alpha) / (1.0 - 0.5 * alpha) if alpha < 2.0 else np.inf
 
 
 def disk_phase(alpha: float) -> float:
-    """The change of phase (rad, either way) that a disk margin with skew 0 guarantees."""
+    """Return the change of phase (rad, either way) that a disk margin with skew 0 guarantees."""
     return 2.0 * float(np.arctan(0.5 * alpha))
 
 
 def disk_of_gain(factor: float) -> float:
-    """The disk margin with skew 0 that guarantees a factor on the gain, and one over it."""
+    """Return the disk margin with skew 0 that guarantees a factor on the gain, and one over it."""
     return 2.0 * (factor - 1.0) / (factor + 1.0)
 
 
 def disk_of_phase(angle: float) -> float:
-    """The disk margin with skew 0 that guarantees a change of phase (rad, either way)."""
+    """Return the disk margin with skew 0 that guarantees a change of phase (rad, either way)."""
     return 2.0 * float(np.tan(0.5 * angle))
 
 
 def highest(size: Callable[[np.ndarray], np.ndarray], frequency: np.ndarray) -> tuple[float, float]:
-    """The highest value and its frequency (rad/s), refined between the points of a grid that shows every peak."""
+    """Return the highest value and its frequency (rad/s), refined between the points of a grid that shows every
+    peak."""
     values = size(frequency)
     best = int(np.argmax(values))
     candidates = [(float(values[best]), float(frequency[best]))]
@@ -180,7 +181,7 @@ def _at_nyquist(response: Response, high: float, sample_period: float) -> Crossi
 
 
 def _at_zero(response: Response, low: float, high: float) -> Crossing | None:
-    """The gain margin at frequency 0, where L(0) = a < 0. Close to it L = a + j b w - c w**2."""
+    """Return the gain margin at frequency 0, where L(0) = a < 0. Close to it L = a + j b w - c w**2."""
     if 2.0 * low > high:
         return None
     one, two = _at(response, low), _at(response, 2.0 * low)

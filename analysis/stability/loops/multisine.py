@@ -40,7 +40,7 @@ class Multisine:
 def multisine(
     samples: int, amplitude: float, highest_line: int, seed: int, *, per_decade: float | None = None
 ) -> Multisine:
-    """A multisine of ``samples`` per period, each line of ``amplitude``, excited up to ``highest_line``.
+    """Return a multisine of ``samples`` per period, each line of ``amplitude``, excited up to ``highest_line``.
 
     ``per_decade`` spaces the lines quasi-logarithmically: about as many per decade, or all odd ones where these are
     fewer. The lowest line is always excited. Raises ValueError for a line at or above half the ``samples``.
@@ -111,7 +111,7 @@ def line_spectrum(record: np.ndarray, samples: int, lines: np.ndarray) -> np.nda
 
 
 def fraction_unexcited(record: np.ndarray, signal: Multisine) -> float:
-    """The largest response on a line not excited, relative to the larger one on the excited lines next to it.
+    """Return the largest response on a line not excited, relative to the larger one on the excited lines next to it.
 
     ``record`` (n,) is a response over whole periods in the steady state: 0 where it is linear and without noise.
     """

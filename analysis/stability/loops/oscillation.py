@@ -1,4 +1,4 @@
-"""Whether a recorded signal ends in an oscillation that lasts, with which amplitude and period.
+"""Detection of a lasting oscillation in a recorded signal, with its amplitude and period.
 
 The last part of the record is cut into whole cycles at the upward crossings of its mean; a crossing counts only when
 the signal was below the mean by a quarter of the half peak to peak since the last one, so that ripple makes none. To
@@ -61,10 +61,10 @@ def _sine(values: np.ndarray, period: float) -> tuple[float, float, float]:
 def find_oscillation(
     time: np.ndarray, values: np.ndarray, share: float = 0.5, cycles: int = 6, agreement: float = 0.03
 ) -> Oscillation | None:
-    """The oscillation in the last ``share`` of the record, or None where there is none that lasts.
+    """Return the oscillation in the last ``share`` of the record, or None where there is none that lasts.
 
-    ``time`` (s) is uniform and ascending, ``values`` in any unit, both of shape (n,). At least four samples make a
-    cycle. ValueError for a record that is not uniform, not finite or too short to say anything (16 samples).
+    ``time`` (s) is uniform and ascending, ``values`` in any unit, both of shape (n,). A cycle has at least four
+    samples. ValueError for a record that is not uniform, not finite or too short to say anything (16 samples).
     """
     time, values = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if time.ndim != 1 or time.shape != values.shape or len(time) < 16:

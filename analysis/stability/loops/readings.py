@@ -1,4 +1,4 @@
-"""What is read off a loop's frequency response: gains as factors, angles in rad, times in s, frequencies in rad/s.
+"""Readings of a loop's frequency response: gains as factors, angles in rad, times in s, frequencies in rad/s.
 
 Margins are shown and limited in dB and deg, by the functions at the end.
 """
@@ -72,22 +72,22 @@ def decibels(factor: complex) -> float: ...
 @overload
 def decibels(factor: np.ndarray) -> np.ndarray: ...
 def decibels(factor: complex | np.ndarray) -> float | np.ndarray:
-    """The size of a gain, real or complex, in dB; 0 is minus infinity."""
+    """Return the size of a gain, real or complex, in dB; 0 is minus infinity."""
     with np.errstate(divide="ignore"):
         level = 20.0 * np.log10(np.abs(factor))
     return level if isinstance(factor, np.ndarray) else float(level)
 
 
 def decibel_size(factor: float) -> float:
-    """How far a factor on the gain is from 1, up or down, in dB."""
+    """Return the distance of a factor on the gain from 1, up or down, in dB."""
     return abs(decibels(factor))
 
 
 def factor_of(decibel: float) -> float:
-    """The factor that is ``decibel`` dB."""
+    """Return the factor that is ``decibel`` dB."""
     return float(10.0 ** (decibel / 20.0))
 
 
 def degree_size(angle: float) -> float:
-    """The size of an angle (rad), lag or lead, in deg."""
+    """Return the size of an angle (rad), lag or lead, in deg."""
     return float(np.degrees(abs(angle)))

@@ -78,7 +78,7 @@ def _decisive(classical: Classical, robust: Robust) -> list[float]:
 
 
 def _is_new(curve: Curve, frequency: float) -> bool:
-    """True if a frequency lies between the lines, and next to none of them."""
+    """Return True if a frequency is between the lines, and next to none of them."""
     low, high = curve.frequency[0] * (1.0 + ENDS), curve.frequency[-1] * (1.0 - ENDS)
     return bool(low < frequency < high and np.min(abs(curve.frequency / frequency - 1.0)) > SAME)
 

@@ -23,7 +23,7 @@ _SWEEPS = 4
 
 
 def upper_bound(matrix: np.ndarray) -> np.ndarray:
-    """The least largest singular value of D M D^-1 for each M of ``matrix`` (n, m, m), within some billionths.
+    """Return the least largest singular value of D M D^-1 for each M of ``matrix`` (n, m, m), within some billionths.
 
     Raises ValueError where it is not found.
     """

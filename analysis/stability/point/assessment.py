@@ -31,7 +31,7 @@ class Assessment:
 
 
 def lowest_frequency(response: Response, sample_period: float) -> float:
-    """Where to begin (rad/s): well below the lowest gain crossover, as far as a model resolves it."""
+    """Return the lowest frequency (rad/s): well below the lowest gain crossover, as far as a model resolves it."""
     nyquist = np.pi / sample_period
     grid = np.geomspace(LOWEST * nyquist, nyquist, COARSE)
     gain = abs(response(grid))
@@ -81,7 +81,7 @@ def assess(
 
 
 def requirements(margins: Margins, limits: Limits, outside: Sequence[str] = ()) -> tuple[Requirement, ...]:
-    """The project's limits against one loop; ``outside`` names what grows without a part in it."""
+    """Return the project's limits against one loop; ``outside`` names growing memory that is not in it."""
     if margins.stable is None:
         note = "poles are not known without a linearisation"
         stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, None, 1.0, None, note)

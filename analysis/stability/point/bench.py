@@ -186,7 +186,8 @@ class OperatingPoint:
         self.scale = _scales(self.memory.cells, largest, self.memory.read())
 
     def one_period_on(self) -> OperatingPoint:
-        """The same one hyperperiod later, measured by the same sizes; this one's snapshot stays as it is."""
+        """Return the same point one hyperperiod later, measured by the same sizes; this one's snapshot stays as it
+        is."""
         later = copy.copy(self)
         self.memory.put_back(self.snapshot)
         last = self.snapshot.point + self.bench.period

@@ -51,7 +51,7 @@ class UnstableError(LoopError):
 
 @dataclass
 class Injector:
-    """Measures one channel of a bench. ``lowest`` is the least frequency wanted (rad/s)."""
+    """Measures one channel of a bench. ``lowest`` is the least frequency required (rad/s)."""
 
     bench: Bench
     channel: Channel
@@ -92,7 +92,7 @@ class Injector:
         )
 
     def peak(self) -> float:
-        """The largest value of the multisine: the declared amplitude or a cycles of the signal's own size."""
+        """Return the largest value of the multisine: the declared amplitude or a fraction of the signal's own size."""
         if self.channel.amplitude is not None:
             return self.channel.amplitude
         size = float(np.max(abs(self.channel.injection_for(self._simulate_undisturbed()))))
@@ -177,7 +177,7 @@ class Injector:
         return {name: values[self.bench.origin + 1 :] for name, values in signals.items()}
 
     def _answer(self, samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """What goes in and comes back at the channel's samples, the undisturbed flight subtracted."""
+        """Return the input and the return signal at the channel's samples, the undisturbed simulation subtracted."""
         channel, base = self.channel, self._simulate_undisturbed()
         added = np.repeat(samples, channel.period)
         mine = channel.excitation(base, added)

@@ -52,7 +52,7 @@ class Jacobian:
         return np.concatenate([self.memory.read() / self.scale, *inside, *back])
 
     def cell_column(self, cell: int, step: float) -> np.ndarray:
-        """Derivative to one cell in units of its scale, of which ``step`` is the change."""
+        """Return the derivative to one cell in units of its scale, of which ``step`` is the change."""
         high = self.start[cell] + step * self.scale[cell]
         low = self.start[cell] - step * self.scale[cell]
         self.memory.put_back(self.snapshot, self.memory.cells[cell], high)
@@ -61,7 +61,8 @@ class Jacobian:
         return (above - self._after()) * (self.scale[cell] / (high - low))
 
     def input_column(self, port: Port, sample: int, step: float) -> np.ndarray:
-        """Derivative to what is added at one sample of a channel; ``step`` is in units of the signal's size."""
+        """Return the derivative to an addition at one sample of a channel; ``step`` is in units of the signal's
+        size."""
         channel = port.channel
         size = step * (channel.amplitude or self.sizes[channel.loop])
         ends = []
@@ -75,7 +76,8 @@ class Jacobian:
         return (ends[0] - ends[1]) / (2.0 * size)
 
     def screen(self, cell: int) -> np.ndarray:
-        """Derivative to a cell with one step, to see what it reaches; smaller where the flight would break."""
+        """Return the derivative to a cell with one step, for the cells that it reaches; smaller
+        where the simulation would fail."""
         for step in SCREEN[:-1]:
             try:
                 return self.cell_column(cell, step)

@@ -45,7 +45,7 @@ class Port:
 
 @dataclass(frozen=True)
 class StateVariable:
-    """What a state of the model is of its memory cell: ``scale`` cells' units, which are ``unit`` (None: without)."""
+    """Memory cell of a state of the model: ``scale`` cells' units, which are ``unit`` (None: without)."""
 
     scale: float
     unit: str | None
@@ -71,10 +71,10 @@ class LiftedModel:
     variables: Mapping[str, StateVariable] = field(default_factory=dict)
 
     def reduce(self, ports: tuple[Port, ...]) -> LiftedModel:
-        """The part of the memory that the ports both move and are moved by, through whatever lies between.
+        """Return the model of the memory that the ports both move and are moved by, directly or not.
 
-        Of that, cells whose share of what comes back is below SHARE at all frequencies are left out: they are moved by
-        rounding, or move by rounding, as the covariance of a filter does where its innovations vanish.
+        Of that, cells whose share of the return signal is below SHARE at all frequencies are left out: they are moved
+        by rounding, or move by rounding, as the covariance of a filter does where its innovations vanish.
         """
         rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
         moved = reachable(self.a != 0.0, np.any(self.b[:, rows] != 0.0, axis=1))
@@ -146,7 +146,8 @@ class LiftedModel:
         return replace(self, a=a, names=(), variables={}).poles()
 
     def disturbance_response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """What goes in (u) and comes back (v) at each frequency for a unit of d, both (n, m, m) for m ports."""
+        """Return the input (u) and the return signal (v) at each frequency for a unit of d, both (n, m, m) for m
+        ports."""
         u = np.empty((frequency.size, len(ports), len(ports)), dtype=complex)
         v = np.empty_like(u)
         _, b, cu, cv = self._triangular
@@ -188,7 +189,7 @@ class LiftedModel:
         return -np.linalg.solve(np.swapaxes(u, 1, 2), np.swapaxes(v, 1, 2)).swapaxes(1, 2)
 
     def periodicity(self, port: Port, frequency: np.ndarray) -> float:
-        """The largest share of what goes in that comes at other frequencies than the one added; 0: time-invariant."""
+        """Return the largest share of the input at other frequencies than the added one; 0: time-invariant."""
         worst = 0.0
         for w in frequency:
             wave = np.exp(1j * w * port.seconds * np.arange(port.count))
@@ -201,7 +202,7 @@ class LiftedModel:
 
 
 def reachable(arrows: np.ndarray, start: np.ndarray) -> np.ndarray:
-    """Which cells are reached from the start over arrows [to, from]."""
+    """Return the mask of cells reached from the start over arrows [to, from]."""
     reached = start.copy()
     while True:
         grown = reached | (arrows @ reached)

@@ -66,14 +66,15 @@ def element_report(
 
 
 def _lowest(response: Response, low: float, high: float) -> float:
-    """Where to begin (rad/s): slower, L is so large that the element hardly moves, and integrators are only noise."""
+    """Return the lowest frequency (rad/s): slower, L is so large that the element hardly moves,
+    and integrators are noise."""
     frequency = np.geomspace(low, high, POINTS)
     below = np.flatnonzero(abs(response(frequency)) < LARGEST_GAIN)
     return float(frequency[below[0]]) if below.size else low
 
 
 def _simulate(prepared: PreparedSystem, channel: Channel, integrated: bool) -> tuple[float, float] | None:
-    """Amplitude and period (s) of what comes back to the cut in the last part of a whole flight, None if it rests.
+    """Return amplitude and period (s) of the return signal at the end of a whole simulation, None if it rests.
 
     ``integrated``: of its integral over time, less the ramp that a constant disturbance leaves in it.
     """

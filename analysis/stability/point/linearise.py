@@ -41,7 +41,7 @@ class Linearisation:
 def linearise(
     operating_point: OperatingPoint, cells: Sequence[int] | None = None, steps: Sequence[float] = STEPS
 ) -> Linearisation:
-    """The linear model about the flight of one hyperperiod.
+    """Return the linear model about the flight of one hyperperiod.
 
     ``cells`` names the memory that matters if it is known already; of one single step nothing is known of a plateau.
     Raises StudyError where a flight breaks off.
@@ -102,7 +102,7 @@ def _model(jacobian: Jacobian, cells: np.ndarray, matrix: np.ndarray, driven: np
 
 
 def _in_between(columns: np.ndarray, driven: list) -> np.ndarray:
-    """Of every cell whether what is added moves it, and it moves what is read."""
+    """Return for every cell if an addition moves it, and it moves an output."""
     count = columns.shape[1]
     moved = _perturb(columns, driven)
     return moved & _moves(columns, np.any(columns[count:] != 0.0, axis=0))
@@ -118,7 +118,7 @@ def _moves(columns: np.ndarray, heard: np.ndarray) -> np.ndarray:
 
 
 def _blocks(jacobian: Jacobian, arrows: np.ndarray, driven: list, matrices: Sequence[np.ndarray]) -> tuple[Block, ...]:
-    """The multipliers of all memory, with what of it each cut moves and sees along the ``arrows`` of a matrix."""
+    """Return the multipliers of all memory, with the cells that each cut moves and depends on along the ``arrows``."""
     count, inputs = arrows.shape[1], len(driven)
     moved, moves = [], []
     for port in jacobian.ports:

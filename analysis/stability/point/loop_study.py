@@ -214,7 +214,7 @@ class LoopStudy:
         return assess(response, curve.frequency[0], curve.frequency[-1], self.seconds, None), response
 
     def report(self, closed: Sequence[str]) -> LoopReport:
-        """The report without what needs other flights than the two methods'."""
+        """Return the report without results that need other simulations than the two methods'."""
         assessment, _ = self.assessed
         if not np.any(assessment.curve.value):
             self.notes["loop"] = SILENT
@@ -258,7 +258,7 @@ class LoopStudy:
         return report
 
     def _measured_response(self) -> Measured | None:
-        """The measurement with the lines at its crossings."""
+        """Return the measurement with the lines at its crossings."""
         if self.measured is None or self.refined is None:
             return self.measured
         return replace(self.measured, curve=self.refined, lines=len(self.refined.frequency))

@@ -47,7 +47,7 @@ def modes(model: LiftedModel, port: Port) -> tuple[Mode, ...]:
 
 
 def unseen_mode(z: complex, period: float, moved: bool, moves: bool) -> Mode:
-    """A mode of memory that is not in the loop, which its cut moves or by which it is moved, not both."""
+    """Return a mode of memory that is not in the loop, which its cut moves or by which it is moved, not both."""
     kind = "neither" if moved == moves else KINDS[moved, moves]
     return _mode(z, period, kind, float(moved), float(moves))
 
@@ -67,7 +67,7 @@ def structure(model: LiftedModel, port: Port, states: int) -> Structure:
 
 
 def _rank(a: np.ndarray, b: np.ndarray) -> tuple[int, float]:
-    """The rank, and the smallest kept singular value relative to the largest."""
+    """Return the rank, and the smallest kept singular value relative to the largest."""
     blocks = [b]
     for _ in range(max(1, a.shape[0]) - 1):
         blocks.append(a @ blocks[-1])
@@ -94,7 +94,7 @@ class Block:
 
 
 def circles(matrix: np.ndarray) -> list[np.ndarray]:
-    """The cells of each block of a matrix [to, from] whose multipliers need not be 0 or 1."""
+    """Return the cells of each block of a matrix [to, from] whose multipliers need not be 0 or 1."""
     _, labels = connected_components(matrix != 0.0, directed=True, connection="strong")
     own = np.diagonal(matrix)
     grows = (own != 0.0) & (abs(own - 1.0) > ADDS_UP)

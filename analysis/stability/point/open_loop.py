@@ -1,12 +1,11 @@
-"""A loop opened at its break point as a state space of its own sample period, from the lifted closed loop.
+"""A loop opened at its break point as a state space of the loop's sample period, from the lifted closed loop.
 
 The lifted model maps the memory over a hyperperiod of M samples of the loop. Where the loop does not change from sample
 to sample its outputs are those of one state space at every sample, x[k+1] = A x[k] + B u[k]: B is the lifted input
 matrix of the last sample, C the lifted output matrix of the first, and A shifts the observability matrix by one sample,
 O A = O', which least squares solve in the coordinates of the memory. It is compared with the lifted model before it is
-used.
-Source: Kung 1978, A new identification and model reduction algorithm via singular value decomposition (shift of the
-observability matrix); Bittanti and Colaneri 2009, Periodic Systems, section 6.2 (lifted reformulation).
+used. Source: Kung 1978, A new identification and model reduction algorithm via singular value decomposition (shift of
+the observability matrix); Bittanti and Colaneri 2009, Periodic Systems, section 6.2 (lifted reformulation).
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ def open_loop(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
 
 
 def _open(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
-    """The lifted model with the cuts open, samples stacked oldest first, in the memory's units."""
+    """Return the lifted model with the cuts open, samples stacked oldest first, in the memory's units."""
     samples = ports[0].count
     rows = np.ravel([[port.first + sample for port in ports] for sample in range(samples)])
     inside = np.linalg.inv(model.du[np.ix_(rows, rows)])

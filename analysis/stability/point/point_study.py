@@ -77,7 +77,7 @@ class PointStudy:
         return LoopStudy(self.bench, channel, self.model(channel), limits, notes)
 
     def report(self) -> PointReport:
-        """The point, with what the memory does over one hyperperiod more."""
+        """Return the point, with the change of the memory over one hyperperiod more."""
         drift = holds = None
         trim: tuple[tuple[str, float, float, str | None], ...] = ()
         if self.linear is not None:
@@ -101,7 +101,7 @@ class PointStudy:
         )
 
     def _drift(self) -> float:
-        """The largest relative change of a loop's L, near its crossovers, over one hyperperiod."""
+        """Return the largest relative change of a loop's L, near its crossovers, over one hyperperiod."""
         assert self.linear is not None
         assert self._start is not None
         start = self._start.one_period_on()

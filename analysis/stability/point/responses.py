@@ -48,7 +48,7 @@ class LoopModel:
 
     @cached_property
     def lowest(self) -> float:
-        """Where margins are looked for from (rad/s)."""
+        """Lowest frequency of the search for margins (rad/s)."""
         return lowest_frequency(self.response, self.port.seconds)
 
     @cached_property
@@ -63,7 +63,8 @@ class LoopModel:
         return len(self._unstable)
 
     def slower(self, frequency: float) -> int:
-        """Unstable open-loop poles slower than a frequency (rad/s), which are not told from integrators there."""
+        """Return the number of unstable open-loop poles slower than a frequency (rad/s),
+        indistinguishable from integrators there."""
         return int(np.sum(self._unstable < frequency))
 
     @property
@@ -73,7 +74,7 @@ class LoopModel:
 
     @property
     def has_plateau(self) -> bool:
-        """Whether its derivatives can be trusted."""
+        """True if its derivatives can be trusted."""
         return self.facts.plateau <= DOUBTFUL
 
     @property
@@ -87,12 +88,12 @@ class LoopModel:
 
     @property
     def stable(self) -> bool:
-        """Of the whole system with all loops closed: nothing that it remembers may grow."""
+        """True if the whole system with all loops closed is stable: no memory may grow."""
         return not self.outside and bool(self.largest < 1.0 + self.blur)
 
     @property
     def blur(self) -> float:
-        """How near to the unit circle a pole is no longer told from one on it."""
+        """Distance from the unit circle below which a pole is indistinguishable from one on it."""
         return _blur(self.facts.plateau)
 
     def lightly_damped(self) -> tuple[list[float], list[float]]:
@@ -109,7 +110,7 @@ class LoopModel:
         return [float(w) for w in frequencies[on_circle]], [float(w) for w in frequencies[near]]
 
     def margins(self) -> Margins:
-        """The nearest margins. Raises StudyError where they cannot be read."""
+        """Return the nearest margins. Raises StudyError where they cannot be read."""
         seconds = self.port.seconds
         try:
             undamped, near = self.lightly_damped()
@@ -120,7 +121,7 @@ class LoopModel:
 
 
 def loop_model(linearisation: Linearisation, port: Port) -> LoopModel:
-    """The part of a linear model that belongs to one channel, and how far it can be trusted."""
+    """Return the model of one channel within a linear model, and its trust."""
     model = linearisation.model.reduce((port,))
     neighbour = linearisation.neighbour.reduce((port,))
     nyquist = np.pi / port.seconds
@@ -151,19 +152,19 @@ def _blur(change: float) -> float:
 
 
 def _is_outside(block: Block, own: Sequence[Mode], plateau: float) -> bool:
-    """Whether a block grows, and no mode that the cut moves and sees says so already."""
+    """Return True if a block grows, and no mode of the loop accounts for it already."""
     if abs(block.multipliers[0]) < 1.0 + _blur(max(block.change, plateau)):
         return False
     return not any(mode.kind == "loop" and _alike(mode, block) for mode in own)
 
 
 def _alike(mode: Mode, block: Block) -> bool:
-    """Whether a mode is the fastest of a block: of a reduced model it is so up to what was left out."""
+    """Return True if a mode is the fastest of a block: of a reduced model it is so up to the omitted memory."""
     return bool(abs(abs(mode.z) - abs(block.multipliers[0])) < MOST_BLUR)
 
 
 def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:
-    """The memory whose derivatives change most with the step."""
+    """Return the memory whose derivatives change most with the step."""
     if model.a.shape != neighbour.a.shape:
         return ("what reaches what depends on the step",)
     change = np.max(abs(model.a - neighbour.a), axis=0)
@@ -172,7 +173,7 @@ def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:
 
 
 def agreement(response: Response, measured: Measured, sample_period: float) -> Agreement:
-    """The linearised response against the measured one on its lines below half the Nyquist frequency."""
+    """Compare the linearised response with the measured one on its lines below half the Nyquist frequency."""
     highest = 0.5 * np.pi / sample_period
     retained = measured.curve.frequency <= highest
     frequency = measured.curve.frequency[retained]

@@ -33,7 +33,7 @@ class Silence:
 
     @property
     def reason(self) -> str:
-        """Where the loop ends, in words."""
+        """End of the loop, in words."""
         if self.component is None:
             return "nothing comes back"
         return f"nothing comes back behind {self.component}"
@@ -121,7 +121,7 @@ class _Path:
 
 
 def _path(network: Network, channel: Channel) -> _Path:
-    """The way from a channel's cut to its return signal."""
+    """Return the path from a channel's cut to its return signal."""
     readers: dict[str, set[str]] = {}
     sources: dict[str, str | None] = {}
     for link in network.links():

@@ -1,1 +1,1 @@
-"""What a stability study is asked: declarations in the SSD, options, channels of the cuts."""
+"""Request for a stability study: declarations in the SSD, options, channels of the cuts."""

@@ -45,14 +45,14 @@ class Channel:
         return (*self.connectors, *self.rates, *back)
 
     def _towards(self, signals: Signals) -> np.ndarray:
-        """The direction that counts [r, 3], of any length."""
+        """Return the direction that counts [r, 3], of any length."""
         direction = np.column_stack([signals[name] for name in self.connectors[1:]])
         if self.rates:
             direction = direction + self.ahead * np.column_stack([signals[name] for name in self.rates])
         return direction
 
     def excitation(self, signals: Signals, added: np.ndarray) -> np.ndarray:
-        """What to add to each connector [r, connectors], so that the cut gains ``added`` [r].
+        """Return the addition to each connector [r, connectors] with which the cut gains ``added`` [r].
 
         ``signals`` are those of the flight without it: along them a vector's size and direction change together.
         """
@@ -68,14 +68,14 @@ class Channel:
         return np.column_stack([along, across * (length / size)[:, None]])
 
     def injection_for(self, signals: Signals) -> np.ndarray:
-        """The signal behind the cut, with what was added."""
+        """Return the signal after the cut, with the addition."""
         if self.axis is None:
             return signals[self.connectors[0]]
         towards = self._towards(signals)
         return signals[self.connectors[0]] * towards[:, self.axis] / np.linalg.norm(towards, axis=1)
 
     def back(self, signals: Signals, excitation: np.ndarray) -> np.ndarray:
-        """The signal that comes back; ``excitation`` [r, connectors] is what was added to get ``signals``."""
+        """Return the return signal; ``excitation`` [r, connectors] is the addition in ``signals``."""
         if self.returned is not None:
             return signals[self.returned]
         before = {name: signals[name] - excitation[:, index] for index, name in enumerate(self.connectors)}
@@ -83,7 +83,7 @@ class Channel:
 
 
 def channels_of(loop: Loop, network: Network, step: float) -> list[Channel]:
-    """The channels of a loop in a network with communication step ``step`` (s). Raises InputError."""
+    """Return the channels of a loop in a network with communication step ``step`` (s). Raises InputError."""
     where = f"loop {loop.name}"
     cut = _connectors(network, loop.cut, where)
     returned: list[str | None] = [*_connectors(network, loop.returned, where)] if loop.returned else []
@@ -136,7 +136,7 @@ def _vector(network: Network, name: str, where: str) -> list[str]:
 
 
 def _connectors(network: Network, name: str, where: str) -> list[str]:
-    """The Real connectors that a name stands for: its own, or those of the vector of this name."""
+    """Return the Real connectors that a name stands for: its own, or those of the vector of this name."""
     connectors = elements(name, network.nodes)
     if not connectors:
         known = [node.name for node in network.nodes.values() if node.component is not None]

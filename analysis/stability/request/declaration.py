@@ -1,4 +1,4 @@
-"""What is asked of a stability study: operating points, loops, elements, sweeps, limits."""
+"""Declared contents of a stability study: operating points, loops, elements, sweeps, limits."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ class Limits:
 
 @dataclass(frozen=True)
 class Point:
-    """Where a system is linearised: the first communication point at ``time`` (s) or later that fits its rates.
+    """Operating point of a linearisation: the first communication point at ``time`` (s) or later that fits its rates.
 
-    ``signal`` and ``falls_to`` choose instead the first communication point at which a signal is no larger than
-    a value. ``layer`` is what of the system's options makes the operating point. ``until`` (s):
-    how long it lasts, for measurements; None: as long as wanted. ``phase`` says in words what the system does.
+    ``signal`` and ``falls_to`` choose instead the first communication point at which a signal is no larger than a
+    value. ``layer`` has the system's options of the operating point. ``until`` (s): its end, for measurements; None:
+    unlimited. ``phase`` says in words what the system does.
     """
 
     name: str

@@ -19,7 +19,7 @@ LAYER_ELEMENTS = ("Use", "ParameterSet", "Set")
 
 
 def read_declaration(description: Description) -> Declaration:
-    """What the SSD declares, nothing where it declares nothing. Raises InputError naming the line."""
+    """Read the declaration of the SSD, empty where there is none. Raises InputError naming the line."""
     annotation = description.annotations.get(ANNOTATION)
     if annotation is None:
         return Declaration()
@@ -76,7 +76,7 @@ class _Reader(AnnotationReader):
         )
 
     def pairs(self, elements: list[etree._Element], key: str, value: str) -> dict[str, str]:
-        """Two attributes of each element as a mapping; what is given twice is refused."""
+        """Return two attributes of each element as a mapping; duplicates are refused."""
         values: dict[str, str] = {}
         for element in elements:
             item = self.attributes(element, (key, value))

@@ -22,11 +22,11 @@ from .reading import read_declaration
 
 @dataclass(frozen=True)
 class Request:
-    """A study to be made; small enough to be sent to every worker.
+    """Request for a study; small enough to be sent to every worker.
 
-    ``name`` is the system's and ``label`` its place, for messages. ``plan`` is the campaign that margins are
-    dispersed over, ``campaign`` its name as it was given, ``draws`` the file of its draws where it draws none. ``at``
-    are the times (s) that the user gives for points, none where the declaration's hold.
+    ``name`` is the system's and ``label`` its place, for messages. ``plan`` is the campaign that margins are dispersed
+    over, ``campaign`` its name as requested, ``draws`` the file of its draws where it draws none. ``at`` are the user's
+    times (s) for points, none where the declaration's hold.
     """
 
     name: str
@@ -62,10 +62,10 @@ def read_request(
     trial: int | None = None,
     draws: Path | None = None,
 ) -> Request:
-    """The study of a system's declared loops, or of some.
+    """Read the request for a study of a system's declared loops, or of some.
 
     ``loops`` are names of declared loops, or connectors of loops that are not declared, which are cut at the times
-    ``at`` (s; 0 unless given). Declared loops are studied there too, each with the settings of its declared points, and
+    ``at`` (s; 0 by default). Declared loops are studied there too, each with the settings of its declared points, and
     without sweeps, which belong to those points. With ``campaign``, of which ``configuration`` names one, margins are
     dispersed over its trials, or with ``trial`` the study is made of that trial's draws. ``draws`` is a file of draws
     to take in place of drawn ones. Raises InputError.
@@ -93,7 +93,7 @@ def read_request(
 
 
 def _select(description: Description, names: Sequence[str], at: Sequence[float], options: SystemOptions) -> Declaration:
-    """The declaration with just the loops that are asked for."""
+    """Return the declaration with just the requested loops."""
     declared = read_declaration(description)
     by_name = {loop.name: loop for loop in declared.loops}
     for time in at:
@@ -185,6 +185,6 @@ class Subject:
         return replace(self, options=options if step is None else options.but(step=step))
 
     def at(self, point: Point, study: Layer | None = None) -> PreparedSystem:
-        """The system at a point, with ``study`` over all other layers. Raises InputError."""
+        """Prepare the system at a point, with ``study`` over all other layers. Raises InputError."""
         options = self.options.among(operating_point=point.layer, study=study or Layer())
         return prepare_system(self.system, options, self.fmus)

@@ -1,1 +1,1 @@
-"""What a study finds: plain values, requirements, the document for other programs."""
+"""Results of a study: plain values, requirements, the document for other programs."""

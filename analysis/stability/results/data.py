@@ -1,10 +1,10 @@
 """Loop responses and linear models as files for python-control, MATLAB and spreadsheets, with names and units.
 
 Three files say the same: `loops.json` for python-control, `loops.mat` for MATLAB, `responses.csv` with the responses
-alone. Gains are factors, frequencies rad/s, times s; signals and states are in the units that stand beside them. The
-bytes depend on the content alone.
-Source: The MathWorks, MAT-File Format (version 5): the first 116 bytes are a text that begins with "MATLAB 5.0
-MAT-file", then come the subsystem's offset, the version and the byte order. SciPy writes date and platform into it.
+alone. Gains are factors, frequencies rad/s, times s; signals and states are in the units next to them. The bytes depend
+on the content alone. Source: The MathWorks, MAT-File Format (version 5): the first 116 bytes are a text that begins
+with "MATLAB 5.0 MAT-file", then come the subsystem's offset, the version and the byte order. SciPy writes date and
+platform into it.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ HEADER = b"MATLAB 5.0 MAT-file, written by Perilune".ljust(116)
 
 
 def write_data(report: StabilityReport, folder: Path) -> None:
-    """Write the three files into a folder, which is made; the same study gives the same bytes. Raises OSError."""
+    """Write the three files into a folder, which is created; the same study gives the same bytes. Raises OSError."""
     facts, results = document(report), _results(report)
     about = {"system": facts["system"], "sign": SIGN, "model": MODEL}
     if report.orders is not None:
@@ -67,7 +67,7 @@ def _results(report: StabilityReport) -> dict[str, list[dict[str, object]]]:
 
 
 def _assumption(orders: Orders) -> str:
-    """Which FMUs leave their dependencies undeclared, and which records are of which order."""
+    """Return a note on FMUs with undeclared dependencies, and on the records of each order."""
     words = f"Direct dependencies are not declared by {orders.fmus}: stepped with the inputs of the step's start."
     if orders.report is not None:
         direct = ", ".join(orders.direct)
@@ -121,7 +121,7 @@ def _fill_unknown(facts: Mapping[str, float | str | None]) -> dict[str, float | 
 
 
 def _curves(loop: LoopReport) -> Curves:
-    """The linearised and the measured response, as far as there are."""
+    """Return the linearised and the measured response, as far as they exist."""
     curves: list[tuple[str, np.ndarray, np.ndarray]] = []
     if loop.open_loop is not None:
         curves.append((LINEARISED, loop.curve.frequency, loop.curve.value))
@@ -173,14 +173,14 @@ def _plain(value: object) -> object:
 
 
 def mat_bytes(variables: Mapping[str, object]) -> bytes:
-    """The file with these variables; names are at most 63 letters, digits and underscores."""
+    """Return the file with these variables; names are at most 63 letters, digits and underscores."""
     file = io.BytesIO()
     savemat(file, dict(variables), long_field_names=True, oned_as="column")
     return HEADER + file.getvalue()[len(HEADER) :]
 
 
 def struct_array(records: Sequence[Mapping[str, object]]) -> np.ndarray:
-    """Records with the same keys as a MATLAB struct array, one by n; lists of texts are cell arrays."""
+    """Return records with the same keys as a MATLAB struct array, one by n; lists of texts are cell arrays."""
     names = list(records[0]) if records else []
     array = np.empty((1, len(records)), dtype=[(name, object) for name in names])
     for place, record in enumerate(records):

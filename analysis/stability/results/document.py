@@ -23,7 +23,7 @@ KEYS = {
 
 
 def document(report: StabilityReport) -> dict[str, object]:
-    """The whole report without the linearisation's curves, ready for strict JSON.
+    """Return the whole report without the linearisation's curves, ready for strict JSON.
 
     No number is infinite: a margin is a number, "unstable", "unlimited", or null where it is not known.
     """
@@ -50,7 +50,7 @@ def document(report: StabilityReport) -> dict[str, object]:
 
 
 def _finite(value: object) -> object:
-    """The same with null for every number that is none or infinite."""
+    """Return the same with null for every number that is NaN or infinite."""
     if isinstance(value, dict):
         return {name: _finite(item) for name, item in value.items()}
     if isinstance(value, list | tuple):
@@ -59,7 +59,7 @@ def _finite(value: object) -> object:
 
 
 def _size(value: float | None, *, stable: bool = True) -> float | str | None:
-    """The size of a margin: a number, what it is instead of one, or None where it is not known."""
+    """Return the size of a margin: a number, the word in its place, or None where it is not known."""
     if not stable:
         return "unstable"
     if value is None or math.isnan(value):
@@ -68,18 +68,18 @@ def _size(value: float | None, *, stable: bool = True) -> float | str | None:
 
 
 def loop_margins(loop: LoopReport) -> dict[str, float | str | None]:
-    """The four margins and the delay margin of a loop, by their keys."""
+    """Return the four margins and the delay margin of a loop, by their keys."""
     delay = _size(loop.classical.delay_margin, stable=not loop.margins.unstable)
     return {**_margins(loop.margins), "delay_margin_s": delay}
 
 
 def joint_margin(joint: JointReport) -> float | str | None:
-    """The simultaneous disk margin of a loop's channels."""
+    """Return the simultaneous disk margin of a loop's channels."""
     return _size(joint.disk_margin, stable=joint.stable)
 
 
 def _margins(margins: Margins | None) -> dict[str, float | str | None]:
-    """The four margins; None where they are not known."""
+    """Return the four margins; None where they are not known."""
     return {name: _size(None if margins is None else margins.size(quantity)) for name, quantity in KEYS.items()}
 
 

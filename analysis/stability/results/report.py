@@ -65,7 +65,7 @@ class LoopReport:
 
     @property
     def doubted(self) -> bool:
-        """Whether linearised and measured response differ: then nothing that was read off one of them can pass."""
+        """True if linearised and measured response differ: then no reading of one of them can pass."""
         return self.agreement is not None and not self.agreement.agrees
 
     @property
@@ -134,7 +134,7 @@ class Unstudied:
 
     @property
     def text(self) -> str:
-        """The reason with what it comes to."""
+        """Reason with its verdict."""
         if self.verdict is Verdict.FAIL:
             return self.reason
         if self.verdict is Verdict.WITHHELD:
@@ -151,12 +151,12 @@ class Judged(NamedTuple):
 
 @dataclass(frozen=True)
 class Orders:
-    """A study of loops that pass FMUs with undeclared dependencies, made in both orders.
+    """A study, in both orders, of loops that pass FMUs with undeclared dependencies.
 
-    ``undeclared`` are these FMUs' names by component, assumed to have no feedthrough in what flies; ``direct`` are the
-    components that have it in ``report``, the study in the other order. ``without`` are those that cannot have it
-    with the others: it would close an algebraic loop, which the initialisation cuts at ``cuts``. The report is None
-    where none can have it, and then there is one order only.
+    ``undeclared`` are these FMUs' names by component, assumed to have no feedthrough in simulations; ``direct`` are the
+    components that have it in ``report``, the study in the other order. ``without`` are those that cannot have it with
+    the others: it would close an algebraic loop, which the initialisation cuts at ``cuts``. The report is None where
+    none can have it, and then there is one order only.
     """
 
     undeclared: dict[str, str]
@@ -200,7 +200,7 @@ class StabilityReport:
 
     @property
     def verdict(self) -> Verdict:
-        """What could not be studied, or what linearised and measured responses differ on, is not passed."""
+        """Verdict, which does not pass loops without a study or with differing linearised and measured responses."""
         requirements = [item.requirement.verdict for item in self.judgements()]
         verdict = combine_verdicts([*requirements, *(lost.verdict for lost in self.unstudied if lost.verdict)])
         open_to_doubt = self.unstudied or any(loop.doubted for loop in self.loops)

@@ -10,7 +10,7 @@ from ..loops.margin_values import UNSTABLE, Quantity
 
 
 class Scope(StrEnum):
-    """Of what a requirement speaks: one loop, its trials, all channels of a loop at once."""
+    """Scope of a requirement: one loop, its trials, all channels of a loop at once."""
 
     NOMINAL = "nominal"
     DISPERSED = "dispersed"
@@ -43,7 +43,8 @@ class Requirement:
 
     @classmethod
     def at_least(cls, scope: Scope, quantity: Quantity, value: float, limit: float, note: str = "") -> Requirement:
-        """That a margin is no smaller than its limit; one of an unstable loop is smaller than any."""
+        """Return the requirement that a margin is no smaller than its limit; one of an unstable
+        loop is smaller than any."""
         return cls(scope, quantity, value, limit, value >= limit, note)
 
     @property
@@ -57,7 +58,7 @@ class Requirement:
 
     @property
     def unstable(self) -> bool:
-        """Whether it fails because there is no margin, the loop being unstable."""
+        """True if it fails because there is no margin, the loop being unstable."""
         return self.value == UNSTABLE
 
     @property
@@ -69,7 +70,7 @@ class Requirement:
 
 
 def combine(requirements: Iterable[Requirement]) -> Verdict:
-    """The verdict of all requirements."""
+    """Return the verdict of all requirements."""
     return combine_verdicts(requirement.verdict for requirement in requirements)
 
 
@@ -82,7 +83,7 @@ def combine_verdicts(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def grows(outside: Sequence[str], most: int = 4) -> str:
-    """What is unstable outside of a loop, in words."""
+    """Return the instability outside of a loop, in words."""
     if not outside:
         return ""
     more = f" and {len(outside) - most} more" if len(outside) > most else ""

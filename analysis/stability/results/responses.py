@@ -45,7 +45,7 @@ class Structure:
 
 @dataclass(frozen=True)
 class Linearised:
-    """How the Jacobian was made and how far it can be trusted."""
+    """Facts on the Jacobian, and on its trust."""
 
     states: int
     period: float  # s, over which the Jacobian was taken
@@ -56,7 +56,7 @@ class Linearised:
 
 @dataclass(frozen=True)
 class Measured:
-    """How the injection was made and how far it can be trusted."""
+    """Facts on the injection, and on its trust."""
 
     amplitude: float  # of one line, in the cut's unit
     lines: int
@@ -81,14 +81,14 @@ class Agreement:
 class StateSpace:
     """The open loop x[k+1] = A x[k] + B u[k], y[k] = C x[k] + D u[k], with L from ``u`` to ``y``.
 
-    ``u`` is what goes into the loop behind the break point, ``y`` minus what returns to it, so that the loop is
-    closed by u = d - y and L is positive for negative feedback. All are deviations from the flight at the operating
-    point, in the units given (None: without one).
+    ``u`` is the signal into the loop after the break point, ``y`` minus the signal that returns to it, so that the loop
+    is closed by u = d - y and L is positive for negative feedback. All are deviations from the flight at the operating
+    point, in the units of ``signal_units`` and ``state_units`` (None: without one).
 
     ``period`` (s) is that between two k. Where ``samples`` is 1 it is the loop's own sample period; a loop that changes
     from sample to sample within the hyperperiod has its ``samples`` of u and y stacked, oldest first, channel by
-    channel within each, and the hyperperiod for its period. ``error`` is the largest relative difference of the
-    model's L from the study's where |L| is between 1/33 and 33.
+    channel within each, and the hyperperiod for its period. ``error`` is the largest relative difference of the model's
+    L from the study's where |L| is between 1/33 and 33.
     """
 
     a: np.ndarray

@@ -45,7 +45,7 @@ class Dispersion:
         return sum(item.unstable for item in self.margins)
 
     def sizes(self, quantity: Quantity) -> np.ndarray:
-        """A margin's size in every trial, `UNSTABLE` and `UNLIMITED` among them."""
+        """Return a margin's size in every trial, `UNSTABLE` and `UNLIMITED` among them."""
         return np.array([item.size(quantity) for item in self.margins])
 
     def levels(self, quantity: Quantity) -> dict[str, float]:
