@@ -113,7 +113,7 @@ def bundle(output: Path, *, check: bool) -> None:
 
 
 def notice(name: str | None) -> str:
-    """The licence of a package as a comment, for a page that has it inside."""
+    """Return the licence of a package as a comment, for a page that has it inside."""
     return f"/*!\n{name}: {licence(name)}*/" if name in EMBEDDED else ""
 
 

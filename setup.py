@@ -1,4 +1,4 @@
-"""What pyproject.toml cannot say of a wheel and a source distribution.
+"""Steps of building a wheel and a source distribution beyond pyproject.toml.
 
 FMUs, documentation, bill of materials, the page of a package index, the same bytes everywhere.
 """
@@ -43,11 +43,11 @@ BILL = "sboms/perilune.cdx.json"  # PEP 770: in .dist-info
 class BuildWithFmus(build_py):
     """Packs what `build_fmus.py`, `build_web.py` and `build_docs.py` build.
 
-    An installed package flies without a checkout or a compiler, writes pages with their scripts without node, and has
-    its documentation.
+    An installed package simulates without a checkout or a compiler, writes pages with their scripts without node, and
+    has its documentation.
 
-    Python FMUs are not among them: `fmus_src/export/available.py` builds these where they are asked for. An editable
-    installation flies what lies in the checkout's build folder instead.
+    Python FMUs are not among them: `fmus_src/export/available.py` builds these on demand. An editable installation uses
+    the checkout's build folder instead.
     """
 
     def run(self) -> None:
@@ -114,7 +114,7 @@ def index_page(readme: str) -> str:
 
 
 def write_bill() -> str:
-    """A CycloneDX document: what the wheel has in it, what it needs, and what compiles its FMUs."""
+    """Return a CycloneDX document: contents of the wheel, its dependencies, and the compiler of its FMUs."""
     from cyclonedx.model.bom import Bom, BomMetaData
     from cyclonedx.model.component import Component, ComponentScope, ComponentType
     from cyclonedx.model.license import LicenseExpression
@@ -166,7 +166,7 @@ def write_bill() -> str:
 
 
 def list_scripts() -> Iterator["Component"]:
-    """The packages of the npm registry that are bundled for report pages, by their lock."""
+    """Yield the packages of the npm registry that are bundled for report pages, by their lock."""
     from cyclonedx.model.component import Component, ComponentScope
     from cyclonedx.model.license import LicenseExpression
     from packageurl import PackageURL

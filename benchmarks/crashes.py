@@ -1,9 +1,9 @@
-"""What processes of foreign FMUs cost, and what a crash in them: times of one run, side by side.
+"""Costs of processes of foreign FMUs, and of a crash in them: times of one run, side by side.
 
     python -m benchmarks.crashes
 
-An FMU in C whose trial takes half a millisecond flies FEW and MANY trials, of which the difference is what a trial
-costs without the start of anything; and FEW of which a tenth ends its process.
+An FMU in C whose trial takes half a millisecond runs FEW and MANY trials, of which the difference is the cost of a
+trial without any start; and FEW of which a tenth ends its process.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def costs(fmu: Path, workers: int, *, in_process: bool) -> tuple[float, float]:
 
 
 def batch(fmu: Path, workers: int, trials: int, *, in_process: bool = False) -> float:
-    """Median time (s) of a batch of so many trials, the first one left out."""
+    """Return the median time (s) of a batch of ``trials`` trials, the first one left out."""
     fmu.with_suffix(".toml").write_text(COUNTS.format(name=fmu.stem, trials=trials))
     options = SystemOptions(stop_time=1.0, step=STEP, in_process=in_process)
     times = []

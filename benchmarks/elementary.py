@@ -1,4 +1,4 @@
-"""Times a call of each elementary function beside the C library's and Python's: `python -m benchmarks.elementary`."""
+"""Times of a call of each elementary function, the C library's and Python's: `python -m benchmarks.elementary`."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ USUAL = (-10.0, 10.0)
 
 
 def library() -> ctypes.CDLL:
-    """A library with loops over every function, ours and the C library's."""
+    """Return a library with loops over every function, ours and the C library's."""
     main = f"{ElementaryFunctions.fmu_name}.c"
     sources = native_sources(ElementaryFunctions, "{0}")
     text = sources[main].decode()

@@ -60,7 +60,7 @@ class Recording:
 
 
 def record_guidance(law: str, seconds: float = SECONDS) -> Recording:
-    """Fly `lunar_landing` with a law and return what its guidance was given."""
+    """Fly `lunar_landing` with a law and return the inputs of its guidance."""
     flight = perilune.simulate("lunar_landing", use={"guidance": law}, stop_time=seconds)
     fmu = flight.prepared.network.fmus["guidance"]
     parameters: dict[str, dict[str, float]] = {"Real": {}, "Integer": {}, "Boolean": {}}

@@ -30,7 +30,7 @@ FORMS = {"native": "FMI 2.0, native", "python": "FMI 2.0, Python", "fmi3": "FMI 
 
 
 def fmu_of(block: type[Block], form: str) -> Path:
-    """The built FMU of FMI 2.0, or one of FMI 3.0 for this machine."""
+    """Return the built FMU of FMI 2.0, or one of FMI 3.0 for this machine."""
     if form != "fmi3":
         return shipped_fmu(block.fmu_name, form)
     platform = local_platform(3)
@@ -40,7 +40,7 @@ def fmu_of(block: type[Block], form: str) -> Path:
 
 
 def blocks_of(form: str) -> list[type[Block]]:
-    """The blocks that have this form."""
+    """Return the blocks that have this form."""
     return [block for block in catalogue().values() if form == "python" or not block.python_only]
 
 
@@ -85,7 +85,7 @@ def failures(form: str, blocks: Sequence[type[Block]]) -> dict[tuple[str, float]
 
 
 def row(label: str, numbers: Sequence[object]) -> str:
-    """A row of a table."""
+    """Return a row of a table."""
     return f"| {' | '.join([label, *map(str, numbers)])} |"
 
 

@@ -1,8 +1,8 @@
-"""How time and memory of a quantile grow with the trials of a campaign's folder.
+"""Growth of time and memory of a quantile with the trials of a campaign's folder.
 
     python -m benchmarks.large_results [TRIALS ...]
 
-Each question has a process of its own, which opens the folder and asks for the 99.9 % quantile of a metric.
+Each question has a separate process, which opens the folder and asks for the 99.9 % quantile of a metric.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
-"""How time and memory grow with the size of a system: rings with ten connections into each component.
+"""Growth of time and memory with the size of a system: rings with ten connections into each component.
 
     python -m benchmarks.large_systems [COMPONENTS ...]
 
 Four tables: a step of rings of ten FMUs of ours, interpreted and fused; the same FMUs, each size in a process that
-reads, checks and orders the system, instantiates its FMUs and flies one step; one foreign FMU, with the whole command
-`perilune run` and what a component adds to the smallest ring; a foreign FMU of 10^5 variables, with the whole commands
-`run` and `validate`.
+reads, checks and orders the system, instantiates its FMUs and simulates one step; one foreign FMU, with the whole
+command `perilune run` and what a component adds to the smallest ring; a foreign FMU of 10^5 variables, with the whole
+commands `run` and `validate`.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ REPEATS = 7
 
 
 def one_fmu(name: str, folder: Path) -> PreparedSystem:
-    """The system as one FMU, flown alone."""
+    """Return the system as one FMU, simulated alone."""
     path = folder / f"{name}.fmu"
     platform = local_platform()
     assert platform is not None
@@ -42,7 +42,7 @@ def one_fmu(name: str, folder: Path) -> PreparedSystem:
 
 
 def container(name: str, folder: Path) -> PreparedSystem | None:
-    """A container of the toolbox; None where it cannot make one."""
+    """Return a container of the toolbox; None where it cannot build one."""
     from fmu_manipulation_toolbox.assembly import Assembly
 
     logging.getLogger("fmu_manipulation_toolbox").setLevel(logging.CRITICAL)
@@ -66,7 +66,7 @@ def _with_system(folder: Path, name: str) -> Path:
 
 
 def timed(prepared: PreparedSystem, steps: int) -> Callable[[], float]:
-    """What flies so many steps once, and returns the time of one (us)."""
+    """Return a function that simulates ``steps`` steps, and returns the time of one (us)."""
     simulation = Simulation(prepared, wanted=())
 
     def fly() -> float:

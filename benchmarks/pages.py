@@ -2,9 +2,9 @@
 
     python -m benchmarks.pages [--trials N] [--swiftshader]
 
-Prints the table of docs/reports.md: medians over pages opened anew, in headless Chromium as it is without a graphics
-processor: WebGL by SwiftShader, the page drawn and composed by the processor; ``--swiftshader``: composed
-by SwiftShader, too. Needs Chromium and its driver. Times of pictures include the frame in which they are drawn.
+Prints the table of docs/reports.md: medians over newly opened pages, in headless Chromium as it is without a graphics
+processor: WebGL by SwiftShader, the page drawn and composed by the processor; ``--swiftshader``: composed by
+SwiftShader, too. Needs Chromium and its driver. Times of pictures include the frame in which they are drawn.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Rare failures of a noisy landing beside Monte Carlo: `python benchmarks/rare_landing.py [RESULTS]`.
+"""Rare failures of a noisy landing compared with Monte Carlo: `python benchmarks/rare_landing.py [RESULTS]`.
 
 RESULTS is the folder of a batch as `tests/support/landing_counts.py` says; without it the counts there are the truth. A
 study has 4500 samples a level and takes some minutes.

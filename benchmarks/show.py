@@ -122,7 +122,7 @@ def _selected(driver: Any) -> list[int]:
 
 
 def _by_pyarrow(folder: Path, driver: Any) -> list[int]:
-    """The same of the ranges that the page's last request had."""
+    """Return the same of the ranges that the page's last request had."""
     entries = "performance.getEntriesByType('resource').map(each => each.name)"
     script = f"return {entries}.filter(each => each.includes('/counts'))"
     last = driver.execute_script(script)[-1]

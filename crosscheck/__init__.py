@@ -1,1 +1,1 @@
-"""Cross-checks against Basilisk: the same flight in both, each in an environment of its own, compared by tables."""
+"""Cross-checks against Basilisk: the same flight in both, each in a separate environment, compared by tables."""

@@ -113,7 +113,7 @@ def print_row(texts: Iterable[str], begins: bool = False) -> None:
 
 
 def statements(names: Iterable[str]) -> list[str]:
-    """The rows of a table of cases: what each flight states of itself."""
+    """Return the rows of a table of cases: the declarations of each flight."""
     rows = ["| case | verifies | gravitation | environment | integrator | matched how |", f"|{' --- |' * 6}"]
     for name in names:
         case: Case = stated("cases", name)
@@ -123,7 +123,7 @@ def statements(names: Iterable[str]) -> list[str]:
 
 
 def row_of(case: Case, coarse: dict[str, float], fine: dict[str, float]) -> list[str]:
-    """The row of a case: the largest differences with its step, and how they fall with half of it."""
+    """Return the row of a case: the largest differences with its step, and their decrease with half of it."""
     orders = [np.log2(coarse[each] / fine[each]) for each in case.quantities if coarse[each] > 0.0 < fine[each]]
     order = float(np.median(orders))
     numbers = [f"{coarse[each]:.1e}" if each in coarse else "" for each in QUANTITIES]

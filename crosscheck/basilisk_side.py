@@ -77,7 +77,7 @@ class Flight:
 
 
 def column(numbers: object) -> list[list[float]]:
-    """A vector as Basilisk takes it."""
+    """Return a vector as Basilisk takes it."""
     return [[float(number)] for number in numbers]
 
 
@@ -92,7 +92,7 @@ def quaternions(mrp: np.ndarray) -> np.ndarray:
 
 
 def to_mrp(quaternion: object) -> np.ndarray:
-    """The other way."""
+    """Convert the other way."""
     q = np.array(quaternion) / np.linalg.norm(quaternion)
     return q[1:] / (1.0 + q[0])
 

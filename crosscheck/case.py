@@ -1,4 +1,4 @@
-"""What a cross-check states of itself, in the words of a verification report."""
+"""Declarations of a cross-check, in the words of a verification report."""
 
 from dataclasses import dataclass
 
@@ -24,7 +24,7 @@ class Case:
 
 
 def vector(name: str, size: int = 3) -> tuple[str, ...]:
-    """The columns of a vector's elements."""
+    """Return the columns of a vector's elements."""
     return tuple(f"{name}[{index + 1}]" for index in range(size))
 
 

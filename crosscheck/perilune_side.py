@@ -19,7 +19,7 @@ def fly(
     commands: dict[str, np.ndarray] | None = None,
     file: Path | None = None,
 ) -> Table:
-    """The table of a block's FMU alone: each name with the output that it is, vectors by element.
+    """Return the table of a block's FMU alone: each name with the output that it is, vectors by element.
 
     ``commands`` are inputs over time, held between their samples, ``time`` (s) among them. The FMU is Perilune's, or
     that of a block in a ``file``, exported as users export theirs.
@@ -40,7 +40,7 @@ def fly_fmu(
     outputs: dict[str, str],
     commands: dict[str, np.ndarray] | None,
 ) -> Table:
-    """The same of the FMU in a file."""
+    """Return the same of the FMU in a file."""
     inputs = {name if name == "time" else f"{block}.{name}": values for name, values in (commands or {}).items()}
     flight = perilune.simulate(
         fmu,
@@ -53,7 +53,7 @@ def fly_fmu(
 
 
 def table_of(flight: perilune.Result, signals: dict[str, str]) -> Table:
-    """The table of a flight: each name with the signal that it is, vectors by element."""
+    """Return the table of a flight: each name with the signal that it is, vectors by element."""
     table: Table = {"time": flight.time}
     for name, signal in signals.items():
         columns = flight[signal]

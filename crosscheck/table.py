@@ -20,7 +20,7 @@ def write_table(path: Path, table: Table) -> None:
 
 
 def read_table(path: Path) -> Table:
-    """The columns of a table."""
+    """Read the columns of a table."""
     with path.open(newline="") as file:
         names, *rows = csv.reader(file)
     numbers = np.array([[float(text) for text in row] for row in rows])
@@ -28,7 +28,7 @@ def read_table(path: Path) -> Table:
 
 
 def at_common_times(ours: Table, other: Table) -> tuple[Table, Table]:
-    """The rows of both that are at the same times; raises ValueError where there is none."""
+    """Return the rows of both that are at the same times; raises ValueError where there is none."""
     times = other["time"]
     nearest = np.clip(np.searchsorted(times, ours["time"] - SAME_TIME), 0, times.size - 1)
     same = np.abs(times[nearest] - ours["time"]) <= SAME_TIME
@@ -39,7 +39,8 @@ def at_common_times(ours: Table, other: Table) -> tuple[Table, Table]:
 
 
 def differences(case: Case, ours: Table, other: Table) -> dict[str, np.ndarray]:
-    """How far both are apart at each common time, by quantity: length of the difference, or angle between attitudes."""
+    """Return the distance of both at each common time, by quantity: length of the difference,
+    or angle between attitudes."""
     first, second = at_common_times(ours, other)
     apart = {}
     for name, (unit, columns) in case.quantities.items():

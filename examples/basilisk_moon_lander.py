@@ -12,7 +12,7 @@ SITE = "landing site"
 
 
 def column(along: Vector3) -> list[list[float]]:
-    """A vector as Basilisk takes it."""
+    """Return a vector as Basilisk takes it."""
     return [[along.x], [along.y], [along.z]]
 
 
@@ -104,7 +104,7 @@ class BasiliskMoonLander(Block):
         self.read()
 
     def read(self) -> None:
-        """Outputs from Basilisk's states."""
+        """Set outputs from Basilisk's states."""
         state = self.lander.craft.scStateOutMsg.read()
         from_centre = vector(*state.r_CN_N)
         self.position = from_centre - self.lander.centre
@@ -151,13 +151,14 @@ class BasiliskMoonLander(Block):
         return commanded * h + excess * self.thrust_lag * (1.0 - decay)
 
     def goal(self, t: float) -> Vector3:
-        """The commanded direction at a time (s); where there is no command, the attitude as it is."""
+        """Return the commanded direction at a time (s); where there is no command, the attitude as it is."""
         along = self.thrust_direction + (t - self.command_time) * self.thrust_direction_rate
         size = norm(along)
         return along / size if size > 0.0 else self.attitude
 
     def turn(self, axis: Vector3, t: float, h: float) -> Vector3:
-        """The thrust axis after h (s) of turning towards the command in the middle of them, taken at rest there."""
+        """Return the thrust axis after h (s) of turning towards the command in the middle of them, taken at rest
+        there."""
         goal = self.goal(t + 0.5 * h)
         normal = cross(axis, goal)
         angle = math.atan2(norm(normal), dot(axis, goal))

@@ -26,7 +26,7 @@ sys.meta_path.append(import_module(".fmus_src.former_names", __name__).FormerNam
 
 @cache
 def _homes() -> dict[str, str | None]:
-    """The module that defines each public name, relative to this one; None of a module."""
+    """Return the module that defines each public name, relative to this one; None of a module."""
     statements = ast.parse((HERE / "__init__.pyi").read_text(encoding="utf-8")).body
     imports = [statement for statement in statements if isinstance(statement, ast.ImportFrom)]
     return {alias.name: statement.module for statement in imports for alias in statement.names}

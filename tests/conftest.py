@@ -1,4 +1,4 @@
-"""What all tests share: built FMUs, tiny FMUs, and an end of the process that keeps its exit status."""
+"""Fixtures of all tests: built FMUs, tiny FMUs, and an end of the process that keeps its exit status."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_finish() -> None:
-    """What is imported and collected stays: more than half of each full garbage collection went over it."""
+    """Exempt imported and collected objects from garbage collection: more than half of each full one went over them."""
     gc.freeze()
 
 
@@ -109,14 +109,14 @@ def _build_where_old(_: Path) -> None:
 
 @pytest.fixture(scope="session")
 def fmus(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of this repository's Python FMUs, built with the native ones if missing or of older sources."""
+    """Return the folder of this repository's Python FMUs, built with the native ones if missing or of older sources."""
     made_once(tmp_path_factory, "fmus_looked_at", _build_where_old)
     return shipped_fmu("x", "python").parent
 
 
 @pytest.fixture(scope="session")
 def tiny_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The tiny FMUs of cosim/builders.py in folders `python` and `native`, built once per test run."""
+    """Return the tiny FMUs of cosim/builders.py in folders `python` and `native`, built once per test run."""
     from tests.support.builders import build_tiny_fmus
 
     return made_once(tmp_path_factory, "tiny_fmus", build_tiny_fmus)
@@ -124,13 +124,13 @@ def tiny_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(params=["python", "native"])
 def tiny(request: pytest.FixtureRequest, tiny_folder: Path) -> Path:
-    """The tiny FMUs, in either flavour."""
+    """Return the tiny FMUs, in either flavour."""
     return tiny_folder / request.param
 
 
 @pytest.fixture(scope="session")
 def array_fmus(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The FMUs of arrays/fmus.py, native ones."""
+    """Return the FMUs of arrays/fmus.py, native ones."""
     from tests.support.arrays.fmus import build_array_fmus
 
     return made_once(tmp_path_factory, "array_fmus", build_array_fmus) / "native"
@@ -138,7 +138,7 @@ def array_fmus(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def exact_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The FMUs of stability/exact_blocks.py in folders `python` and `native`, built once per test run."""
+    """Return the FMUs of stability/exact_blocks.py in folders `python` and `native`, built once per test run."""
     from tests.support.loops.exact_blocks import build_exact_fmus
 
     return made_once(tmp_path_factory, "exact_fmus", build_exact_fmus)
@@ -146,13 +146,13 @@ def exact_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def exact_fmus(exact_folder: Path) -> Path:
-    """The native ones."""
+    """Return the native ones."""
     return exact_folder / "native"
 
 
 @pytest.fixture(scope="session")
 def studies(exact_fmus: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """Reports of tiny systems as `perilune stability` makes them, studied once per test run."""
+    """Return reports of tiny systems as `perilune stability` writes them, studied once per test run."""
     from tests.support.loops.studies import keep_studies, kept_studies
 
     return kept_studies(made_once(tmp_path_factory, "studies", lambda folder: keep_studies(folder, exact_fmus)))
@@ -160,7 +160,7 @@ def studies(exact_fmus: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 @pytest.fixture(scope="session")
 def stability_page(studies: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The page of all these studies at once, written once per test run."""
+    """Return the page of all these studies at once, written once per test run."""
     from tests.support.pages.written import write_studies
 
     return made_once(tmp_path_factory, "stability", lambda folder: write_studies(studies, folder)) / "page.html"
@@ -168,7 +168,7 @@ def stability_page(studies: Any, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 @pytest.fixture(scope="session")
 def rare_result(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """A rare failure of the linear system, studied once per test run."""
+    """Return a rare failure of the linear system, studied once per test run."""
     from tests.support.pages.studies import rare_study
 
     return rare_study(tmp_path_factory.mktemp("rare"))
@@ -176,7 +176,7 @@ def rare_result(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 @pytest.fixture(scope="session")
 def worst_result(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """The worst case of the linear system, studied once per test run."""
+    """Return the worst case of the linear system, studied once per test run."""
     from tests.support.pages.studies import worst_study
 
     return worst_study(tmp_path_factory.mktemp("worst"))
@@ -184,7 +184,7 @@ def worst_result(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 @pytest.fixture(scope="session")
 def sensitivity_result(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """Indices of a sum of independent draws, studied once per test run."""
+    """Return indices of a sum of independent draws, studied once per test run."""
     from tests.support.pages.studies import sensitivity_study
 
     return sensitivity_study(tmp_path_factory.mktemp("sensitivity"))
@@ -192,7 +192,8 @@ def sensitivity_result(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 @pytest.fixture(scope="session")
 def comparison(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with a batch made by hand, `quiet`, and the page that compares its variants, written once per run."""
+    """Return a folder with a hand-written batch, `quiet`, and the page that compares its
+    variants, written once per run."""
     from tests.support.pages.written import write_comparison
 
     return made_once(tmp_path_factory, "comparison", write_comparison)
@@ -200,7 +201,8 @@ def comparison(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def mission_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The page of a flight through phases, with all figures that a system can ask for, written once per test run."""
+    """Return the page of a flight through phases, with all figures that a system can declare,
+    written once per test run."""
     from tests.support.pages.written import write_mission
 
     return made_once(tmp_path_factory, "mission", write_mission) / "page.html"
@@ -208,5 +210,5 @@ def mission_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def browser() -> str:
-    """The path of chromium."""
+    """Return the path of chromium."""
     return find_browser()

@@ -27,7 +27,7 @@ LISTS = {
 
 @pytest.fixture(scope="module")
 def arrows() -> dict[tuple[str, str], str]:
-    """(importing folder, imported folder) of the list -> a file that does."""
+    """Return (importing folder, imported folder) of the list -> a file that does."""
     return {
         (folder_of(module_of(ROOT / file)), folder_of(module)): f"{file}: {module}"
         for pairs in importing_files().values()

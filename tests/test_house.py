@@ -1,4 +1,4 @@
-"""tests/house: the words that are to be given up become fewer, and what counts them counts right.
+"""tests/house: words to give up become fewer, and are counted right.
 
 Truth: the numbers of `tests/house/limits.toml`, and texts whose counts are plain to see.
 """
@@ -18,7 +18,7 @@ LIMITS = {"words": {"told": 2}, "names": {"place": 3}, "plain": {"data": 10}}
 
 @dataclass(frozen=True)
 class Files(Checkout):
-    """A checkout of given texts by path."""
+    """A checkout of texts by path."""
 
     texts: Mapping[str, str] = field(default_factory=dict)
 

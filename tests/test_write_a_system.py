@@ -25,7 +25,7 @@ NAME, PERIOD, FREQUENCY, DAMPING = "descent", 0.2, 0.08, 0.9
 
 @pytest.fixture(scope="module")
 def working(tmp_path_factory):
-    """A working folder with the page's files, and their FMUs."""
+    """Write a working folder with the page's files, and their FMUs."""
     folder = tmp_path_factory.mktemp("page")
     write_system(folder)
     with pytest.MonkeyPatch.context() as patch:

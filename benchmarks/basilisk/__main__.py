@@ -92,7 +92,7 @@ CONTESTANTS = (
 
 
 def write_draws(folder: Path) -> None:
-    """The draws of a campaign as Basilisk's files of initial conditions."""
+    """Write the draws of a campaign as Basilisk's files of initial conditions."""
     (folder / "draws").mkdir()
     for row in pq.read_table(folder / "here" / "draws.parquet").to_pylist():
         document = {}

@@ -33,7 +33,7 @@ ALLOCATION = {"minimum_thrust": 510.0, "maximum_thrust": 5099.0, "slew_rate_limi
 
 @cache
 def unpack(name: str) -> str:
-    """The folder of an FMU, unpacked once in a process."""
+    """Return the folder of an FMU, unpacked once in a process."""
     return extract(str(FMUS / f"{name}.fmu"))
 
 
@@ -92,7 +92,7 @@ class Guidance(sysModel.SysModel):
         self.is_finished = False
 
     def UpdateState(self, now: int) -> None:  # noqa: N802
-        """Steps of both FMUs to this time, then force and flow of the step that follows."""
+        """Step both FMUs to this time, then set force and flow of the next step."""
         landing, time = self.landing, now * TO_SECONDS
         state = landing.craft.scStateOutMsg.read()
         mass = landing.mass()

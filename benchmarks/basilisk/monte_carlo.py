@@ -25,14 +25,14 @@ TYPICAL = 321.0  # s, of a landing
 
 
 def create() -> object:
-    """A landing that the controller gives its initial conditions."""
+    """Return a landing whose initial conditions the controller sets."""
     simulation = create_unguided()
     simulation.guidance = simulation.landing.guide()
     return simulation
 
 
 def create_unguided() -> object:
-    """The same, without guidance."""
+    """Return the same, without guidance."""
     landing = Landing()
     simulation = landing.simulation
     simulation.landing, simulation.craft = landing, landing.craft

@@ -13,7 +13,7 @@ from .table import benchmark_text
 
 
 def main() -> None:
-    """Print the table, and write the JSON document that it is made of."""
+    """Print the table, and write its JSON document."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--steps", type=int, default=2500, help="communication steps of a simulation")
     parser.add_argument("--repeats", type=int, default=5, help="simulations that are timed")

@@ -35,7 +35,7 @@ class Course:
         return prepared
 
     def flight(self, steps: int, algorithm: str = "sequential") -> PreparedSystem:
-        """The system with another number of steps and the algorithm given."""
+        """Return the system with another number of steps and this algorithm."""
         return replace(self.prepared, steps=steps, algorithm=algorithm)
 
     @cached_property
@@ -70,18 +70,17 @@ Fly = Callable[[int], Values]
 
 
 class Unavailable(Exception):  # noqa: N818 - not an error: the table says why
-    """A contestant that cannot take part here; the text says why and what would help."""
+    """A contestant that is unavailable here; the text says why and what would help."""
 
 
 @dataclass(frozen=True)
 class Contestant:
-    """One way of flying a system.
+    """One way of simulating a system.
 
-    ``flavour`` says which FMUs it flies, ``what`` describes it in one sentence, ``algorithm`` is
-    the one of ours whose values it must reproduce (None: it has an order of its own that none of
-    ours has), ``exact`` whether to the last bit. ``prepare`` makes ready whatever outlasts a
-    flight and returns a function that flies a number of steps from the start and gives the values
-    of ``course.names`` at the end; it raises `Unavailable`.
+    ``flavour`` says which FMUs it uses, ``what`` describes it in one sentence, ``algorithm`` is the one of ours whose
+    values it must reproduce (None: its order is none of ours), ``exact`` whether to the last bit. ``prepare`` makes
+    ready whatever outlasts a flight and returns a function that flies a number of steps from the start and returns the
+    values of ``course.names`` at the end; it raises `Unavailable`.
     """
 
     name: str

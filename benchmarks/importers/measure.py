@@ -31,9 +31,9 @@ def run_benchmark(
 ) -> dict[str, Any]:
     """Time a communication step of `SYSTEM` with every contestant.
 
-    Each contestant has a process of its own; in every repeat each flies one step and then
-    ``steps`` steps, and the difference is what the steps cost, without reading, instantiation
-    and initialisation, which are given apart. Raises InputError.
+    Each contestant has a separate process; in every repeat each simulates one step and then ``steps`` steps, and the
+    difference is what the steps cost, without reading, instantiation and initialisation, which are stated apart. Raises
+    InputError.
     """
     if steps < 2 or repeats < 1:
         raise InputError("benchmark", f"{steps} steps, {repeats} repeats", "too few", "give 2 and 1 at least")
@@ -77,7 +77,7 @@ def run_benchmark(
 
 
 def _pack(folder: Path, contestants: Sequence[Contestant], unavailable: dict[str, str]) -> dict[str, Path]:
-    """The system with the FMUs of each flavour that is built; reasons go to ``unavailable``."""
+    """Pack the system with the FMUs of each flavour that is built; reasons go to ``unavailable``."""
     archives: dict[str, Path] = {}
     for flavour in OURS:
         try:
@@ -95,7 +95,7 @@ def _pack(folder: Path, contestants: Sequence[Contestant], unavailable: dict[str
 def _workers(
     archives: dict[str, Path], contestants: Sequence[Contestant], unavailable: dict[str, str]
 ) -> Iterator[dict[str, Worker]]:
-    """A worker for every contestant that can fly; the others' reasons go to ``unavailable``."""
+    """Yield a worker for every available contestant; the others' reasons go to ``unavailable``."""
     with ExitStack() as stack:
         workers: dict[str, Worker] = {}
         for contestant in contestants:
@@ -116,7 +116,7 @@ def _fly_in_turn(
     repeats: int,
     unavailable: dict[str, str],
 ) -> dict[str, Times]:
-    """Times of every contestant; a first round, not counted, warms up and compares the values at the end."""
+    """Return times of every contestant; a first round, not counted, warms up and compares the values at the end."""
     final: dict[str, Values] = {}
     times = {name: Times(steps) for name in workers}
     with progress_bar(total=(repeats + 1) * len(workers), unit="run") as progress:

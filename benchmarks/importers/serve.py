@@ -1,4 +1,4 @@
-"""What runs in a worker's process: one line of JSON answered per line of JSON, until the input ends."""
+"""Server in a worker's process: one line of JSON answered per line of JSON, until the input ends."""
 
 from __future__ import annotations
 

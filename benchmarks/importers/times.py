@@ -1,4 +1,4 @@
-"""What contestants' flights took, what follows for one step, the promised ratios; and whether they flew the same."""
+"""Times of contestants' simulations, of one step, the promised ratios; and the comparison of values."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Times:
         return max(0.0, min(self.short) - self.step())
 
     def ratio(self, other: Times) -> float:
-        """Time per step over that of another, run beside it: median over the repeats, pair by pair."""
+        """Return the time per step over that of another, run alternately: median over the repeats, pair by pair."""
         return median(mine / its for mine, its in zip(self._each(), other._each(), strict=True))
 
     def _each(self) -> list[float]:
@@ -68,7 +68,7 @@ def difference(values: Values, reference: Values) -> float:
 
 
 def differ(values: Values, reference: Values) -> int:
-    """Number of values that are not equal to the last bit."""
+    """Return the number of values that are not equal to the last bit."""
     return sum(values[name].hex() != expected.hex() for name, expected in reference.items())
 
 

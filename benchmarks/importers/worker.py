@@ -23,11 +23,11 @@ from .contestant import Unavailable
 
 
 class WorkerError(Exception):
-    """What a contestant's process said before it gave up."""
+    """Error with the last output of a contestant's process."""
 
 
 class Worker:
-    """A contestant by name, in a process of its own; use it as a context manager."""
+    """A contestant by name, in a separate process; use it as a context manager."""
 
     def __init__(self, contestant: str, ssp: Path) -> None:
         self.contestant = contestant

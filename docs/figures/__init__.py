@@ -1,1 +1,1 @@
-"""What flies for the demonstration and for the figures of the documentation."""
+"""Simulations of the demonstration and of the figures of the documentation."""

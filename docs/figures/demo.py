@@ -58,7 +58,7 @@ def fly(output: Path, trials: int) -> Path:
 
 
 def fly_mission(output: Path) -> Path:
-    """A whole landing from a 100 km orbit, with its scene and block diagram; returns its page."""
+    """Fly a whole landing from a 100 km orbit, with its scene and block diagram; return its page."""
     print("Flying a landing from orbit to contact ...", flush=True)
     page = output / MISSION
     simulate("landing_mission").report(page)
@@ -66,7 +66,7 @@ def fly_mission(output: Path) -> Path:
 
 
 def fly_sample(plan: BatchPlan) -> tuple[Result, list[Result]]:
-    """One landing of the campaign in full, and others to show beside it, with the campaign's first variant."""
+    """Simulate one landing of the campaign in full, and others to show with it, with the campaign's first variant."""
     others = sample_trials()
     larger = read_plan(SYSTEM, CAMPAIGN, plan.options, trials=max(LANDING, *others) + 1)
     flights = fly_landings(larger, larger.campaign.variants()[0], [LANDING, *others])

@@ -60,7 +60,7 @@ def sideslip_moments() -> tuple[float, float]:
 
 
 def plant(pressure: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """A, B, C of (bank, sideslip, wx, wy), torques (ux, uy) and outputs (bank, wx, wy) at a pressure (Pa)."""
+    """Return A, B, C of (bank, sideslip, wx, wy), torques (ux, uy) and outputs (bank, wx, wy) at a pressure (Pa)."""
     inertia = np.reshape(EntryCapsule().inertia, (3, 3))[:2, :2]
     a = np.zeros((4, 4))
     a[0, 2:], a[1, 2:] = [math.cos(TRIM), -math.sin(TRIM)], [math.sin(TRIM), math.cos(TRIM)]
@@ -121,7 +121,7 @@ def gain_parameters(name: str, gain: np.ndarray) -> dict[str, float]:
 
 
 def gain_files() -> dict[str, bytes]:
-    """The parameter sets of entry_attitude with the gains, by file name."""
+    """Return the parameter sets of entry_attitude with the gains, by file name."""
     return {
         f"output_feedback_{name}.ssv": write_parameter_set(
             f"output_feedback_{name}", gain_parameters(name, gain), DESCRIPTIONS[name]
@@ -131,7 +131,8 @@ def gain_files() -> dict[str, bytes]:
 
 
 def whole_model() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """A, B, C of (bank, sideslip, attack, wx, wy, wz), three torques (N m) and outputs (bank, wx, wy, wz), SI."""
+    """Return A, B, C of (bank, sideslip, attack, wx, wy, wz), three torques (N m) and outputs (bank, wx, wy, wz),
+    SI."""
     density = air(HEIGHT).density
     capsule = EntryCapsule(
         initial_height=HEIGHT,

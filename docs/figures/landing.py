@@ -37,7 +37,7 @@ ARROW_SCALE = 7.0  # pt of arrow per m/s2
 
 
 def fly_landings(plan: BatchPlan, variant: Variant, trials: Iterable[int]) -> list[Result]:
-    """Some trials of a campaign with every signal; the same flights as in its batch."""
+    """Simulate some trials of a campaign with every signal; the same flights as in its batch."""
     prepared = plan.prepare(variant)
     varied = variant_names(plan, prepared).varied
     landings = []
@@ -49,7 +49,7 @@ def fly_landings(plan: BatchPlan, variant: Variant, trials: Iterable[int]) -> li
 
 
 def _copy(result: Result) -> Result:
-    """A flight that the next one does not overwrite."""
+    """Return a flight that the next one does not overwrite."""
     return replace(
         result, time=result.time.copy(), signals={name: values.copy() for name, values in result.signals.items()}
     )

@@ -1,4 +1,4 @@
-"""What the choices of docs/modal_synthesis.md are worth: `python -m docs.figures.modal_comparison`.
+"""Comparison of the choices of docs/modal_synthesis.md: `python -m docs.figures.modal_comparison`.
 
 Prints the page's tables and draws docs/images/modal/*.svg. Random systems: elements of A, B and C normal, real poles
 from -4 to -0.5, at least 0.2 apart.
@@ -34,7 +34,7 @@ KAPPA, NORM = 0, 1
 def draws(
     states: int, inputs: int, outputs: int = 1
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]:
-    """A, B, C and poles of the systems, the same every time."""
+    """Yield A, B, C and poles of the systems, the same every time."""
     random = np.random.default_rng([states, inputs, outputs])
     for _ in range(SYSTEMS):
         poles = np.zeros(states)
@@ -70,7 +70,7 @@ def spreads() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def tables(table: dict[tuple[int, int], np.ndarray], direct: np.ndarray, dual: np.ndarray, smallest: np.ndarray) -> str:
-    """The page's tables, medians over the systems."""
+    """Return the page's tables, medians over the systems."""
     lines = [f"medians over {SYSTEMS} systems each", f"{'n, m':6}" + "".join(f"{way:>18}" for way in WAYS)]
     for what, name in ((KAPPA, "kappa"), (NORM, "|K|")):
         lines.append(name)

@@ -71,7 +71,7 @@ def spreads_figure(direct: np.ndarray, dual: np.ndarray, smallest: np.ndarray) -
 
 
 def turned_plant(q: float) -> np.ndarray:
-    """A of x = (e, b, wx, wy): two angles seen in axes turned by `TURN`, b held by a spring q."""
+    """Return A of x = (e, b, wx, wy): two angles in axes turned by `TURN`, b held by a spring q."""
     c, s = np.cos(TURN), np.sin(TURN)
     return np.array([[0, 0, c, -s], [0, 0, s, c], [0, -q * s, 0, 0], [0, -q * c, 0, 0]])
 

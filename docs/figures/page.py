@@ -1,4 +1,4 @@
-"""The page of the demonstration: a landing, and the three guidances beside what their authors published."""
+"""The page of the demonstration: a landing, and the three guidances compared with their authors' publications."""
 
 from __future__ import annotations
 

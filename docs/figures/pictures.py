@@ -18,7 +18,7 @@ LINES = set("MLz 0123456789.-\n")  # of a path without curves
 
 
 def write_picture(figure: Figure, path: Path) -> Path:
-    """A figure as a small SVG file; raises ValueError beyond `LARGEST`."""
+    """Write a figure as a small SVG file; raises ValueError beyond `LARGEST`."""
     root = etree.fromstring(svg_bytes(figure, path.stem, text_as_paths=True))
     for element in root.iter("{*}g", "{*}path", "{*}use"):
         element.tail = element.text = None
@@ -46,7 +46,7 @@ def _round(element: etree._Element) -> None:
 
 
 def _polyline(path: str) -> str:
-    """A path of moves and lines in tenths of a point, lines relative to the point before."""
+    """Return a path of moves and lines in tenths of a point, lines relative to the point before."""
     tokens, last, short = path.split(), (0, 0), []
     for index, token in enumerate(tokens):
         if token in "ML":

@@ -17,7 +17,7 @@ SAMPLE = 18  # trials behind it
 
 
 def sample_trials() -> list[int]:
-    """The trials behind the landing, which is not one of them."""
+    """Return the trials behind the landing, which is not one of them."""
     return [trial for trial in range(SAMPLE + 1) if trial != LANDING]
 
 

@@ -40,7 +40,7 @@ CAMERA, SPIN = 60.0, 45.0  # m of arrow, and of the spin axis either way
 
 
 def fly() -> Result:
-    """The approach under the parameters that the figures show, with the first of the seeds."""
+    """Fly the approach under the parameters that the figures show, with the first of the seeds."""
     return simulate("robot_rendezvous", parameters=["best.ssv"])
 
 

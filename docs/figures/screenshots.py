@@ -65,7 +65,7 @@ def _scene(driver: Chrome) -> bytes:
 
 
 def _curves(driver: Chrome) -> bytes:
-    """The last minute of the altitude and its neighbours, at the cursor."""
+    """Capture the last minute of the altitude and its neighbours, at the cursor."""
     frame = driver.find_element(By.XPATH, "//*[@aria-label='plant.altitude over time']/..")
     driver.execute_script(OPEN, frame)
     area = scroll_to_plot(driver, frame)

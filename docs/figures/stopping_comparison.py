@@ -1,4 +1,4 @@
-"""What rules of stopping take for 99.87 % at 90 %: `python -m docs.figures.stopping_comparison`.
+"""Cost of stopping rules for 99.87 % at 90 %: `python -m docs.figures.stopping_comparison`.
 
 Prints the tables of docs/campaigns.md. Nothing is drawn: risks and expectations are those of all courses that a
 campaign can take, by recursion over looks and counts of failures.
@@ -36,7 +36,8 @@ class Rule:
 
 @dataclass(frozen=True)
 class Course:
-    """Of all campaigns: the shares met and not met, the expected flights, and those within which 95 % end."""
+    """Statistics of all campaigns: the shares met and not met, the expected flights, and those within which 95 %
+    end."""
 
     met: float
     refused: float
@@ -45,7 +46,8 @@ class Course:
 
 
 def course(rule: Rule, rate: float) -> Course:
-    """What comes of campaigns with a failure rate, which end with their first verdict or with the last look."""
+    """Return the statistics of campaigns with a failure rate, which end with their first verdict or with the last
+    look."""
     alive, met, refused, expected, last, nearly_all = np.ones(1), 0.0, 0.0, 0.0, 0, rule.looks[-1]
     for flights, low, high in zip(rule.looks, rule.permitted, rule.refused, strict=True):
         expected += (flights - last) * alive.sum()
@@ -101,7 +103,7 @@ def _one_size(name: str, looks: Sequence[int]) -> Rule:
 
 
 def rules() -> list[Rule]:
-    """The rules that are compared, ours last."""
+    """Return the compared rules, ours last."""
     ours = StoppingRule(SHARE, CONFIDENCE)
     analyses = ours.looks(MOST)
     sizes = [flights_needed(failures, SHARE, CONFIDENCE) for failures in FURTHER]
@@ -121,7 +123,7 @@ def rules() -> list[Rule]:
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """A table as Markdown has it."""
+    """Return a table as Markdown has it."""
     lines = [list(head), *map(list, rows)]
     return "\n".join(f"| {' | '.join(line)} |" for line in [lines[0], ["---"] * len(lines[0]), *lines[1:]])
 

@@ -42,7 +42,7 @@ class SystemPicture:
 
 
 def over_time(signal: str, factor: float = 1.0, less: str | None = None) -> Callable[[Result], Curve]:
-    """A signal over time, times ``factor``, perhaps less another."""
+    """Return a signal over time, times ``factor``, perhaps less another."""
 
     def curve(flight: Result) -> Curve:
         values = flight[signal] if less is None else flight[signal] - flight[less]
@@ -52,27 +52,27 @@ def over_time(signal: str, factor: float = 1.0, less: str | None = None) -> Call
 
 
 def before_last(signal: str, factor: float = 1.0) -> Callable[[Result], Curve]:
-    """A command over time, times ``factor``, without the sample after which nothing is flown."""
+    """Return a command over time, times ``factor``, without the sample after which nothing is flown."""
     return lambda flight: (flight.time[:-1], factor * flight[signal][:-1])
 
 
 def after_first(signal: str) -> Callable[[Result], Curve]:
-    """A signal of the last step over time, without the start, before which there is none."""
+    """Return a signal of the last step over time, without the start, before which there is none."""
     return lambda flight: (flight.time[1:], flight[signal][1:])
 
 
 def against(x: str, y: str, factor: float = 1e-3) -> Callable[[Result], Curve]:
-    """A signal over another one, both times ``factor``."""
+    """Return a signal over another one, both times ``factor``."""
     return lambda flight: (factor * flight[x], factor * flight[y])
 
 
 def size_over_time(vector: str, factor: float = 1.0) -> Callable[[Result], Curve]:
-    """The length of a vector over time."""
+    """Return the length of a vector over time."""
     return lambda flight: (flight.time, factor * np.linalg.norm(flight[vector], axis=1))
 
 
 def settled(signal: str, factor: float) -> Callable[[Result], Curve]:
-    """A signal over time, times ``factor``, once a satellite has pointed to nadir for ten minutes."""
+    """Return a signal over time, times ``factor``, once a satellite has pointed to nadir for ten minutes."""
 
     def curve(flight: Result) -> Curve:
         rows = (flight["modes.mode"] == 2) & (flight["modes.time_in_mode"] > 600.0)
@@ -202,7 +202,7 @@ PICTURES = {
 
 
 def system_figure(picture: SystemPicture, flight: Result) -> Figure:
-    """The panels of a picture in its rows."""
+    """Return the panels of a picture in its rows."""
     columns = len(picture.panels) // picture.rows
     figure = new_figure(2.5 * picture.rows, 3.4 * columns * 0.88)
     panels = figure.subplots(picture.rows, columns, squeeze=False).flatten()

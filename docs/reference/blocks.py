@@ -33,13 +33,13 @@ def block_page(block: type[Block]) -> str:
 
 
 def slots_of(block: type[Block]) -> list[type[Block]]:
-    """The slots that a block stands in, the nearest first."""
+    """Return the slots of a block, the nearest first."""
     known = set(slots().values())
     return [base for base in block.__mro__[1:] if base in known]
 
 
 def source_of(block: type[Block]) -> str:
-    """The file that defines a block, below the package."""
+    """Return the file that defines a block, below the package."""
     return Path(*block.__module__.split(".")[1:]).with_suffix(".py").as_posix()
 
 
@@ -86,7 +86,7 @@ def _feedthrough(block: type[Block]) -> str:
 
 
 def _shared(block: type[Block]) -> str:
-    """What is said of all blocks of its slots, and of the block that it is a variant of."""
+    """Return the docstrings of a block's slots, and of the block that it is a variant of."""
     bases: list[type[Block]] = [base for base in block.__mro__[1:] if issubclass(base, Block) and base is not Block]
     return "\n\n".join(f"### {base.fmu_name}\n\n{prose(base.__doc__, '../../')}" for base in bases)
 

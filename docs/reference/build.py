@@ -38,7 +38,7 @@ PYTHON = {
 
 
 def build_site(output: Path, sources: Path) -> None:
-    """Write the site to ``output``; what it is made of is kept in ``sources``.
+    """Write the site to ``output``; its source files are kept in ``sources``.
 
     Raises InputError where a page is missing from the navigation, or a link, an anchor or an image leads nowhere.
     """
@@ -83,7 +83,7 @@ def site_settings() -> dict[str, Any]:
 
 
 def pages_of(navigation: Any) -> list[str]:
-    """The pages of a ``nav``, in order."""
+    """Return the pages of a ``nav``, in order."""
     if isinstance(navigation, str):
         return [navigation]
     inner = navigation.values() if isinstance(navigation, dict) else navigation

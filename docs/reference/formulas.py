@@ -12,7 +12,7 @@ INLINE = re.compile(r"(?<![\\$\w])\$([^\s$](?:[^$\n]*[^\s$])?)\$(?![\w$])")
 
 
 def typeset(page: str) -> str:
-    """A page of Markdown with its formulas as MathML: ``$$...$$`` on lines of their own, ``$...$`` in the text.
+    """Return a page of Markdown with its formulas as MathML: ``$$...$$`` on separate lines, ``$...$`` in the text.
 
     Those in the text are in a span: Markdown ends a paragraph at a line that begins with ``<math``.
     """

@@ -94,7 +94,7 @@ def kernel_page() -> str:
 
 
 def _helpers() -> Iterator[tuple[str, list[FunctionType]]]:
-    """The public functions of each module of mathlib."""
+    """Yield the public functions of each module of mathlib."""
     for module in pkgutil.walk_packages(mathlib.__path__, f"{mathlib.__name__}."):
         callables = import_module(module.name)
         functions = [
@@ -124,5 +124,5 @@ def _arguments(function: FunctionType) -> str:
 
 
 def _first(function: FunctionType) -> str:
-    """The first sentence of a docstring, which may go over lines."""
+    """Return the first sentence of a docstring, which may go over lines."""
     return inspect.cleandoc(function.__doc__ or "").partition("\n\n")[0].replace("\n", " ")

@@ -12,7 +12,7 @@ from .variables import inputs, outputs, parameters
 
 
 def kind_of(block: type[Block]) -> str:
-    """The kind that a block lies with: plants, sensors, ..."""
+    """Return the kind of a block by its folder: plants, sensors, ..."""
     return block.__module__.split(".")[-2]
 
 

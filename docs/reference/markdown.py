@@ -12,7 +12,7 @@ CODE = re.compile(r"(``[^`]+``|`[^`]+`)")
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table of cells that are Markdown already."""
+    """Return a table of cells that are Markdown already."""
     lines = [list(head), ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(cell.replace("\n", " ") for cell in line) + " |" for line in lines)
 
@@ -27,7 +27,8 @@ def escaped(text: str) -> str:
 
 
 def prose(docstring: str | None, root: str) -> str:
-    """A docstring as Markdown: indented equations stay, sources and frames get a paragraph, pages of docs a link.
+    """Return a docstring as Markdown: indented equations stay, sources and frames get a paragraph, pages of docs a
+    link.
 
     ``root`` leads from the page to the site's own, such as ``../``.
     """

@@ -35,7 +35,7 @@ def derived_pages() -> dict[str, str]:
 
 
 def reference_navigation() -> list[dict[str, Any]]:
-    """The reference as MkDocs' ``nav`` has it."""
+    """Return the reference as MkDocs' ``nav`` has it."""
     blocks: list[Any] = ["reference/blocks/index.md"]
     for kind in KINDS:
         names = [name for name, block in catalogue().items() if kind_of(block) == kind]
@@ -57,7 +57,7 @@ def reference_navigation() -> list[dict[str, Any]]:
 
 
 def _front(file: Path) -> str:
-    """A page of the repository's top as it reads in the site, where docs/ is the top."""
+    """Return a page of the repository's top as it reads in the site, where docs/ is the top."""
     return LINK.sub(lambda link: f"{link[1]}{_moved(link[2])}{link[3]}", file.read_text(encoding="utf-8"))
 
 

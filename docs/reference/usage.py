@@ -1,4 +1,4 @@
-"""Which systems fly an FMU: as a component, or as a variant of one of their campaigns."""
+"""Use of an FMU in systems: as a component, or as a variant of one of their campaigns."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from perilune.analysis.runtime.ssp.reading import read_description
 
 @dataclass
 class Usage:
-    """Where an FMU flies: components by system, and the campaigns by system that fly it as a variant."""
+    """Use of an FMU: components by system, and the campaigns by system that have it as a variant."""
 
     components: dict[str, list[str]] = field(default_factory=dict)
     campaigns: dict[str, list[str]] = field(default_factory=dict)

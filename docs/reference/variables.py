@@ -17,7 +17,7 @@ def declared(block: type[Block], kind: type[Variable]) -> list[Variable]:
 
 
 def inputs(block: type[Block]) -> str:
-    """The table of its inputs; like the others here empty where there are none, and without columns that are empty."""
+    """Return the table of its inputs; like the others here empty where there are none, and without empty columns."""
     rows = [
         [*_name(variable), *_range(variable), _frame(variable), _words(variable)] for variable in declared(block, Input)
     ]
@@ -25,7 +25,7 @@ def inputs(block: type[Block]) -> str:
 
 
 def outputs(block: type[Block]) -> str:
-    """The table of its outputs, with the inputs of the same communication point that each depends on."""
+    """Return the table of its outputs, with the inputs of the same communication point that each depends on."""
     rows = [
         [*_name(variable), *_range(variable), _frame(variable), _at_once(block, variable),
          _words(variable)]
@@ -35,7 +35,7 @@ def outputs(block: type[Block]) -> str:
 
 
 def parameters(block: type[Block]) -> str:
-    """The table of its parameters: what they are unless set, between what they may be set, and whether in flight."""
+    """Return the table of its parameters: defaults, bounds, and tunability in flight."""
     rows = [
         [
             *_name(variable),
@@ -52,7 +52,7 @@ def parameters(block: type[Block]) -> str:
 
 
 def states(block: type[Block]) -> str:
-    """The table of what it keeps from step to step."""
+    """Return the table of its states."""
     rows = []
     for variable in declared(block, State):
         if variable.record is None:
@@ -87,7 +87,7 @@ def _record_fields(record: type[Record], prefix: str) -> list[tuple[str, Field]]
 
 
 def _filled(head: list[str], rows: list[list[str]]) -> str:
-    """A table of the columns in which something stands; nothing without rows."""
+    """Return a table of the columns that are not empty; nothing without rows."""
     retained = [index for index in range(len(head)) if any(row[index] for row in rows)]
     return (
         table([head[index] for index in retained], [[row[index] for index in retained] for row in rows]) if rows else ""

@@ -30,14 +30,14 @@ def verbs_page() -> str:
 
 
 def _call(verb: Verb) -> Iterator[str]:
-    """The example of the function's docstring."""
+    """Yield the example of the function's docstring."""
     if example := find_example(verb):
         yield f"In Python, where `help(perilune.{verb.home[1]})` has its parameters:"
         yield f"```python\n{call_of(verb, example)}\n```"
 
 
 def verb_parser(name: str) -> argparse.ArgumentParser:
-    """The parser of a verb, with all options explained."""
+    """Return the parser of a verb, with all options explained."""
     parser: argparse.ArgumentParser = parser_of([*name.split(), HELP_ALL])
     for token in name.split():
         (choices,) = (each.choices for each in parser._actions if isinstance(each, argparse._SubParsersAction))
@@ -46,7 +46,7 @@ def verb_parser(name: str) -> argparse.ArgumentParser:
 
 
 def _options(parser: argparse.ArgumentParser) -> Iterator[str]:
-    """A table for each group of options."""
+    """Yield a table for each group of options."""
     for group in parser._action_groups:
         rows = [[_name(action), escaped(action.help or "")] for action in group._group_actions]
         if rows and group.title != "help":

@@ -25,7 +25,7 @@ def flight(fmus):
 
 
 def pictures(text: str) -> list[etree._Element]:
-    """The images of a notebook's HTML, parsed."""
+    """Return the images of a notebook's HTML, parsed."""
     sources = html.fromstring(text).xpath("//img/@src")
     return [etree.fromstring(b64decode(source.removeprefix("data:image/svg+xml;base64,"))) for source in sources]
 

@@ -29,7 +29,7 @@ PERIOD, KP, KI, KD = 0.5, 6.6, 0.1, 90.0
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """A working folder with the system in it, its FMUs built in both flavours."""
+    """Return a working folder with the system in it, its FMUs built in both flavours."""
     path = tmp_path_factory.mktemp("working")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(path)

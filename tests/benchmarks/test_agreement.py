@@ -1,4 +1,4 @@
-"""Who flew elsewhere is found, and nobody else."""
+"""Detection of simulations on another machine, and of none else."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from tests.support.builders import component, connection, document, inline, pack
 
 @pytest.fixture
 def blocks(tiny_folder: Path) -> dict[str, type[Block]]:
-    """The blocks of the tiny FMUs by FMU name."""
+    """Return the blocks of the tiny FMUs by FMU name."""
     return {block.fmu_name: block for block in blocks_in_file(tiny_folder / "tiny_blocks.py")}
 
 

@@ -1,4 +1,4 @@
-"""Bundles: ports declared together, each member a variable of its own, read, assigned and passed on by the bundle.
+"""Bundles: ports declared together, each member a separate variable, read, assigned and passed on by the bundle.
 
 Truth: the same variables declared one by one.
 """

@@ -11,7 +11,7 @@ from perilune.fmus_src.variables import DeclarationError, Input, Parameter, Stat
 
 
 def refusal(**variables):
-    """The message with which a block of these variables is refused."""
+    """Return the message with which a block of these variables is refused."""
     with pytest.raises((DeclarationError, RuntimeError)) as caught:
         type("Refused", (Block,), {"__doc__": "A block.", **variables})
     return str(caught.value.__cause__ or caught.value)
@@ -91,7 +91,7 @@ def test_what_a_slot_leaves_to_its_blocks_has_to_be_written():
         to_write = ("decide",)
 
         def decide(self) -> None:
-            """What to do."""
+            """Decide."""
 
         def step(self, t: float, h: float) -> None:
             self.decide()

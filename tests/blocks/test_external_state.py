@@ -1,4 +1,4 @@
-"""Blocks with state that is no FMI variable: a simulation in a library, made anew for each flight.
+"""Blocks with state that is no FMI variable: a simulation in a library, created again for each flight.
 
 Truth: the closed form of an oscillator; the process that simulates; a count of simulations that live.
 """
@@ -182,7 +182,7 @@ def test_the_model_description_says_so(folder):
 
 
 def test_fmpy_flies_it(folder):
-    """In a process of its own, as its library lies in the FMU."""
+    """In another process, as its library is in the FMU."""
     code = f"""
 import fmpy, math
 rows = fmpy.simulate_fmu({str(folder / "my_oscillator.fmu")!r}, stop_time=2.0, step_size=0.1, output=["x"])

@@ -101,14 +101,14 @@ def test_every_port_is_declared_once_and_used() -> None:
 
 
 class WinchStatus(Enumeration):
-    """What became of the last demand."""
+    """Outcome of the last demand."""
 
     GOOD = member("good")
     LIMITED = member("force limited, torque held")
 
 
 class WinchMethod(Enumeration, first=1):
-    """How the winch is driven."""
+    """Drive of the winch."""
 
     DIRECT = member("direct")
     GEARED = member("geared")

@@ -17,7 +17,7 @@ from tests.support.kernels.probe import Probe, everything, references
 
 
 def lander_in_flight():
-    """A plant halfway through a turning burn."""
+    """Return a plant halfway through a turning burn."""
     component = Component(FlatMoonLander)
     component.set(
         references(component, "thrust", "thrust_direction", "thrust_direction_rate", "burn_duration"),

@@ -47,7 +47,7 @@ RIGHT = {"u": 7.0, "fraction": 1.0, "axes[1]": -1.0, "free": 1e300, "count": 0, 
 
 @pytest.fixture(scope="module")
 def fmi3(tmp_path_factory: pytest.TempPathFactory) -> tuple[Any, str]:
-    """The description of the FMU of FMI 3.0, and where it is unpacked."""
+    """Return the description of the FMU of FMI 3.0, and its unpacked folder."""
     platform = local_platform(3)
     if platform is None:
         pytest.skip("FMI 3.0 libraries are not compiled for this system")

@@ -1,4 +1,4 @@
-"""What the variables of a block hold: any sequence of the right size, stored where its value references are.
+"""Stored variables of a block: any sequence of the right size, stored where its value references are.
 
 Truth: a block written here that stores what a library gives; the declarations of blocks.
 """
@@ -30,7 +30,7 @@ class Storing(Block):
 
 
 def test_python_only_blocks_store_any_sequence_and_outputs_stay_connected():
-    """What used to cut an output off: a list of a library in place of the declared one."""
+    """An output stays connected where a library's list replaces the declared one."""
     component = Component(Storing)
     component.start()
     for n in range(3):

@@ -1,4 +1,4 @@
-"""What a batch states of signals and metrics along axes that the system names.
+"""Metadata of a batch on signals and metrics along axes that the system names.
 
 Truth: the names of the landing-site frame's axes in the system's annotation.
 """

@@ -27,7 +27,7 @@ def statistics(values, unit):
 
 
 def counted(values, percent):
-    """The least value that at least so many percent of the values do not exceed."""
+    """Return the least value that at least ``percent`` percent of the values do not exceed."""
     known = [value for value in values if not math.isnan(value)]
     fits = [x for x in known if 100 * sum(value <= x for value in known) >= percent * len(known)]
     return min(fits) if fits else None
@@ -95,7 +95,7 @@ def test_blocks_change_no_bit_and_neither_does_their_order(lists, chance):
 
 @pytest.fixture(params=[order_statistics.HELD, 2])
 def held(request, monkeypatch):
-    """How many numbers are held: all of these few, or so few that every bit is counted."""
+    """Set the number of values held in memory: all of these few, or so few that every bit is counted."""
     monkeypatch.setattr(order_statistics, "HELD", request.param)
 
 

@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.requirement_verdicts: requirements judged by a variant's trials, and what is told of it.
+"""perilune.analysis.campaigns.requirement_verdicts: verdicts on requirements by a variant's trials, and their texts.
 
 Truth: failures counted by hand; those of tests/campaigns/verdicts; [success], which has the same rule.
 """
@@ -35,7 +35,7 @@ NUMBERS = st.floats(allow_nan=True, allow_infinity=True)
 
 
 def columns(miss, mass=None, success=None):
-    """A variant from its metrics."""
+    """Return a variant from its metrics."""
     miss = np.asarray(miss, dtype=float)
     mass = np.full(miss.size, 6.0) if mass is None else np.asarray(mass, dtype=float)
     success = np.full(miss.size, True) if success is None else np.asarray(success)
@@ -43,7 +43,7 @@ def columns(miss, mass=None, success=None):
 
 
 def flights(count, failures):
-    """A variant whose first flights miss."""
+    """Return a variant whose first flights miss."""
     return columns(np.where(np.arange(count) < failures, 2.0, 0.5))
 
 
@@ -97,7 +97,7 @@ def test_a_campaign_of_a_fixed_size(count, failures, verdict, missing):
 
 
 def test_bounds():
-    """Of 1771 flights the worst is the bound; of 38, the worst but one is for 90 % at 90 %."""
+    """The worst of 1771 flights is the bound; of 38, the worst but one is for 90 % at 90 %."""
     actual = requirement_verdict(NEAR, columns(np.arange(1771) / 1000)).bound
     assert actual == ToleranceBound("miss", "upper", 1.77, rank=1, flights=1771, flights_to_decide=0)
     few = requirement_verdict(NEAR, columns(np.ones(1000))).bound

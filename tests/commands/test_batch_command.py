@@ -224,7 +224,7 @@ unit = "s"
 
 @pytest.fixture(scope="module")
 def grouped(fmus, tmp_path_factory):
-    """The published campaign with cases and new reductions, flown into a folder."""
+    """Simulate the published campaign with cases and new reductions into a folder."""
     folder = tmp_path_factory.mktemp("grouped")
     (folder / "c.toml").write_text((SYSTEMS / SYSTEM / "campaigns" / "paper.toml").read_text() + GROUPED)
     return folder

@@ -40,7 +40,7 @@ def perilune(words: str, folder: Path, output, unbuffered: bool = True) -> subpr
 
 
 def closed() -> int:
-    """The writing end of a pipe that nobody reads."""
+    """Return the writing end of a pipe that nobody reads."""
     reading, writing = os.pipe()
     os.close(reading)
     return writing

@@ -1,4 +1,4 @@
-"""What commands say beside their results: FMUs older than their source, inputs that nobody set, statuses and meanings.
+"""Remarks of commands on their results: FMUs older than their source, inputs that nobody set, statuses and meanings.
 
 Truth: files before and after an edit; the descriptions of the FMUs' own statuses; the flight's signals.
 """
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 @pytest.fixture
 def own(tmp_path, monkeypatch):
-    """A system of one's own with its Python FMUs, the user's folder."""
+    """Return the user's folder with a new system and its Python FMUs."""
     monkeypatch.chdir(tmp_path)
     perilune.new_system("axis")
     perilune.export("axis/blocks.py", flavour="python")

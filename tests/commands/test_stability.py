@@ -78,14 +78,14 @@ def strict(text):
 
 
 def run(capsys, *arguments, status=0):
-    """What is on standard output as JSON, and the lines on standard error; ``status`` None: whatever the verdict."""
+    """Return standard output as JSON, and the lines on standard error; ``status`` None: whatever the verdict."""
     assert main(["stability", *arguments, "--json", "-"]) in ((0, 1) if status is None else (status,))
     captured = capsys.readouterr()
     return strict(captured.out), captured.err.splitlines()
 
 
 def nearest(gains):
-    """The gain margin in dB."""
+    """Return the gain margin in dB."""
     return np.min(abs(DECIBEL * np.log(gains)))
 
 

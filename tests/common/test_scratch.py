@@ -25,7 +25,7 @@ def process(folder):
 
 
 def make_old(folder):
-    """As if its process had made it an hour ago."""
+    """Set the time stamps to those of a process of an hour ago."""
     for lock in folder.glob("*/lock"):
         os.utime(lock, (time.time() - 3600, time.time() - 3600))
 

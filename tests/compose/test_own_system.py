@@ -28,7 +28,7 @@ def momentum(flight):
 
 
 def angle(flight):
-    """The turn from the target attitude at the end, rad."""
+    """Return the turn from the target attitude at the end, rad."""
     return Rotation.from_quat(flight["satellite.quaternion"][-1], scalar_first=True).magnitude()
 
 

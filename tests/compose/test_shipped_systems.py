@@ -29,7 +29,7 @@ INDEX = re.compile(r"\[[\d,]+\]$")
 
 @pytest.fixture
 def copied(tmp_path):
-    """A folder with a copy of a shipped system, without the files named."""
+    """Return a function that copies a shipped system to a folder, without the named files."""
 
     def copy(name, *without):
         folder = tmp_path / name

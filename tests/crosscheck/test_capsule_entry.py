@@ -41,7 +41,7 @@ def test_acceleration_is_gravity_and_drag(flight):
 
 
 def test_velocity_and_rate_are_derivatives(flight):
-    """Of position and quaternion: r' = v to 1e-6 m/s, 2 q* q' = w to 1e-6 rad/s."""
+    """Derivatives of position and quaternion: r' = v to 1e-6 m/s, 2 q* q' = w to 1e-6 rad/s."""
     position, velocity, quaternion, rate = flight
     assert np.abs(derivative(position) - velocity[INNER]).max() < 1e-6
     change, (scalar, vector) = derivative(quaternion), np.split(quaternion[INNER], [1], axis=1)

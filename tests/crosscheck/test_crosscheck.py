@@ -32,7 +32,7 @@ def side_of(name, step):
 
 @given(st.integers(0, 2**32 - 1))
 def test_angles_between_attitudes(seed):
-    """Of quaternions of any sign and length."""
+    """Quaternions of any sign and length."""
     random = np.random.default_rng(seed)
     first, second = (Rotation.random(5, rng=random) for _ in range(2))
     scales = random.choice([-3.0, -1.0, 1.0, 0.5], (2, 5))

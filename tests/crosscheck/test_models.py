@@ -56,7 +56,7 @@ def test_the_page_has_every_comparison():
 
 
 def sun_disk(position, sun):
-    """The visible share in 40 digits, from the areas of two circles on a sphere so far away that it is flat."""
+    """Return the visible share in 40 digits, from the areas of two circles on a sphere so far away that it is flat."""
     case = case_of("eclipse")
     r, s = (mpmath.matrix([mpmath.mpf(float(c)) for c in each]) for each in (position, sun))
     away = s - r

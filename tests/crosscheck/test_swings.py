@@ -81,7 +81,7 @@ def slosh_masses(case):
 
 
 def panel_masses(case):
-    """The same of hinged panels."""
+    """Return the same of hinged panels."""
     centres = zip(case.CENTRES, case.OUTWARDS, strict=True)
     return [
         (case.PANEL, centre, case.PANEL_INERTIA, np.cross(case.AXIS, case.ARM * outwards), case.AXIS)

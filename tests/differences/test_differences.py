@@ -130,7 +130,7 @@ def tables(tmp_path_factory, fmus):
 
 
 def differing_vectors(one, other, rows):
-    """The vectors and scalars that differ beyond rounding, those with the values of an earlier one left out."""
+    """Return the vectors and scalars that differ beyond rounding, those with the values of an earlier one left out."""
     values, vectors = set(), set()
     for name in one.column_names[1:]:
         first, second = (table[name].to_numpy()[:rows].astype(float) for table in (one, other))

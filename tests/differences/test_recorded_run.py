@@ -16,7 +16,7 @@ from tests.support.pages.samples import run_result
 
 
 def refuse(path):
-    """How a table is refused."""
+    """Return the refusal of a table."""
     with pytest.raises(InputError) as refused:
         read_run(path)
     return refused.value

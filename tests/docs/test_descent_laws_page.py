@@ -55,7 +55,7 @@ def fly(words, law):
 
 
 def expected_cells(actual):
-    """What the columns of a row have, as sequences of numbers; none where no trial succeeded."""
+    """Yield the columns of a row, as sequences of numbers; none where no trial succeeded."""
     success, metrics = actual.success, actual.metrics
     rate, pinpoint = 100.0 * np.mean(success), 100.0 * np.mean(metrics["pinpoint"])
     yield "success, pinpoint, %", [rate, pinpoint]

@@ -48,7 +48,7 @@ def largest_differences(coarse, fine):
 
 @pytest.fixture(scope="module")
 def flights(fmus):
-    """The flight as it is, and those at half a step."""
+    """Return the flight as it is, and those at half a step."""
     return fly(), {name: fly(options) for name, options in HALVES.items()}
 
 

@@ -51,7 +51,7 @@ def first_shadow(flown):
 
 
 def nodes(flown):
-    """Times (s) at which the satellite crosses the Moon's equator northwards."""
+    """Return times (s) at which the satellite crosses the Moon's equator northwards."""
     north, t = flown["satellite.position"] @ np.array(moon_axes(EPOCH).pole), flown.time
     (up,) = np.nonzero((north[:-1] < 0.0) & (north[1:] >= 0.0))
     return t[up] - north[up] * (t[up + 1] - t[up]) / (north[up + 1] - north[up])

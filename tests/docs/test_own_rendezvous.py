@@ -46,7 +46,8 @@ def measure(x):
 
 
 def jacobian(x):
-    """Derivatives of `measure`: the unit vectors of spherical coordinates over what an angle moves the target by."""
+    """Return derivatives of `measure`: the unit vectors of spherical coordinates over the target's motion by an
+    angle."""
     distance, azimuth, elevation = measure(x)
     sa, ca, se, ce = np.sin(azimuth), np.cos(azimuth), np.sin(elevation), np.cos(elevation)
     rows = [[ce * sa, ce * ca, se], [ca / (distance * ce), -sa / (distance * ce), 0.0]]
@@ -56,7 +57,7 @@ def jacobian(x):
 
 @pytest.fixture(scope="module")
 def blocks(tmp_path_factory):
-    """The classes of the page by name, and the module."""
+    """Return the classes of the page by name, and the module."""
     path = tmp_path_factory.mktemp("page") / "own_rendezvous_blocks.py"
     path.write_text(FILES["rendezvous/blocks.py"], encoding="utf-8")
     return {block.__name__: block for block in blocks_in_file(path)}

@@ -33,7 +33,7 @@ INERTIA = np.array([0.035, 0.035, 0.008])  # kg m2
 
 @pytest.fixture(scope="module")
 def orbit_lines():
-    """The lines that the script of the page prints."""
+    """Return the lines that the script of the page prints."""
     lines = []
     exec(FILES["orbit.py"], {"print": lines.append})
     return "\n".join(lines)
@@ -41,7 +41,7 @@ def orbit_lines():
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory, orbit_lines):
-    """The system of the page, by the edits that the page describes."""
+    """Return the system of the page, by the edits that the page describes."""
     root = tmp_path_factory.mktemp("cubesat")
     toml = root / "cubesat/system.toml"
     perilune.compose("earth_pointing", output=toml)

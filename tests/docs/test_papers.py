@@ -21,7 +21,7 @@ NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?![\w.]*\w)")
 
 
 def rows_of(page: Path) -> list[list[str]]:
-    """The entries of each row of a page's table."""
+    """Return the entries of each row of a page's table."""
     table = page.read_text(encoding="utf-8").partition(HEADER)[2].partition("\n\n")[0]
     return [[cell.strip() for cell in line.strip().strip("|").split(" | ")] for line in table.split("\n")[2:] if line]
 
@@ -75,6 +75,6 @@ def test_numbers_of_a_row_stand_on_the_page_that_it_links(page, entries):
 
 
 def text_of(path: Path) -> str:
-    """The text of a page, of this one below its table of rows."""
+    """Return the text of a page, of this one below its table of rows."""
     text = path.read_text(encoding="utf-8")
     return text.partition(HEADER)[2].partition("\n\n")[2] if HEADER in text else text

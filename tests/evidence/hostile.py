@@ -22,7 +22,7 @@ LAUGHS = '<!DOCTYPE a [<!ENTITY b "ha"><!ENTITY c "&b;&b;">]><fmiReferences>&c;<
 
 
 def fmu(files: Mapping[str, str | bytes]) -> Write:
-    """What writes x.fmu: the gain of the good FMUs with other evidence."""
+    """Return a writer of x.fmu: the gain of the good FMUs with other evidence."""
 
     def write(folder: Path, good: Path) -> None:
         with zipfile.ZipFile(good / "gain.fmu") as archive:
@@ -34,7 +34,7 @@ def fmu(files: Mapping[str, str | bytes]) -> Write:
 
 
 def manifest(inner: str) -> dict[str, str | bytes]:
-    """A manifest, and a trajectory."""
+    """Return a manifest, and a trajectory."""
     return {
         MANIFEST: f'<fmiReferences xmlns:l="{NAMESPACE}" {NAMES}>{inner}</fmiReferences>',
         OUT: "time,y\n0,0\n1,0\n",
@@ -42,7 +42,7 @@ def manifest(inner: str) -> dict[str, str | bytes]:
 
 
 def experiment(attributes: str, references: str = "out.csv") -> dict[str, str | bytes]:
-    """A manifest of one experiment."""
+    """Return a manifest of one experiment."""
     return manifest(f'<Experiment name="e" {attributes}><References source="{references}"/></Experiment>')
 
 

@@ -1,4 +1,4 @@
-"""What an FMU of ours is handed on with: manifest, digests, page, and a check that a user wrote.
+"""Evidence in an FMU of ours: manifest, digests, page, and a check that a user wrote.
 
 Truth: sha256sum and hashlib over the archive's files, the declaration of the block, one flight by hand.
 """

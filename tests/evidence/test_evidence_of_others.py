@@ -63,7 +63,7 @@ def test_files_that_are_listed_often_are_digested_once(tiny_folder, tmp_path, ca
 
 
 def test_names_are_those_of_uris(tiny_folder, tmp_path, capsys):
-    """By RFC 3986: percent-encoded, a fragment is no part of the path."""
+    """By RFC 3986: percent-encoded, a fragment does not belong to the path."""
     files = experiment("", "a%20b%2520c.csv#rows") | {OUT.replace("out", "a b%20c"): STILL}
     fmu(files)(tmp_path, tiny_folder / "native")
     assert main(["verify", str(tmp_path / "x.fmu")]) == 0

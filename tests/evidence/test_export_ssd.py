@@ -19,7 +19,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """A copy of a system with a second description, of another communication step."""
+    """Return a copy of a system with a second description, of another communication step."""
     monkeypatch.chdir(tmp_path)
     copy = shutil.copytree(SYSTEMS / "lunar_terminal_guidance", tmp_path / "mine")
     text = (copy / "SystemStructure.ssd").read_text(encoding="utf-8")

@@ -22,7 +22,7 @@ STEPPED = {"StateSpace": 10.0}  # s, of those with steps too long for ten sample
 
 
 def with_result(version, name, path, change=lambda table: table):
-    """The FMU with FMPy's trajectory; those of texts and of arrays are left out."""
+    """Return the FMU with FMPy's trajectory; those of texts and of arrays are left out."""
     fmu = reference_fmu(version, name)
     simulated = fmpy.simulate_fmu(str(fmu), stop_time=STEPPED.get(name, STOP))
     numbers = {

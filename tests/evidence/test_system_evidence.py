@@ -1,4 +1,4 @@
-"""What a system is handed on with: its flight, campaigns, parameter sets, reports; and `perilune verify` of it.
+"""Evidence of a system: its simulation, campaigns, parameter sets, reports; and `perilune verify` of it.
 
 Truth: files changed by the test; a run and a batch of the same system by their own verbs.
 """
@@ -26,7 +26,7 @@ compare = { guidance = ["analytic_guidance"] }
 
 @pytest.fixture(scope="module")
 def exported(fmus, tmp_path_factory):
-    """A system of a folder with a short campaign, exported with its report; its files."""
+    """Export a system of a folder with a short campaign, with its report; return its files."""
     folder = tmp_path_factory.mktemp("evidence")
     original = shutil.copytree(SYSTEMS / "lunar_terminal_guidance", folder / "lunar_terminal_guidance")
     (original / "campaigns" / "few.toml").write_text(FEW)

@@ -31,14 +31,14 @@ def files():
 
 
 def refused(tmp_path, files, capsys, *options):
-    """The lines on standard error for an FMU of these files, exit status 1."""
+    """Return the lines on standard error for an FMU of these files, exit status 1."""
     path = write_zip(tmp_path / "x.fmu", files)
     assert main(["verify", str(path), *options]) == 1
     return capsys.readouterr().err.replace(f"perilune: {path}: ", "").splitlines()
 
 
 def changed(table, column, row, change):
-    """A CSV with one number changed."""
+    """Return a CSV with one number changed."""
     rows = list(csv.reader(io.StringIO(table.decode())))
     index = rows[0].index(column)
     rows[row + 1][index] = repr(change(float(rows[row + 1][index])))
@@ -46,7 +46,7 @@ def changed(table, column, row, change):
 
 
 def without_digests(files):
-    """The same FMU with a manifest that has no digests, as others write it."""
+    """Return the same FMU with a manifest that has no digests, as others write it."""
     manifest = re.sub(rb' checksum="\w+" checksumType="[\w-]+"', b"", files[MANIFEST])
     manifest = re.sub(rb"\s*<Related[^>]*SHA256SUMS[^>]*>", b"", manifest)
     return {name: content for name, content in files.items() if name != SUMS} | {MANIFEST: manifest}
@@ -64,7 +64,7 @@ def test_ours_are_verified(capsys):
 
 
 def test_every_fmu_of_ours(capsys):
-    """All native ones, and a part of the Python ones."""
+    """All native ones, and some of the Python ones."""
     paths = [
         shipped_fmu(name, flavour)
         for flavour, step in (("native", 1), ("python", either(1, 8)))

@@ -23,7 +23,7 @@ EXPERIMENTS = f"{FOLDER}/check.exp"
 
 
 def changed(tmp_path, files, pattern, text):
-    """The FMU with other experiments."""
+    """Return the FMU with other experiments."""
     experiments = re.sub(pattern.encode(), text.encode(), files[EXPERIMENTS])
     assert experiments != files[EXPERIMENTS]
     return write_zip(tmp_path / "x.fmu", without_digests(files) | {EXPERIMENTS: experiments})
@@ -89,7 +89,7 @@ def test_nine_samples_verify_nothing(tiny_folder, tmp_path, capsys):
 
 
 def test_a_tolerance_is_relative_to_the_greatest_magnitude():
-    """Of a signal through zero, of one that is zero, and of the finite samples."""
+    """A signal through zero, one that is zero, and the finite samples."""
     time = np.linspace(0.0, 1.0, 5)
     for reference, tolerance in (
         (np.array([0.0, 2.0, 0.0, -4.0, 0.0]), 1e-3 / 4.0),

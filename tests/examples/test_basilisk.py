@@ -19,7 +19,7 @@ MU = 3.986004418e14
 
 @pytest.fixture(scope="module")
 def exported(tmp_path_factory):
-    """A folder with both FMUs."""
+    """Return a folder with both FMUs."""
     folder = tmp_path_factory.mktemp("basilisk")
     ((name, text),) = saved_files(GUIDE)
     (folder / name).write_text(text)

@@ -1,7 +1,7 @@
-"""What a Python FMU packs: the block's import closure, no more, under a name that follows its content.
+"""Content of a Python FMU: the block's import closure, no more, under a name that follows its content.
 
-Truth: blocks written here whose imports are known; Python itself, which runs the packed files away from
-this repository.
+Truth: blocks written here whose imports are known; Python itself, which runs the packed files away from this
+repository.
 """
 
 import subprocess
@@ -36,7 +36,7 @@ def block(folder, imports="", value="1.0", name="outside.py"):
 
 
 def runs(closure, folder, class_name="Outside"):
-    """Whether the packed files run where the repository cannot be imported; the output at the start."""
+    """Run the packed files where the repository cannot be imported; return the output at the start."""
     for name, text in closure.pack_closure().items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(text)

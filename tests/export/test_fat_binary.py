@@ -21,7 +21,7 @@ DYLIB = 6  # mach-o/loader.h
 
 
 def thin(processor, rest=b"", variant=0):
-    """A library without load commands: a header and something behind it."""
+    """Return a library without load commands: a header and some bytes after it."""
     return struct.pack("<IIIIIIII", 0xFEEDFACF, processor, variant, DYLIB, 0, 0, 0, 0) + rest
 
 

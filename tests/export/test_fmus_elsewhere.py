@@ -40,7 +40,7 @@ os._exit(0)
 
 @pytest.fixture(scope="module", params=["python", "native"])
 def actual(request: pytest.FixtureRequest, fmus: Path) -> dict[str, list]:
-    """What FMPy says of each FMU: problems, rows of its simulation, whether all values are finite."""
+    """Return FMPy's report on each FMU: problems, rows of its simulation, finiteness of all values."""
     folder = fmus.with_name(request.param)
     if request.param == "native" and not folder.is_dir():
         pytest.skip("native FMUs are not built")

@@ -24,7 +24,7 @@ FLAT = 1_000_000
 
 
 def flight(instance: NativeInstance, block: type[Block], key: str, steps: int) -> list[bytes]:
-    """The complete states at the start and after each step of a flight whose inputs ``key`` determines."""
+    """Return the complete states at the start and after each step of a flight whose inputs ``key`` determines."""
     random = lengths.generator(f"{block.fmu_name} {key}")
     inputs = [n for n, (variable, _) in enumerate(elements(block)) if isinstance(variable, Input)]
     h = block.default_step

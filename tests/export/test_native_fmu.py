@@ -26,7 +26,7 @@ BLOCK = catalogue()["forming_filter"]
 
 
 def built(folder: Path, block: type[Block] = BLOCK, cache: Path = CACHE) -> Path:
-    """The FMU of a block for the local platform."""
+    """Build the FMU of a block for the local platform."""
     platform = local_platform()
     assert platform is not None
     return build_native_fmu(block, folder / f"{block.fmu_name}.fmu", platforms=[platform], cache=cache)

@@ -1,7 +1,7 @@
 """Python FMUs as files and in flight: same bytes from same sources, own code for ever, safe to use twice.
 
-Truth: bytes; a constant changed in a copy of the sources; a process that cannot import the
-repository; the plain Python object, stepped beside the FMU.
+Truth: bytes; a constant changed in a copy of the sources; a process that cannot import the repository; the plain Python
+object, stepped with the FMU.
 """
 
 import hashlib
@@ -70,7 +70,7 @@ def test_building_leaves_no_trace_in_the_process(tmp_path):
 
 
 def changed_sources(folder):
-    """A copy of the sources in which gravity starts at another value, and thrust pushes twice as hard."""
+    """Copy the sources with another start value of gravity, and thrust that pushes twice as hard."""
     package = folder / "perilune"
     shutil.copytree(ROOT / "fmus_src", package / "fmus_src", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "perilune" / "__init__.py", package)

@@ -46,7 +46,7 @@ TWO = ("forming_filter", "flat_moon_lander")
 
 @pytest.fixture(scope="session")
 def unpacked(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The FMUs of the blocks that are needed, unpacked."""
+    """Return the FMUs of the blocks that are needed, unpacked."""
     folder = tmp_path_factory.mktemp("unpacked")
     platform = local_platform()
     assert platform is not None

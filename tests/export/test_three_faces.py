@@ -1,7 +1,7 @@
 """Every block of the catalogue, integrators and bundles, in three faces: Python object, pythonfmu FMU, native FMU.
 
-Given the same random admissible calls through FMI, all variables agree to the last bit after every
-step. The compiled library alone is compared more widely in test_native_equals_python.py.
+Called with the same random admissible values through FMI, all variables agree to the last bit after every step. The
+compiled library alone is compared more widely in test_native_equals_python.py.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class Face:
 
 
 def drawn(block: type[Block], kind: type, random: Random, h: float, before: list | None) -> tuple[list[int], list]:
-    """References and new values of all variables of a kind."""
+    """Draw references and new values of all variables of a kind."""
     chosen = [
         (r, variable, position) for r, (variable, position) in enumerate(elements(block)) if isinstance(variable, kind)
     ]

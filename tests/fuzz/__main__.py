@@ -29,7 +29,7 @@ VERSIONS = {"fmi2": 2, "fmi3": 3}  # of FMI, by the names of targets in C
 
 
 def main() -> int:
-    """The exit status: 1 where a target failed."""
+    """Return the exit status: 1 where a target failed."""
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
     parser.add_argument("name", nargs="?", choices=RUNS)
     parser.add_argument("--runs", type=int, metavar="N", help="inputs of each target")
@@ -51,7 +51,7 @@ def main() -> int:
 
 
 def _run(name: str, runs: int) -> int:
-    """One target in a process of its own, which its end may take along."""
+    """Run one target in another process, which its end may take along."""
     begin = time.monotonic()
     command = [sys.executable, "-m", "tests.fuzz", name, "--runs", str(runs)]
     log = FOLDER / f"{name}.log"

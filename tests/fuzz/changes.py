@@ -19,7 +19,7 @@ JUNK = st.sampled_from(
 
 @st.composite
 def changed_xml(draw: Any, text: str) -> bytes:
-    """A document with one to three changes to its elements, or to its characters."""
+    """Draw a document with one to three changes to its elements, or to its characters."""
     root = etree.fromstring(text.encode())
     for _ in range(draw(st.integers(1, 3))):
         elements = list(root.iter(etree.Element))
@@ -50,7 +50,7 @@ def changed_xml(draw: Any, text: str) -> bytes:
 
 @st.composite
 def changed_text(draw: Any, text: str) -> bytes:
-    """A document of lines with one to three changes to these, or to its bytes."""
+    """Draw a document of lines with one to three changes to these, or to its bytes."""
     lines = text.splitlines()
     for _ in range(draw(st.integers(1, 3))):
         index = draw(st.integers(0, len(lines) - 1))
@@ -72,13 +72,13 @@ def changed_text(draw: Any, text: str) -> bytes:
 
 
 def flipped(text: str) -> st.SearchStrategy[bytes]:
-    """A document with a few bits changed."""
+    """Draw a document with a few bits changed."""
     return flipped_bytes(text.encode())
 
 
 @st.composite
 def flipped_bytes(draw: Any, content: bytes) -> bytes:
-    """A file with a few bits changed."""
+    """Draw a file with a few bits changed."""
     changed = bytearray(content)
     for position in draw(st.lists(st.integers(0, 8 * len(changed) - 1), min_size=1, max_size=3)):
         changed[position // 8] ^= 1 << position % 8

@@ -46,7 +46,7 @@ def check(read: Callable[[], object]) -> None:
 
 
 def system_reader(fmus: Path, folder: Path) -> Reader:
-    """Reads a system's SSD, with its FMUs read once."""
+    """Return a reader of a system's SSD, with its FMUs read once."""
     archive = make_archive(fmus, folder)
     loaded: dict[str, Fmu] = {}
 
@@ -61,7 +61,7 @@ def system_reader(fmus: Path, folder: Path) -> Reader:
 
 
 def campaign_reader(fmus: Path, folder: Path) -> Reader:
-    """Reads a campaign of that system, and checks its plan."""
+    """Return a reader of a campaign of that system, which checks its plan."""
     archive = make_archive(fmus, folder)
 
     def read(content: bytes) -> None:
@@ -73,12 +73,12 @@ def campaign_reader(fmus: Path, folder: Path) -> Reader:
 
 
 def read_parameters(content: bytes) -> object:
-    """Reads a parameter set."""
+    """Read a parameter set."""
     return read_parameter_file(content, "a.ssv")
 
 
 def reads(contents: SearchStrategy[bytes], read: Reader) -> Target:
-    """A test of a reader with any of some contents."""
+    """Return a test of a reader with any of some contents."""
 
     @given(content=contents)
     def change(content: bytes) -> None:
@@ -88,37 +88,37 @@ def reads(contents: SearchStrategy[bytes], read: Reader) -> Target:
 
 
 def any_system(fmus: Path, folder: Path) -> Target:
-    """A system's SSD with something changed."""
+    """Test a system's SSD with a change."""
     return reads(changed_xml(SSD) | flipped(SSD), system_reader(fmus, folder))
 
 
 def any_parameter_set(_fmus: Path, _folder: Path) -> Target:
-    """A parameter set with something changed."""
+    """Test a parameter set with a change."""
     return reads(changed_xml(SSV) | flipped(SSV), read_parameters)
 
 
 def any_system_with_arrays(fmus: Path, folder: Path) -> Target:
-    """A system's SSD of SSP 2.0 with something changed."""
+    """Test a system's SSD of SSP 2.0 with a change."""
     return reads(changed_xml(SSD_2) | flipped(SSD_2), system_reader(fmus, folder))
 
 
 def any_parameter_set_with_arrays(_fmus: Path, _folder: Path) -> Target:
-    """A parameter set of SSP 2.0 with something changed."""
+    """Test a parameter set of SSP 2.0 with a change."""
     return reads(changed_xml(SSV_2) | flipped(SSV_2), read_parameters)
 
 
 def any_campaign(fmus: Path, folder: Path) -> Target:
-    """A campaign with something changed."""
+    """Test a campaign with a change."""
     return reads(changed_text(CAMPAIGN) | flipped(CAMPAIGN), campaign_reader(fmus, folder))
 
 
 def any_description(fmus: Path, folder: Path) -> Target:
-    """The modelDescription.xml of an FMU, with something changed."""
+    """Test the modelDescription.xml of an FMU with a change."""
     return _description_of(fmus / "native" / "whole.fmu", folder)
 
 
 def any_fmi3_description(_fmus: Path, folder: Path) -> Target:
-    """That of an FMU of FMI 3.0, with arrays, sizes and all types, likewise."""
+    """Test that of an FMU of FMI 3.0, with arrays, sizes and all types, likewise."""
     return _description_of(strict_fmu(folder), folder)
 
 
@@ -138,6 +138,6 @@ def _description_of(fmu: Path, folder: Path) -> Target:
 
 
 def make_archive(fmus: Path, folder: Path) -> SystemArchive:
-    """A good system, as a file."""
+    """Write a good system, as a file."""
     path = pack(folder / "good.ssp", fmus / "native", SSD, resources___a__ssv=SOURCE)
     return open_system(path)

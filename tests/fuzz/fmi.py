@@ -17,7 +17,7 @@ LIMITS = ["-timeout=20", "-rss_limit_mb=1000", "-max_len=600", "-len_control=0"]
 
 
 def build(block: type[Block], version: int, folder: Path, *, guided: bool) -> Path:
-    """The program that calls a block's FMU: ``guided`` by libFuzzer, which is clang's, or by random bytes."""
+    """Build the program that calls a block's FMU: ``guided`` by libFuzzer, which is clang's, or by random bytes."""
     for name, text in native_sources(block, GUID, version).items():
         (folder / name).write_bytes(text)
     macros = [f'-DGUID="{GUID}"', f"-DSTEP={block.default_step}", *_variables(block, version)]
@@ -31,7 +31,7 @@ def build(block: type[Block], version: int, folder: Path, *, guided: bool) -> Pa
 
 
 def _variables(block: type[Block], version: int) -> list[str]:
-    """The macros that say which variables there are."""
+    """Return the macros that declare the variables."""
     if version == 2:
         return [f"-DREFERENCES={sum(variable.size for variable in block.variables.values())}"]
     variables = list_variables(block)
@@ -41,7 +41,7 @@ def _variables(block: type[Block], version: int) -> list[str]:
 
 
 def fuzz(block: type[Block], version: int, folder: Path, runs: int) -> bool:
-    """So many inputs; whether all went well. What went wrong is printed, and its input written to the folder."""
+    """Run ``runs`` inputs; return if all went well. A failure is printed, and its input written to the folder."""
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "corpus").mkdir(parents=True)
     program = build(block, version, folder, guided=True)

@@ -30,14 +30,14 @@ JUNK = st.one_of(
 
 
 def make_folder(folder: Path) -> Path:
-    """A good one, of two shards of 25 trials."""
+    """Write a good folder, of two shards of 25 trials."""
     words = ["batch", "lunar_terminal_guidance", "--campaign", "paper", "--configuration", "analytic_guidance"]
     assert main([*words, "--trials", "50", "--stop-time", "5", "--output", str(folder)]) == 0
     return folder
 
 
 def merge(folder: Path) -> str | None:
-    """Nothing, or the one line of what is refused."""
+    """Return None, or the one line of the refusal."""
     return refusal(lambda: merge_campaign(open_folder(folder)))
 
 
@@ -48,7 +48,7 @@ def merge_campaign(campaign: PreparedCampaign) -> None:
 
 
 def refusal(read: Callable[[], object]) -> str | None:
-    """Nothing, or the one line of the InputError."""
+    """Return None, or the one line of the InputError."""
     try:
         read()
     except InputError as error:
@@ -60,7 +60,7 @@ def refusal(read: Callable[[], object]) -> str | None:
 
 
 def paths_in(document: Any, path: tuple[Any, ...] = ()) -> Any:
-    """The way to every value of a document."""
+    """Yield the path to every value of a document."""
     yield path
     if isinstance(document, dict):
         items = document.items()
@@ -72,7 +72,7 @@ def paths_in(document: Any, path: tuple[Any, ...] = ()) -> Any:
 
 @st.composite
 def changed_json(draw: Any, document: Any) -> Any:
-    """The document with one value changed, or gone."""
+    """Draw the document with one value changed, or gone."""
     changed = copy.deepcopy(document)
     path = draw(st.sampled_from([path for path in paths_in(document) if path]))
     inner = changed
@@ -86,7 +86,7 @@ def changed_json(draw: Any, document: Any) -> Any:
 
 
 def any_manifest(folder: Path) -> Callable[[], None]:
-    """Opens and merges a good folder, which it changes, with other manifests."""
+    """Test opening and merging a good folder, which it changes, with other manifests."""
     document = json.loads((folder / FILE).read_text())
 
     @given(changed_json(document))
@@ -98,7 +98,7 @@ def any_manifest(folder: Path) -> Callable[[], None]:
 
 
 def any_shard(folder: Path) -> Callable[[], None]:
-    """Merges a good folder, which it changes, with bits of a shard flipped."""
+    """Test merging a good folder, which it changes, with bits of a shard flipped."""
     campaign = open_folder(folder)
     path = folder / "trials" / "000000.parquet"
     content = path.read_bytes()

@@ -1,4 +1,4 @@
-"""Targets of Python under atheris, which looks for inputs that come to other code."""
+"""Targets of Python under atheris, which looks for inputs that reach other code."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LIMITS = ["-timeout=20", "-rss_limit_mb=2500", "-len_control=0", f"-max_len={LON
 
 
 def fuzz(name: str, folder: Path, runs: int) -> None:
-    """So many inputs of a target of `targets`; ends the process: status 0 where all went well."""
+    """Run ``runs`` inputs of a target of `targets`; end the process: status 0 where all went well."""
     import atheris  # not among the packages of development: `make fuzz` installs it
 
     with atheris.instrument_imports(include=["perilune"]):

@@ -38,14 +38,14 @@ TOKENS = st.sampled_from([*OPERANDS, *OPERATIONS, "**"])
 
 
 def parquet(columns: dict[str, object]) -> bytes:
-    """A table as a file."""
+    """Return a table as a file."""
     content = io.BytesIO()
     pyarrow.parquet.write_table(pyarrow.table(columns), content)
     return content.getvalue()
 
 
 def any_series(_fmus: Path, folder: Path) -> Target:
-    """Inputs over time with a cell, or a bit, changed."""
+    """Test inputs over time with a cell, or a bit, changed."""
     path = folder / "hostile.csv"
     entries = [line.split(",") for line in SERIES.splitlines()]
 
@@ -80,7 +80,7 @@ def any_draws(_fmus: Path, folder: Path) -> Target:
 
 
 def any_mapping(_fmus: Path, _folder: Path) -> Target:
-    """A mapping of a parameter set with something changed."""
+    """Test a mapping of a parameter set with a change."""
     values = read_parameter_file(SSV.encode(), "a.ssv")
 
     def read(content: bytes) -> None:
@@ -90,7 +90,7 @@ def any_mapping(_fmus: Path, _folder: Path) -> Target:
 
 
 def any_expression(_fmus: Path, _folder: Path) -> Target:
-    """An expression of any tokens, evaluated where it is one."""
+    """Test an expression of any tokens, evaluated where it is one."""
 
     @given(text=st.lists(TOKENS | JUNK.filter(lambda text: "**" not in text), max_size=12).map("".join))
     def change(text: str) -> None:
@@ -103,7 +103,7 @@ def any_expression(_fmus: Path, _folder: Path) -> Target:
 
 
 def any_archive(fmus: Path, folder: Path) -> Target:
-    """An archive with bits changed, of its last 4 kB above all, where its directory is."""
+    """Test an archive with bits changed, of its last 4 kB above all, where its directory is."""
     packed = make_archive(fmus, folder).path.read_bytes()
     tail = flipped_bytes(packed[-4096:]).map(lambda end: packed[:-4096] + end)
 

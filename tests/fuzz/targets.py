@@ -1,4 +1,4 @@
-"""What is fuzzed in Python: by name a function that makes a test of hypothesis, given a folder of its own."""
+"""Fuzz targets in Python: by name a function from a separate folder to a test of hypothesis."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ EVERY = 10_000  # inputs from one line of the log to the next
 
 
 def fuzz(name: str, folder: Path, runs: int, first: int = 0) -> None:
-    """So many inputs of a target of `targets`, from number ``first`` on.
+    """Run ``runs`` inputs of a target of `targets`, from number ``first`` on.
 
     Raises what the target raises, TimeoutError, and MemoryError.
     """
@@ -47,7 +47,7 @@ def _contents(seeds: range) -> Iterator[bytes]:
 
 
 def _report(count: int, read: int) -> None:
-    """A line of the log: inputs, those of them that make an example, memory. Raises MemoryError."""
+    """Print a line of the log: inputs, those of them that make an example, memory. Raises MemoryError."""
     resident = psutil.Process().memory_info().rss / 1e6
     print(f"{count} inputs, {read} examples, {resident:.0f} MB", flush=True)
     if resident > MOST_MEMORY:

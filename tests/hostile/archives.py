@@ -18,7 +18,7 @@ LOCAL, CENTRAL, END = b"PK\3\4", b"PK\1\2", b"PK\5\6"
 
 
 def zipped(*entries: tuple[str | zipfile.ZipInfo, bytes | str], method: int = zipfile.ZIP_DEFLATED) -> bytes:
-    """An archive of a description and these entries, which may have one name."""
+    """Return an archive of a description and these entries, which may have one name."""
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", method) as archive, warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
@@ -29,7 +29,7 @@ def zipped(*entries: tuple[str | zipfile.ZipInfo, bytes | str], method: int = zi
 
 
 def bomb(size: int) -> bytes:
-    """An archive of zeros, so many bytes unpacked."""
+    """Return an archive of zeros, ``size`` bytes unpacked."""
     content = io.BytesIO()
     with (
         zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive,
@@ -41,7 +41,7 @@ def bomb(size: int) -> bytes:
 
 
 def link() -> bytes:
-    """An entry that Unix tools unpack as a link to a file of the machine."""
+    """Return an entry that Unix tools unpack as a link to a file of the machine."""
     entry = zipfile.ZipInfo("SystemStructure.ssd")
     entry.external_attr = 0o120777 << 16
     content = io.BytesIO()
@@ -51,14 +51,14 @@ def link() -> bytes:
 
 
 def patched(content: bytes, position: int, number: int, form: str, *, signature: bytes = CENTRAL) -> bytes:
-    """An archive with another number in the last of its headers of this signature."""
+    """Return an archive with another number in the last of its headers of this signature."""
     changed = bytearray(content)
     struct.pack_into(form, changed, changed.rindex(signature) + position, number)
     return bytes(changed)
 
 
 def many(number: int) -> bytes:
-    """An archive with so many empty files."""
+    """Return an archive with ``number`` empty files."""
     return zipped(*((f"resources/{each}", b"") for each in range(number)), method=zipfile.ZIP_STORED)
 
 

@@ -36,7 +36,7 @@ def swapped(old: str, new: str) -> str:
 
 
 def campaign_file(content: Content, **more: bytes) -> Write:
-    """A campaign and the good system that it is for."""
+    """Return a writer of a campaign and the good system that it is for."""
 
     def write(folder: Path, fmus: Path) -> None:
         pack(folder / "good.ssp", fmus, document(PLAIN))

@@ -28,7 +28,7 @@ Content = str | bytes | Callable[[], str | bytes]  # what is large is made when 
 
 
 def put(name: str, content: Content) -> Write:
-    """What writes one file of this content."""
+    """Return a writer of one file of this content."""
 
     def write(folder: Path, _: Path) -> None:
         path = folder / name

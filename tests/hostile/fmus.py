@@ -17,7 +17,7 @@ DESCRIPTION = "modelDescription.xml"
 
 
 def changed(change: Callable[[str], str | bytes], name: str = "hostile.fmu") -> Write:
-    """The good FMU with another model description."""
+    """Return a writer of the good FMU with another model description."""
 
     def write(folder: Path, fmus: Path) -> None:
         with zipfile.ZipFile(fmus / "ramp.fmu") as archive:
@@ -31,7 +31,7 @@ def changed(change: Callable[[str], str | bytes], name: str = "hostile.fmu") -> 
 
 
 def with_files(*more: tuple[str, bytes]) -> Write:
-    """The good FMU with more files."""
+    """Return a writer of the good FMU with more files."""
 
     def write(folder: Path, fmus: Path) -> None:
         (folder / "hostile.fmu").write_bytes((fmus / "ramp.fmu").read_bytes())

@@ -23,7 +23,7 @@ TRACED = GOOD.replace("[success]", '[record]\nevery = 1\nsignals = ["ramp.y"]\nt
 
 @cache
 def good(fmus: Path) -> Path:
-    """The folder of a campaign that was flown."""
+    """Return the folder of a simulated campaign."""
     folder = fmus.parent / f"campaign_{os.getpid()}"  # of this worker alone
     folder.mkdir()
     campaign_file(TRACED)(folder, fmus)
@@ -33,7 +33,7 @@ def good(fmus: Path) -> Path:
 
 
 def changed(name: str, change: Callable[[Path], object]) -> Write:
-    """The folder with one file changed, or a file more; `*` is the first file of a folder."""
+    """Return a writer of the folder with one file changed or added; `*` is the first file of a folder."""
 
     def write(folder: Path, fmus: Path) -> None:
         shutil.copytree(good(fmus), folder / "out")
@@ -48,7 +48,7 @@ def changed(name: str, change: Callable[[Path], object]) -> Write:
 
 
 def edited(name: str, change: Callable[[dict], object]) -> Write:
-    """The folder with another JSON document."""
+    """Return a writer of the folder with another JSON document."""
 
     def write(folder: Path, fmus: Path) -> None:
         shutil.copytree(good(fmus), folder / "out")

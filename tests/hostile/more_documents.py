@@ -25,7 +25,7 @@ GROUPS = groups(y="y", u="u")
 
 
 def folder_with(name: str, content: Content, **others: str) -> Write:
-    """A folder with FMUs and some files, one of them hostile."""
+    """Return a writer of a folder with FMUs and some files, one of them hostile."""
 
     def write(folder: Path, fmus: Path) -> None:
         system_folder = folder / "hostile"

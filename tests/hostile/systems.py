@@ -22,7 +22,7 @@ COMMANDS = (RUN,)
 
 
 def packed(root: str, files: dict[str, str | bytes] | None = None, **options: object) -> Write:
-    """A system in an archive with its FMUs."""
+    """Return a writer of a system in an archive with its FMUs."""
 
     def write(folder: object, fmus: object) -> None:
         pack(folder / "hostile.ssp", fmus, document(root, **options), **(files or {}))

@@ -23,7 +23,7 @@ DRAW = "ramp.slope"
 
 
 def series(content: Content) -> Write:
-    """Inputs over time and a system that takes one, gain.u."""
+    """Return a writer of inputs over time and a system that takes one, gain.u."""
 
     def write(folder: Path, fmus: Path) -> None:
         pack(folder / "good.ssp", fmus, document(system(GAIN)))
@@ -51,7 +51,7 @@ def table(**columns: object) -> bytes:
 
 
 def repeated(rows: int, columns: int = 1) -> bytes:
-    """So many equal rows, which take no space."""
+    """Return ``rows`` equal rows, which take no space."""
     values = pyarrow.array(np.zeros(min(rows, 10**6)))
     content = io.BytesIO()
     names = [DRAW, *(f"a{n}" for n in range(1, columns))]

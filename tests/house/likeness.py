@@ -53,7 +53,7 @@ def like_lines(checkout: Checkout) -> Measure:
 
 
 def like(source: Source) -> list[tuple[int, str]]:
-    """The lines that are compared, each with its number."""
+    """Return the compared lines, each with its number."""
     imports = [node for node in source.nodes if isinstance(node, ast.Import | ast.ImportFrom)]
     passed = {n for node in [*source.docstrings, *imports] for n in range(node.lineno, node.end_lineno + 1)}
     normal = ((number, TOKEN.sub(_normal, line).strip()) for number, line in enumerate(source.text.splitlines(), 1))

@@ -16,8 +16,8 @@ GROWTH = 1.1  # how far the table [plain] may be exceeded
 
 
 def given_names(source: Source) -> Iterator[tuple[str, int]]:
-    """Names with their lines: variables at each occurrence, arguments, assigned attributes, functions, classes, and the
-    file itself (its folder for `__init__.py`). Attributes that are only read belong to those who declared them."""
+    """Yield names with their lines: variables at each occurrence, arguments, assigned attributes, functions, classes,
+    and the file itself (its folder for `__init__.py`). Attributes that are only read belong to their declarations."""
     yield (source.path.parent if source.path.name == "__init__.py" else source.path).stem, 1
     for node in source.nodes:
         if isinstance(node, ast.Name):
@@ -40,7 +40,7 @@ def words(name: str) -> set[str]:
 
 
 def count_words(sources: Iterable[Source], limits: dict[str, dict[str, int]]) -> Counter[str]:
-    """How often each name occurs, and each word of the table [words] in names."""
+    """Count the occurrences of each name, and of each word of the table [words] in names."""
     names = Counter(name for source in sources for name, _ in given_names(source))
     counts: Counter[str] = Counter()
     for name, number in names.items():
@@ -54,7 +54,7 @@ def read_limits() -> dict[str, dict[str, int]]:
 
 
 def check_limits(counts: Counter[str], limits: dict[str, dict[str, int]]) -> list[str]:
-    """A line for each number that is not as stored."""
+    """Return a line for each number that is not as stored."""
     problems = [
         f"{token}: {counts[token]} names at the start {stored}: give the thing its own name"
         for token, stored in limits["plain"].items()
@@ -73,6 +73,6 @@ def check_limits(counts: Counter[str], limits: dict[str, dict[str, int]]) -> lis
 
 
 def lower_limits(text: str, counts: Counter[str]) -> str:
-    """The text of `limits.toml` with every number above its count lowered to it; the table [plain] stays."""
+    """Return the text of `limits.toml` with every number above its count lowered to it; the table [plain] stays."""
     head, plain, tail = text.partition("[plain]")
     return re.sub(r"(?m)^(\w+) = (\d+)$", lambda m: f"{m[1]} = {min(int(m[2]), counts[m[1]])}", head) + plain + tail

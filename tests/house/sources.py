@@ -39,7 +39,7 @@ class Source:
 
 @dataclass(frozen=True)
 class Checkout:
-    """What every measure is given."""
+    """Checkout that every measure counts."""
 
     root: Path = ROOT
 

@@ -25,7 +25,7 @@ class Rule:
 
 
 def lists_its_sources(description: ModelDescription, members: frozenset[str]) -> bool:
-    """True if the listed C files are exactly those of the folder sources."""
+    """Return True if the listed C files are exactly those of the folder sources."""
     listed = {
         f"sources/{name}"
         for configuration in description.buildConfigurations

@@ -61,7 +61,7 @@ def fly(master: str, fmu: Path, flight: Flight) -> dict[str, float]:
 
 
 def agree(number: float, truth: float, tolerance: float) -> bool:
-    """True if two values are the same, or as near as a relative tolerance allows."""
+    """Return True if two values are the same, or as near as a relative tolerance allows."""
     return (
         number == truth or abs(number - truth) <= tolerance * abs(truth) or (math.isnan(number) and math.isnan(truth))
     )

@@ -32,7 +32,7 @@ def between(low: float, high: float) -> Draw:
 
 
 def near_quarter_turns(random: Random) -> float:
-    """The double nearest to a multiple of pi/2, to 1e22."""
+    """Draw the double nearest to a multiple of pi/2, to 1e22."""
     with mp.workdps(60):
         return float(random.randint(1, int(10 ** random.uniform(0.0, 22.0))) * mp.pi / 2)
 

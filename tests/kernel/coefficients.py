@@ -28,7 +28,7 @@ class Approximation:
     weight: Function
 
     def derive(self) -> list[float]:
-        """The coefficients, constant term first, each rounded to a double."""
+        """Return the coefficients, constant term first, each rounded to a double."""
         with mp.workdps(DIGITS):
             return [float(value) for value in _remez(self)]
 
@@ -62,7 +62,7 @@ def _remez(case: Approximation) -> list[mpf]:
 
 
 def _extremes(grid: list[mpf], errors: list[mpf], count: int) -> list[mpf]:
-    """Where the error is largest between its changes of sign."""
+    """Return the points of largest error between its changes of sign."""
     best: list[int] = []
     for k, error in enumerate(errors):
         if best and error * errors[best[-1]] > 0:
@@ -78,7 +78,7 @@ def _extremes(grid: list[mpf], errors: list[mpf], count: int) -> list[mpf]:
 
 
 def _square(function: Function) -> Function:
-    """A function of x as one of x^2."""
+    """Return a function of x as one of x^2."""
     return lambda z: function(mp.sqrt(z))
 
 

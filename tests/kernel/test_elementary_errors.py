@@ -55,7 +55,7 @@ def test_errors_stay_below_one_unit_in_the_last_place(name: str) -> None:
 
 
 def outcome(function, arguments: tuple[float, ...]) -> object:
-    """What a call gives, as bytes or an error's name and text."""
+    """Return the result of a call, as bytes or an error's name and text."""
     try:
         value = function(*arguments)
     except (ValueError, OverflowError) as raised:

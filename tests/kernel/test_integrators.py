@@ -42,12 +42,12 @@ UNFORCED = Forcing(start=vector(0.0, 0.0, 0.0), middle=vector(0.0, 0.0, 0.0), en
 
 
 def attract(position: Vector3) -> Vector3:
-    """A centre of unit strength, about which a circle of radius 1 has rate 1."""
+    """Return the attraction of a centre of unit strength, about which a circle of radius 1 has rate 1."""
     return -position / norm(position) ** 3
 
 
 def spring(position: Vector3) -> Vector3:
-    """Of 3 rad/s."""
+    """Return the acceleration of a spring of 3 rad/s."""
     return -9.0 * position
 
 
@@ -57,22 +57,22 @@ def drive(t: float) -> Vector3:
 
 
 def turn(t: float) -> Vector3:
-    """The acceleration of a body that goes round with 1 rad/s."""
+    """Return the acceleration of a body that goes round with 1 rad/s."""
     return -vector(math.cos(t), math.sin(t), 0.0)
 
 
 def circle_by_kutta(t: float, s: Translation, h: float) -> Translation:
-    """A step of the orbit."""
+    """Step the orbit."""
     return runge_kutta_4(lambda t, s: Translation(position=s.velocity, velocity=attract(s.position)), t, s, h)
 
 
 def circle_by_nystrom(t: float, s: Translation, h: float) -> Translation:
-    """The same."""
+    """Step the same."""
     return runge_kutta_nystrom(attract, s, UNFORCED, h)
 
 
 def driven_by_kutta(t: float, s: Translation, h: float) -> Translation:
-    """A step of the driven oscillator."""
+    """Step the driven oscillator."""
 
     def derivatives(t: float, s: Translation) -> Translation:
         return Translation(position=s.velocity, velocity=spring(s.position) + drive(t))
@@ -81,12 +81,12 @@ def driven_by_kutta(t: float, s: Translation, h: float) -> Translation:
 
 
 def driven_by_nystrom(t: float, s: Translation, h: float) -> Translation:
-    """The same."""
+    """Step the same."""
     return runge_kutta_nystrom(spring, s, Forcing(start=drive(t), middle=drive(t + 0.5 * h), end=drive(t + h)), h)
 
 
 def turned_by_simpson(t: float, s: Translation, h: float) -> Translation:
-    """A step under an acceleration over time."""
+    """Step under an acceleration over time."""
     return simpson(turn, t, s, h)
 
 
@@ -114,7 +114,7 @@ ON_A_CIRCLE = [
 
 
 def orders(error: Callable[[int], float]) -> list[float]:
-    """The powers of the step with which an error falls, halving by halving."""
+    """Return the powers of the step with which an error falls, halving by halving."""
     errors = [error(steps) for steps in (40, 80, 160)]
     return [math.log2(coarse / fine) for coarse, fine in pairwise(errors)]
 

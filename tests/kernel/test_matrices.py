@@ -130,7 +130,7 @@ class Filter(Block):
     numbered = State(zeros(2, 2), description="numbered through")
 
     def step(self, t: float, h: float) -> None:
-        """Nothing."""
+        """Do nothing."""
 
 
 def test_a_block_copies_its_matrices():
@@ -206,7 +206,8 @@ def test_rows_are_exchanged_where_a_pivot_is_zero():
 
 
 def exact_exponential(a):
-    """The series of exp(a) in rational numbers, 60 terms rounded to 2^-200; scipy's expm has lost four digits here."""
+    """Sum the series of exp(a) in rational numbers, 60 terms rounded to 2^-200; scipy's expm has lost four digits
+    here."""
     n = len(a)
     exact = [[Fraction(entry) for entry in row] for row in a.tolist()]
     term = [[Fraction(int(i == j)) for j in range(n)] for i in range(n)]

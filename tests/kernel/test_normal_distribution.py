@@ -1,4 +1,4 @@
-"""The normal distribution and its inverse against mpmath; hypot beside them, which no block calls."""
+"""The normal distribution and its inverse against mpmath; and hypot, which no block calls."""
 
 from __future__ import annotations
 

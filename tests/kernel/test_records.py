@@ -77,7 +77,7 @@ class Turned(Block):
     state = State(Turning, heat=300.0)
 
     def step(self, t: float, h: float) -> None:
-        """Nothing."""
+        """Do nothing."""
 
 
 def test_a_state_has_a_variable_for_each_number():

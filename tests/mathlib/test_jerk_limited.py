@@ -25,7 +25,7 @@ WITHOUT_JERK_AT_THE_END = Polynomial([0.0, 0.0, 0.0, 20.0, -45.0, 36.0, -10.0])
 
 
 def motions(profile, count=400):
-    """Times, and angle, rate and acceleration at each of them."""
+    """Return times, and angle, rate and acceleration at each of them."""
     times = np.linspace(0.0, profile.duration, count)
     return times, np.array([follow_profile(profile, time).elements() for time in times])
 

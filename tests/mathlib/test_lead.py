@@ -1,7 +1,7 @@
 """Lead compensator by Tustin's rule: `perilune.fmus_src.mathlib.lead` against scipy's bilinear discretisation.
 
 Truth: `scipy.signal.cont2discrete` (bilinear) and `lfilter` on random inputs; python-control's frequency response of
-the sampled system; at a change of law the output as the old law would have given it.
+the sampled system; at a change of law the output of the old law.
 """
 
 import control
@@ -21,7 +21,7 @@ DESIGNS = [(1.5625e-4, 160.0, 13.3, 8.0), (6.25e-4, 80.0, 6.67, 4.0), (0.16, 5.0
 
 
 def respond(law, errors):
-    """Outputs for a sequence of 3-vectors."""
+    """Return outputs for a sequence of 3-vectors."""
     g, actual = vector(0.0, 0.0, 0.0), []
     for e in errors:
         actual.append(lead_output(law, g, vector(*e)))

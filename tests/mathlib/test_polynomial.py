@@ -1,4 +1,4 @@
-"""Roots of polynomials: mathlib.polynomial against polynomials made from chosen roots, and `numpy.roots`.
+"""Roots of polynomials: mathlib.polynomial against polynomials of chosen roots, and `numpy.roots`.
 
 Tolerance 1e-12 relative for roots that are chosen well apart, 1e-9 for those that numpy finds.
 """

@@ -45,7 +45,7 @@ def function_of(name):
 
 
 def sections_of(name):
-    """The lines of a function's sections by their titles, which are underlined."""
+    """Return the lines of a function's sections by their titles, which are underlined."""
     lines = inspect.getdoc(function_of(name)).splitlines()
     starts = [row for row in range(1, len(lines)) if lines[row] and set(lines[row]) == {"-"}]
     return {

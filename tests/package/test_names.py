@@ -27,7 +27,7 @@ assert not any(trials.messages for trials in result.trials.values())
 
 @pytest.fixture
 def folder(tmp_path):
-    """A folder with the clone in it, named as git names it, and a user's files beside."""
+    """Return a folder with the clone in it, named as git names it, and a user's files next to it."""
     (tmp_path / "perilune").symlink_to(ROOT)
     for name in ("analysis", "common", "tests", "fmus_src"):
         (tmp_path / f"{name}.py").write_text("MINE = 1\n")

@@ -22,7 +22,7 @@ OTHER = "0" * 64
 
 @pytest.fixture
 def listed(tmp_path, monkeypatch):
-    """The list of a machine that has built nothing yet."""
+    """Return the list of a machine that has built nothing yet."""
     path = tmp_path / "cache" / own_digests.SUMS
     monkeypatch.setattr(own_digests, "NOTED", path)
     monkeypatch.setattr(own_digests, "LISTS", (path,))
@@ -45,7 +45,7 @@ def digest(path):
 
 @pytest.fixture
 def installed(listed, monkeypatch):
-    """The places of an installed package, which has no Python FMUs."""
+    """Set the paths of an installed package, which has no Python FMUs."""
     monkeypatch.setattr(available, "IS_CHECKOUT", False)
     monkeypatch.setattr(available, "shipped_fmu", lambda name, flavour: Path("nowhere"))
     monkeypatch.setattr(available, "_python_folder", lambda: listed.parent / "fmus")

@@ -1,4 +1,5 @@
-"""What pyproject.toml, setup.py and the Makefile say of the package; the wheel itself is flown in test_wheel.py.
+"""Declarations of the package in pyproject.toml, setup.py and the Makefile; the wheel itself is tested in
+test_wheel.py.
 
 Truth: the files of the checkout; a Python that says it is an old one.
 """

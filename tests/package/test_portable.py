@@ -1,4 +1,4 @@
-"""Nothing that only Linux or Unix has is called in the product.
+"""Absence of calls that only Linux or Unix has in the product.
 
 Truth: what Python's library reference marks "Availability: Unix", as its own parser finds it.
 """
@@ -23,7 +23,7 @@ SOURCES = [path for room in ("analysis", "common", "fmus_src") for path in sorte
 
 
 def actual(text):
-    """What is only there on Unix, with its line."""
+    """Yield names that exist on Unix only, with their lines."""
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
             yield from ((alias.name, node.lineno) for alias in node.names if alias.name in MODULES)

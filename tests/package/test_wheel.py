@@ -44,7 +44,7 @@ MACHINE = {"linux64": (b"\x7fELF", 18, b"\x3e\x00"), "win64": (b"MZ", None, b"")
 
 @pytest.fixture
 def perform(installed, tmp_path):
-    """A verb that succeeds, or ends with another status: its standard output."""
+    """Run a verb that succeeds, or ends with another status; return its standard output."""
 
     def run(*arguments, status=0):
         done = installed.run(*arguments, cwd=tmp_path)

@@ -159,7 +159,8 @@ def test_table_2(table_2, start):
 
 @pytest.mark.slow
 def test_mean_altitude_of_table_2(table_2):
-    """What the errors do to the altitude does not depend on the start; the eleven rows together have less scatter."""
+    """The effect of the errors on the altitude does not depend on the start; the eleven rows
+    together have less scatter."""
     here = statistics.mean(row["metric.final_altitude"] for start in TABLE_2 for row in table_2[start])
     printed = [altitude for _, altitude, _ in TABLE_2.values()]
     error = statistics.stdev(printed) / len(printed) ** 0.5
@@ -176,7 +177,7 @@ def test_flights_of_a_start_differ_in_their_errors(table_2):
 
 
 def nominal(row, claim):
-    """Whether the flight is one of the nominal start, apart from what the claim varies."""
+    """Return True if the flight is one of the nominal start, apart from the variation of the claim."""
     altitude = row["draw.altitude" if claim == "altitude" else "draw.plant.initial_altitude"]
     angle = row["draw.path_angle" if claim == "angle" else "draw.plant.initial_path_angle"]
     return (altitude, angle) == NOMINAL

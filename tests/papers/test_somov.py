@@ -1,4 +1,5 @@
-"""What the paper of Somov and others leaves open: figures of docs/papers/somov.md, of eight seeds under `make long`."""
+"""Open parameters of the paper of Somov and others: figures of docs/papers/somov.md, of eight seeds under `make
+long`."""
 
 import re
 
@@ -31,7 +32,7 @@ def metrics(**settings):
 
 @pytest.mark.parametrize(("fraction", "hold", "impulse"), either(DELAYS, DELAYS[-1:]))
 def test_the_delay_of_the_jets(fraction, hold, impulse):
-    """Of one seed: below the largest of eight, and an impulse within 3 %."""
+    """One seed: below the largest of eight, and an impulse within 3 %."""
     actual = metrics(guidance__delay_fraction=float(fraction), jets__delay_fraction=float(fraction))
     largest, mean = np.max(actual["hold_error"]), np.mean(actual["impulse"])
     if len(actual["impulse"]) == 8:

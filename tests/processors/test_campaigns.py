@@ -32,7 +32,7 @@ WHOLE = [
 
 
 def fly(campaign: list[str], folder: Path, environment: dict[str, str]) -> dict[str, str]:
-    """The bytes that a campaign leaves in a folder."""
+    """Return the bytes of the files that a campaign writes to a folder."""
     words = ["batch", *campaign, "--seed", "5", "--output", str(folder)]
     done = subprocess.run(
         [sys.executable, "-m", "perilune", *words], env={**os.environ, **environment}, capture_output=True, text=True

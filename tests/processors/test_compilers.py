@@ -1,6 +1,6 @@
 """The C of blocks has the same bits by every compiler, optimisation and processor.
 
-Truth: a checksum over all variables of a flight of random inputs, made here by the system's compiler without
+Truth: a checksum over all variables of a flight of random inputs, computed here with the system's compiler without
 optimisation; the same for x86-64 with and without fused operations, and for aarch64 under qemu. `make processors` takes
 every block and every compiler.
 """

@@ -65,13 +65,13 @@ pytestmark = pytest.mark.skipif(
 
 
 def has_fma() -> bool:
-    """Whether this processor has fused operations."""
+    """Return True if this processor has fused operations."""
     return "fma" in Path("/proc/cpuinfo").read_text(encoding="utf-8").split()
 
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The FMU as it is exported, unpacked."""
+    """Return the FMU as it is exported, unpacked."""
     folder = tmp_path_factory.mktemp("exported")
     path = build_native_fmu(BLOCK, folder / "forming_filter.fmu", platforms=["linux64"], cache=CACHE)
     with zipfile.ZipFile(path) as archive:
@@ -80,7 +80,7 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def compiled(fmu: Path, folder: Path, flags: list[str]) -> Path:
-    """A copy of an unpacked FMU whose library is compiled with other flags."""
+    """Copy an unpacked FMU whose library is compiled with other flags."""
     shutil.copytree(fmu, folder)
     library = folder / "binaries" / "linux64" / "forming_filter.so"
     command = ["gcc", *flags, "-fPIC", "-shared", "-o", library, "forming_filter.c", "-lm"]
@@ -89,7 +89,7 @@ def compiled(fmu: Path, folder: Path, flags: list[str]) -> Path:
 
 
 def logged(*fmus: Path) -> list[list[str]]:
-    """What fmpy's logger gets from each FMU, and how its instantiation ends."""
+    """Return the messages to fmpy's logger from each FMU, and the end of its instantiation."""
     done = subprocess.run([sys.executable, "-c", SCRIPT, *map(str, fmus)], capture_output=True, text=True, check=True)
     return json.loads(done.stdout.splitlines()[-1])
 

@@ -1,6 +1,6 @@
 """A release of a small checkout: what is refused, what is written, committed and tagged; archives and pages compared.
 
-Truth: git's own answers, archives made by hand, HTML that readme_renderer writes.
+Truth: git's own answers, hand-written archives, HTML that readme_renderer writes.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ ORIGIN = "fmus_src/export/description/origin.py"
 
 @pytest.fixture
 def checkout(tmp_path):
-    """A committed tree with the files that a release reads, and an address of the sources."""
+    """Return a committed tree with the files that a release reads, and an address of the sources."""
     root = tmp_path / "checkout"
     for name in ("CITATION.cff", ORIGIN):
         (root / name).parent.mkdir(parents=True, exist_ok=True)

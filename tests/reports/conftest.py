@@ -8,7 +8,7 @@ from tests.support.locks import made_once
 
 @pytest.fixture(scope="session")
 def flight(tmp_path_factory):
-    """The page of a landing and its table."""
+    """Write the page of a landing and its table."""
 
     def fly(folder):
         options = ["--report", str(folder / "page.html"), "--output", str(folder / "flight.parquet")]
@@ -19,7 +19,7 @@ def flight(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def batch(tmp_path_factory):
-    """A campaign's folder, out, and its page."""
+    """Write a campaign's folder, out, and its page."""
 
     def fly(folder):
         options = ["--campaign", "paper", "--trials", "300", "--output", str(folder / "out")]
@@ -30,7 +30,7 @@ def batch(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def recorded(tmp_path_factory):
-    """A campaign's folder with recorded signals, out, and its page; a failure among its trials."""
+    """Write a campaign's folder with recorded signals, out, and its page; a failure among its trials."""
 
     def fly(folder):
         options = [

@@ -22,7 +22,7 @@ POSITIONS = ("ship.position", "crew.cook.position")
 
 
 def named_run():
-    """The run of the samples, its positions along named axes, and a quaternion without."""
+    """Return the run of the samples, its positions along named axes, and a quaternion without."""
     run = run_result()
     run.provenance["axes"] = {f"{vector}[{k}]": axis for vector in POSITIONS for k, axis in enumerate(AXES, 1)}
     for k in range(1, 5):

@@ -1,6 +1,6 @@
 """The page of two runs: which element a line is, and what its legend hides.
 
-Truth: the runs, made by hand, with elements that differ by known amounts.
+Truth: the hand-written runs, with elements that differ by known amounts.
 """
 
 import numpy as np
@@ -21,7 +21,7 @@ TIME = np.linspace(0.0, 10.0, 101)
 
 @pytest.fixture
 def page(tmp_path):
-    """The first element of v is the same in both runs; the others differ, as the height does."""
+    """Write two runs: the first element of v is the same in both; the others differ, as the height does."""
 
     def run(turn):
         signals = {"h": turn * TIME, "v[1]": 0.0 * TIME, "v[2]": turn * TIME**2, "v[3]": turn - TIME}

@@ -150,7 +150,7 @@ def sections_and_folds(page):
 
 
 def test_states_and_commands_come_first_and_the_rest_is_folded(page):
-    """What moves and what it is told by name; everything else is in the page, without a script."""
+    """Moving states and commands by name first; everything else is in the page, without a script."""
     displayed, folded = sections_and_folds(page)
     assert "ship.position over time" in displayed
     assert "ship.tilt over time" in displayed
@@ -172,7 +172,7 @@ def test_where_no_name_says_what_is_a_state_the_first_panels_are_open(tmp_path):
 
 
 def over_the_moon(way):
-    """A flight that descends from 50 km along ``way`` (rad of the Moon) to the origin."""
+    """Return a flight that descends from 50 km along ``way`` (rad of the Moon) to the origin."""
     result, radius = run_result(), 1.7374e6
     angle = np.linspace(-way, 0.0, result.time.size)
     altitude = 5e4 * np.abs(angle) / way

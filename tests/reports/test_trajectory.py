@@ -27,7 +27,7 @@ def view(*paths, time=TIME, has_ground=False):
 
 
 def points_of(chart):
-    """Of a unit of both axes in the picture."""
+    """Return the length of a unit of both axes in the picture."""
     return [
         size * length / (axis.ends[1] - axis.ends[0])
         for size, length, axis in zip(SIZE, chart.box[2:], (chart.x, chart.y), strict=True)

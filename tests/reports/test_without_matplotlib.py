@@ -32,7 +32,7 @@ PAGES = [
 
 
 def both(arguments, folder):
-    """The bytes of a page that this process writes, and those of a process without matplotlib."""
+    """Return the bytes of a page that this process writes, and those of a process without matplotlib."""
     page, other = folder / "page.html", folder / "without.html"
     assert main([*arguments, "--report", str(page)]) in (0, 1)  # 1: a trial failed
     command = [sys.executable, "-c", REFUSE + RUN, *arguments, "--report", str(other)]

@@ -30,7 +30,7 @@ def refusal(folder, capsys):
 
 
 def to_elsewhere(path, tmp_path):
-    """A link in the place of a file or folder, to the same elsewhere."""
+    """Replace a file or folder by a link to the same elsewhere."""
     elsewhere = tmp_path / "elsewhere"
     path.rename(elsewhere)
     path.symlink_to(elsewhere)
@@ -95,7 +95,7 @@ def test_rows_that_are_not_those_of_the_campaign(folder, changed, problem):
 
 
 def test_another_campaign_in_its_place(folder):
-    """Of as many trials and the same columns."""
+    """Another campaign of as many trials and the same columns."""
     client = ShowClient(folder)
     path = folder / "trials" / "000001.parquet"
     table = pyarrow.parquet.read_table(path)

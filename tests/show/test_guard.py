@@ -1,4 +1,4 @@
-"""What the server refuses: whoever has no token, comes from elsewhere, writes, or asks for a file.
+"""Refusals of the server: requests without a token, from elsewhere, that write, or for a file.
 
 Truth: the rules of docs/guides/show.md, as status and absence of content.
 """
@@ -20,7 +20,7 @@ EVERYWHERE = pytest.mark.parametrize("path", ["/", ADMISSION, QUERY])
 
 @pytest.fixture
 def send(client):
-    """A request with no headers but those that the test gives."""
+    """Return a sender of requests with no headers but those of the test."""
 
     def send(path, method="GET", **headers):
         return request(client.service, method, path, headers=headers)

@@ -22,7 +22,7 @@ from tests.support.campaigns.showing import showing
 
 
 def answer_of(port, text):
-    """The first line of what is answered to the bytes of a request."""
+    """Return the first line of the answer to the bytes of a request."""
     with socket.create_connection(("127.0.0.1", port), timeout=30) as connection:
         connection.sendall(text.replace("\n", "\r\n").encode("latin-1"))
         content = b""

@@ -68,7 +68,7 @@ def canvases(driver):
 
 
 def selected(driver):
-    """Selected, successes and failures of each variant."""
+    """Return selected, successes and failures of each variant."""
     return driver.execute_script(SELECTED)
 
 
@@ -183,7 +183,7 @@ def test_hostile_names_are_text(browser, tmp_path):
 
 
 def rewrite(folder, document):
-    """The folder with another summary, which its shards are of."""
+    """Rewrite the folder with another summary, which its shards are of."""
     import pyarrow.parquet
 
     from perilune.analysis.campaigns.folder.provenance import batch_digest

@@ -102,7 +102,7 @@ def test_a_divert_to_the_target_itself_is_the_same_flight():
 
 
 def test_a_dead_band_is_left_out():
-    """Between 57 and 63 % of the thrust the engine gives all of it, or goes on below."""
+    """Between 57 and 63 % of the thrust the engine gives all of it, or stays below."""
     band = {"allocation.dead_band_low": 0.57, "allocation.dead_band_high": 0.63}
     flight = perilune.simulate(SYSTEM, parameters=["ideal.ssv"], set={**band, "plant.thrust_lag": 0.0})
     thrust = flight["allocation.thrust"][:-25] / 5099.0

@@ -42,7 +42,7 @@ def rms(values):
 
 
 def beyond(metrics, chosen, row, margin=MARGIN):
-    """What of a row's RMS is larger than it may be, as texts."""
+    """Return the excess of a row's RMS over its limits, as texts."""
     positions, speeds, tilt, held, held_speed = row
     actual = [(rms(metrics[name][chosen]), limit, "m", name) for name, limit in zip(PLACES, positions, strict=True)]
     actual += [(rms(metrics[f"{n}_speed"][chosen]), limit, "m/s", n) for n, limit in zip(PLACES, speeds, strict=True)]

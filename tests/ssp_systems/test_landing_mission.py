@@ -145,7 +145,7 @@ def test_a_start_that_is_badly_known_lands_too():
 
 @pytest.mark.parametrize("name", ["hover.sample_period", "inertial.sample_period", "sequencer.cycle"])
 def test_the_flight_software_has_one_sample_period(name, capfd):
-    """None of those who share it can be set apart: refused before the flight, with who else has it."""
+    """No parameter that shares it can be set apart: refused before the simulation, with the others named."""
     assert main(["run", SYSTEM, "--parameters", "start_9.ssv", "--set", f"{name}=0.2"]) == 2
     said = capfd.readouterr().err
     for token in (
@@ -173,7 +173,7 @@ def test_a_flight_may_begin_with_any_phase(phase):
 
 
 def contact(flight):
-    """What a landing comes to: mass (kg), vertical and horizontal speed (m/s), distance (m) at contact."""
+    """Return the result of a landing: mass (kg), vertical and horizontal speed (m/s), distance (m) at contact."""
     names = ["plant.mass", "touchdown.contact_vertical_speed", "touchdown.contact_horizontal_speed"]
     return np.array([flight[name][-1] for name in (*names, "touchdown.contact_distance")])
 

@@ -1,4 +1,4 @@
-"""What `perilune run` says of the end of each system's flight: distances, speeds, errors against published limits.
+"""Output of `perilune run` on the end of each system's flight: distances, speeds, errors against published limits.
 
 Truth: the same numbers worked out here from the last values of the signals; the pages of the systems, line by line.
 """

@@ -31,7 +31,7 @@ def fly(campaign, guidances, trials, **options):
 
 
 def last(result, name, size=3):
-    """The final values of a vector."""
+    """Return the final values of a vector."""
     return np.array([result[f"{name}[{i + 1}]"][-1] for i in range(size)])
 
 
@@ -156,7 +156,7 @@ def test_the_network_operator_in_space_brakes_as_in_its_plane():
 
 
 def test_inputs_for_longer_missions_change_no_bit_where_they_say_nothing():
-    """A guidance told to be active, a navigation told of thrust: the flight in which nobody says so."""
+    """A guidance activated, a navigation informed of thrust: the flight without these inputs."""
     reported = {"guidance.active": True, "navigation.free_flight": False, "navigation.gravity_gradient": False}
     plain, other = perilune.simulate(SYSTEM), perilune.simulate(SYSTEM, set=reported)
     assert plain.time.size == other.time.size

@@ -1,8 +1,8 @@
 """The orbital orientation as a user flies it: observers and regulators swapped, with and without sensor errors.
 
 Truth: another program's flights of the same vehicle from the same forty starts (times within a tick, propellant within
-0.2 jet-s in the mean), the plant beside them, the chi-square distribution of the filter's own covariance. `make long`
-flies everything, `make test` what says most.
+0.2 jet-s in the mean), the same plant, the chi-square distribution of the filter's own covariance. `make long` flies
+everything, `make test` what says most.
 """
 
 import numpy as np
@@ -57,18 +57,18 @@ def fly(campaign, pairs, trials=None, **options):
 
 
 def options_of(observer, regulator):
-    """The same as options of a flight."""
+    """Return the same as options of a flight."""
     use = {"observer": observer.removesuffix("_split"), "regulator": regulator}
     return {"use": use, "set": {"observer.split": True} if observer.endswith("_split") else {}}
 
 
 def settled(flown):
-    """Times of the flights that settle, ascending."""
+    """Return times of the flights that settle, ascending."""
     return np.sort(flown.metrics["settled"][flown.success])
 
 
 def upper(flown, share=0.95):
-    """The order statistic with at least that share at or below it."""
+    """Return the order statistic with at least that share at or below it."""
     values = np.sort(flown.metrics["settled"])
     return values[int(np.ceil(share * len(values))) - 1]
 

@@ -21,13 +21,13 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 
 def vector(flight, name, size=3):
-    """A vector signal, rows by components."""
+    """Return a vector signal, rows by components."""
     return np.stack([flight[f"{name}[{i + 1}]"] for i in range(size)], axis=1)
 
 
 @pytest.fixture(scope="module")
 def seeds(fmus):
-    """The trials of other seeds by allocation, flown once for each parameter set."""
+    """Return the trials of other seeds by allocation, simulated once for each parameter set."""
     return cache(lambda name: perilune.batch(SYSTEM, "seeds", parameters=[f"{name}.ssv"], trials=SEEDS).trials)
 
 

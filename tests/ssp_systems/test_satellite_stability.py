@@ -21,7 +21,7 @@ DECIBEL = 20.0 / np.log(10.0)
 
 @pytest.fixture(scope="module")
 def channels(fmus):
-    """The three channels at both points."""
+    """Return the three channels at both points."""
     loops = perilune.stability("satellite_pointing").loops
     assert [(each.name, each.point) for each in loops] == [
         (f"attitude[{axis}]", point) for point in ("truth", "filter") for axis in (1, 2, 3)

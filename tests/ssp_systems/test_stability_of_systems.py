@@ -41,7 +41,7 @@ def robot(fmus):
 
 @pytest.fixture(scope="module")
 def channels(robot):
-    """The three channels of each loop."""
+    """Return the three channels of each loop."""
     actual = {name: [loop for loop in robot.loops if loop.loop == name] for name in STUDIED}
     for name, loops in actual.items():
         assert [loop.name for loop in loops] == [f"{name}[{axis}]" for axis in AXES]
@@ -50,7 +50,7 @@ def channels(robot):
 
 @pytest.fixture(scope="module")
 def hover(fmus):
-    """The three loops of the lunar landing by axis, and all at once, at the point with a time-to-go, studied once."""
+    """Return the loops of the lunar landing by axis, and all at once, at the point with a time-to-go, studied once."""
     request = read_request("lunar_landing", SystemOptions())
     subject, limits = Subject(request.system, request.options), request.declaration.limits
     actual = {}
@@ -221,7 +221,7 @@ def test_hover_poles_and_encirclements(hover, time_to_go, axis):
 
 @each_time
 def test_hover_axes_at_once(hover, time_to_go):
-    """What one axis does to another is of second order: the joint disk margin is the least of them."""
+    """The effect of one axis on another is of second order: the joint disk margin is the least of them."""
     joint = hover(time_to_go)[1]
     minimum = min(disk_margin(HoverLoop(time_to_go, vertical).state_space, 1e-4) for vertical in (False, True))
     assert joint.disk_margin == pytest.approx(minimum, rel=1e-3)

@@ -1,7 +1,7 @@
 """Whole studies of systems of FMUs whose loops are known exactly, control at every and at every fourth step.
 
-Truth: python-control on state spaces that were made without the FMUs (zero-order hold of the continuous plant).
-The agreement asked for is 0.1 dB and 0.5 deg; rounding allows far more.
+Truth: python-control on state spaces written without the FMUs (zero-order hold of the continuous plant). The agreement
+asked for is 0.1 dB and 0.5 deg; rounding allows far more.
 """
 
 from dataclasses import replace

@@ -1,7 +1,7 @@
 """The robot's loops in closed form against flights of the whole system without noise, and their margins.
 
-Truth: two flights that differ in their start, or in an error of the ranger, differ by what the closed form says,
-since the loops are linear below saturation. Crossings by bisection on L(z) beside python-control's.
+Truth: two flights that differ in their start, or in an error of the ranger, differ by what the closed form says, since
+the loops are linear below saturation. Crossings by bisection on L(z) and by python-control.
 """
 
 import numpy as np
@@ -33,7 +33,7 @@ def flight(settings, stop_time, faults=()):
 
 
 def difference(one, other, name, period, start=0.0):
-    """Of a signal at ticks from ``start`` (s) on."""
+    """Return the difference of a signal at ticks from ``start`` (s) on."""
     rows = np.arange(TICKS) * round(period * PER_SECOND) + round(start * PER_SECOND)
     return (one[name] - other[name])[rows]
 
@@ -138,7 +138,7 @@ def test_an_error_of_the_ranger_in_hold_is_followed_as_by_the_closed_loop():
 @pytest.mark.usefixtures("fmus")
 @pytest.mark.parametrize("axis", [1, 2, 3])
 def test_attitude_flies_as_the_closed_loop(axis):
-    """What is not linear, gimbals that turn and angles against sines, is of the order of the angle squared."""
+    """Nonlinear terms, gimbals that turn and angles against sines, are of the order of the angle squared."""
     loop, angle = attitude_loop(), 1e-6
     actual = flight({f"robot.initial_quaternion[{axis + 1}]": 0.5 * angle}, TICKS * loop.period)
     assert not actual["gyros.status"].any()

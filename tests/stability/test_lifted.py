@@ -24,7 +24,7 @@ def lasting(values):
 
 
 def lifted(loop, samples):
-    """The closed loop of a state space over several of its samples."""
+    """Return the closed loop of a state space over several of its samples."""
     back = np.linalg.solve(np.eye(loop.ninputs) + loop.D, np.hstack([-loop.C, -loop.D]))
     c, d = back[:, : loop.nstates], back[:, loop.nstates :]  # v = c x + d (what is added)
     a, b = loop.A + loop.B @ c, loop.B @ (np.eye(loop.ninputs) + d)
@@ -97,7 +97,7 @@ def test_multipliers_with_one_cut_open(periodic, axis):
 
 
 def test_sampled_at_once_two_ports_are_a_matrix(periodic):
-    """What goes in at each cut does not depend on which other cuts are looked at."""
+    """The input at each cut does not depend on which other cuts are studied."""
     frequency = np.array([0.3, 1.1])
     together = periodic.response(periodic.ports, frequency)
     u, v = periodic.disturbance_response(periodic.ports, frequency)
@@ -150,7 +150,7 @@ def test_damping_and_frequency_of_a_mode():
 
 
 def test_what_is_forgotten_leaves_no_pole():
-    """A delay line of ten samples beside one pole: ten multipliers at 0, which rounding would spread to 0.03."""
+    """A delay line of ten samples and one pole: ten multipliers at 0, which rounding would spread to 0.03."""
     line = np.eye(11, k=-1)
     line[0, 0], line[10, 9] = 0.5, 1.0
     turn = np.linalg.qr(np.random.default_rng(2).normal(size=(11, 11)))[0]

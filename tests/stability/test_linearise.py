@@ -34,7 +34,7 @@ NOISY = {
 
 @pytest.fixture
 def bench_of(tmp_path):
-    """A bench of a description at a point, with loops."""
+    """Return a bench of a description at a point, with loops."""
     opened = []
 
     def bench(ssd, fmus, point, loops):

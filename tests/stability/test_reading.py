@@ -1,4 +1,4 @@
-"""What a system declares of its stability, and that everything wrong in it ends in one line that names the place.
+"""Declared stability of a system, and errors in it, each in one line that names the place.
 
 Truth: the declaration as written, and the number of the line on which its wrong element begins.
 """

@@ -43,7 +43,7 @@ def content(folder):
 
 @pytest.fixture(scope="module")
 def structs(folder):
-    """What MATLAB's load gives."""
+    """Return the result of MATLAB's load."""
     return loadmat(folder / "loops.mat", simplify_cells=True)
 
 
@@ -65,7 +65,7 @@ def state_space(loop):
 
 
 def assert_late(loop):
-    """The state space of the late double integrator: its response, its margins by python-control, its period."""
+    """Assert the state space of the late double integrator: its response, its margins by python-control, its period."""
     system = state_space(loop)
     assert (system.dt, loop["samples"], loop["sample_period_s"]) == (LATE.period, 1, LATE.period)
     frequency = np.geomspace(1e-2, 0.99, 200) * np.pi / LATE.period
@@ -178,7 +178,8 @@ def test_a_mat_file_says_nothing_of_when_and_where():
 
 
 def lifted(loop, samples):
-    """The closed loop of a state space over several samples, as the linearisation has it; states in other units."""
+    """Return the closed loop of a state space over several samples, as the linearisation has it; states in other
+    units."""
     back = np.linalg.solve(np.eye(1) + loop.D, np.hstack([-loop.C, -loop.D]))
     c, d = back[:, : loop.nstates], back[:, loop.nstates :]
     a, b = loop.A + loop.B @ c, loop.B @ (np.eye(1) + d)
@@ -200,7 +201,7 @@ def lifted(loop, samples):
 
 @pytest.mark.parametrize("samples", [1, 3, 8])
 def test_a_loop_of_several_samples_is_given_at_its_own_sample_period(samples):
-    """The model of the hyperperiod gives back the very matrices that it was made of."""
+    """The model of the hyperperiod reproduces the original matrices."""
     loop = control.ss(0.5, 1.0, 0.3, 0.6, 0.5) * held(control.tf([1.0], [1.0, 0.4, 0.0]), 0.5)
     model = lifted(loop, samples)
     actual = open_loop(model, model.ports)

@@ -60,7 +60,7 @@ def test_its_command_says_so(exact_fmus, tmp_path, capsys):
 
 
 def test_a_pendulum_beside_the_loop(exact_fmus, tmp_path):
-    """Nothing connects it with a loop that is stable in itself."""
+    """No connection with a loop that is stable in itself."""
     exact = pendulum()
     beside = component("beside", "held_pendulum", "output position Real", inline(f"rate=Real:{RATE}"))
     path = pack(tmp_path / "two.ssp", exact_fmus, exact.ssd.replace("</ssd:Elements>", f"{beside}</ssd:Elements>"))
@@ -75,7 +75,7 @@ def test_a_pendulum_beside_the_loop(exact_fmus, tmp_path):
 
 
 def test_over_a_parameter_that_a_loop_does_not_see(exact_fmus, tmp_path):
-    """A sweep of the pendulum beside it: stable at no rate, unstable at any."""
+    """A sweep of the pendulum outside it: stable at no rate, unstable at any."""
     exact = pendulum()
     beside = component("beside", "held_resonance", "output position Real", inline("rate=Real:2; damping=Real:0.1"))
     sweep = '<Sweep name="d" loop="loop" point="there" parameter="beside.damping" low="-0.2" high="0.2"/>'

@@ -1,4 +1,4 @@
-"""How far a trial is from a failure, of the expression that says when it is one.
+"""Distance of a trial from a failure, by the expression that defines it.
 
 Truth: the expression itself, evaluated; differences written out here.
 """

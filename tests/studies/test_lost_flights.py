@@ -1,6 +1,6 @@
 """Studies and comparisons count the flights that crashed wherever they state a number.
 
-Truth: the FMU's source, which ends its process where its count is 13; so many trials have that count.
+Truth: the FMU's source, which ends its process where its count is 13; the number of trials with that count is known.
 """
 
 from __future__ import annotations

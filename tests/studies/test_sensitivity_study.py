@@ -1,4 +1,4 @@
-"""What drives the metrics of a system, flown.
+"""Sensitivity of a system's metrics, by simulation.
 
 Truth: the shares of the variances of a sum; one worker; the flights' own table.
 """

@@ -44,7 +44,7 @@ def test_the_indices_of_ishigami_and_of_a_sum():
 
 @pytest.mark.slow
 def test_intervals_cover():
-    """Of quasi-random points, whose errors are smaller than the bootstrap's, which takes them for random ones."""
+    """Quasi-random points, whose errors are smaller than the bootstrap's, which takes them for random ones."""
     repeats = either(200, 12)
     inside = np.zeros((2, 2, 3))
     for seed in range(repeats):

@@ -52,7 +52,8 @@ signals = ["plant.position[3]"]
 
 @pytest.fixture(scope="module")
 def traced(fmus, tmp_path_factory):
-    """The folder with a campaign, its output and its task, whose name has a space; the task's root; the batch."""
+    """Return the folder with a campaign, its output and its task, whose name has a space; the task's root; the
+    batch."""
     folder = tmp_path_factory.mktemp("traced")
     (folder / "few.toml").write_text(FEW)
     command = ["batch", SYSTEM, "--campaign", str(folder / "few.toml"), "--output", str(folder / "in flight")]
@@ -139,7 +140,8 @@ LINK_ATTRIBUTES = ("type", "href", "label", "title", "role", "arcrole", "from", 
 
 
 def standard_schema(name, folder):
-    """A schema of the standard from the package that carries it, as XSD 1.0: lxml has no 1.1, nor the network."""
+    """Return a schema of the standard from the package that carries it, as XSD 1.0: lxml has no 1.1, nor the
+    network."""
     source = Path(importlib.util.find_spec("pyssp_standard").origin).parent / "resources"
     for path in source.glob("*.xsd"):
         text = path.read_text(encoding="utf-8").replace("xs:dateTimeStamp", "xs:dateTime")

@@ -31,7 +31,7 @@ signals = [
 
 @pytest.fixture(scope="module")
 def folders(fmus, tmp_path_factory):
-    """The published campaign with traces, flown in perfect and in noisy conditions."""
+    """Simulate the published campaign with traces in perfect and in noisy conditions."""
     base = tmp_path_factory.mktemp("compare")
     text = (SYSTEMS / SYSTEM / "campaigns" / "paper.toml").read_text().replace("[record]\n", RECORD)
     (base / "c.toml").write_text(text)

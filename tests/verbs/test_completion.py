@@ -1,4 +1,5 @@
-"""What a shell offers: verbs, options, names of systems, campaigns, sets, slots and FMUs, without what flies them.
+"""Completion in a shell: verbs, options, names of systems, campaigns, sets, slots and FMUs, without loading the
+runtime.
 
 Truth: the lists that `perilune list` and the folders have; Python's own record of what was imported. The shell's side,
 environment variables and a file for the answer, is argcomplete's protocol.
@@ -42,7 +43,7 @@ for number, line in enumerate(sys.argv[1:]):
 
 @pytest.fixture
 def offered(tmp_path):
-    """What follows each of some lines; their last word is what is typed so far."""
+    """Return the completions of some lines; their last word is incomplete."""
     (tmp_path / "mine.toml").write_text("")
     (tmp_path / "notes.txt").write_text("")
 

@@ -84,7 +84,7 @@ HOVER = '<Item name="hover" value="7" description="without wind"/>'
 
 
 def test_items_of_enumerations_are_described(tmp_path, capsys):
-    """Of FMUs of others, of FMI 2.0 and 3.0: with values, and descriptions where there are any."""
+    """Enumerations of FMUs of others, of FMI 2.0 and 3.0: with values, and descriptions where there are any."""
     path = odd_fmu(tmp_path)
     retouched(path, path, lambda text: text.replace('<Item name="hover" value="7"/>', HOVER))
     (mode,) = (row for row in perilune.describe(path)["variables"] if row["name"] == "mode")

@@ -132,7 +132,7 @@ confidence = 0.9
 
 @pytest.fixture(scope="module")
 def folder(fmus, exact_fmus, tmp_path_factory):
-    """A campaign's folder in each state, a system that never finishes, a loop within and beyond its limits."""
+    """Write a campaign's folder in each state, a system that never finishes, a loop within and beyond its limits."""
     made = tmp_path_factory.mktemp("verbs")
     (made / "empty").mkdir()
     (made / "undecided.toml").write_text(UNDECIDED)

@@ -1,7 +1,7 @@
-"""What a new user does wrong at the command line: one line that names place and remedy, status 2, nothing written.
+"""Mistakes of a new user at the command line: one line that names place and remedy, status 2, nothing written.
 
-Truth: the folder before and after; the words are those that a reader needs to find the place.
-What is wrong inside of systems and FMUs is in tests/runtime/system/refusals.
+Truth: the folder before and after; the words are those that a reader needs to find the place. What is wrong inside of
+systems and FMUs is in tests/runtime/system/refusals.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def zipped(path, files):
 
 @pytest.fixture
 def working(tmp_path, monkeypatch):
-    """The user's folder, with the files that the table names."""
+    """Return the user's folder, with the files that the table names."""
     monkeypatch.chdir(tmp_path)
     for name, text in {
         "no_system.ssv": SSV.format(name="plnt.initial_mass", value="1", unit="s"),

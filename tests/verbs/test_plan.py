@@ -1,6 +1,6 @@
 """`perilune design transfer` and `perilune design bound`: text, files, exit status, refusals, missing solvers.
 
-Truth: the published programme and the figures of the same plans made beforehand; Python's json.
+Truth: the published programme and the figures of the same plans from elsewhere; Python's json.
 """
 
 import json
@@ -18,7 +18,7 @@ from tests.support.declared_bounds import PIECES, declared_system
 
 
 def made(capsys, *arguments, status=0):
-    """The JSON of a plan."""
+    """Return the JSON of a plan."""
     assert main(["design", *arguments, "--json", "-"]) == status
     return json.loads(capsys.readouterr().out)
 

@@ -1,4 +1,5 @@
-"""Where results go: refused before a flight where they cannot, whole or not there otherwise, told at the end."""
+"""Destinations of results: refused before a simulation where they cannot be written, whole or
+absent otherwise, reported."""
 
 import errno
 import json
@@ -93,7 +94,7 @@ if sys.platform == "linux":
 
 
 def targets_of(verb):
-    """The options of a verb that name what it writes: flag, ending, whether it is a folder."""
+    """Yield the options of a verb that name its outputs: flag, ending, and True for a folder."""
     files = [each for each in options_of(VERBS[verb].files).values() if each.kind is Kind.PATH]
     for each in [*files, *(each for each in options_of(VERBS[verb].options).values() if each.name == "output")]:
         ending = each.option.suffixes[0] if each.option.suffixes else ".ssp" if verb == "export" != each.name else ""

@@ -14,11 +14,10 @@ from ..contestant import Course, Fly, Unavailable, Values
 
 
 def prepare(course: Course, sequential: bool = False) -> Fly:
-    """A container FMU made from the .ssp, flown by FMPy with one doStep per communication point.
+    """Prepare a container FMU of the .ssp, simulated by FMPy with one doStep per communication point.
 
-    By itself it steps all FMUs and then exchanges (Jacobi); ``sequential`` makes it exchange
-    after each FMU, in the order of the SSD. Its initialisation goes through the FMUs in the order
-    of their connections.
+    By itself it steps all FMUs and then exchanges (Jacobi); ``sequential`` makes it exchange after each FMU, in the
+    order of the SSD. Its initialisation goes through the FMUs in the order of their connections.
     """
     description, folder = _build(course, sequential)
     references = {
@@ -56,9 +55,9 @@ def prepare(course: Course, sequential: bool = False) -> Fly:
 
 
 def _build(course: Course, sequential: bool):  # type: ignore[no-untyped-def]
-    """The container's description and unpacked folder.
+    """Build the container; return its description and unpacked folder.
 
-    The start values are handed over, since the toolbox does not read parameter bindings.
+    The start values are arguments, since the toolbox does not read parameter bindings.
     """
     try:
         from fmu_manipulation_toolbox.assembly import Assembly

@@ -65,7 +65,7 @@ const char *{instance}_step(double t, double h)
 @dataclass(frozen=True)
 class Part:
     """A component in C: ``instance`` names its struct, ``members`` the place of each variable in it, ``structs`` those
-    that its type is made of, by name."""
+    of its members' types, by name."""
 
     component: str
     instance: str
@@ -82,7 +82,7 @@ class Part:
 def write_part(
     component: str, number: int, fmu: Fmu, blocks: Mapping[str, type[Block]], parameters: Mapping[str, ParameterValue]
 ) -> Part:
-    """The unit of the ``number``-th component; raises `Unavailable` where its FMU is not one of ``blocks``."""
+    """Return the unit of the ``number``-th component; raises `Unavailable` where its FMU is not one of ``blocks``."""
     if fmu.name not in blocks:
         raise Unavailable(f"{component}: its FMU {fmu.name} is no block of the catalogue")
     block_class = blocks[fmu.name]

@@ -40,7 +40,7 @@ const char *fly(double start, double step, int64_t steps, double *record)
 
 
 def write_main(course: Course, parts: Sequence[Part]) -> str:
-    """The unit: ``fly`` flies and records `Course.names`."""
+    """Return the unit: ``fly`` simulates and records `Course.names`."""
     return _Writer(course, parts).text()
 
 
@@ -73,7 +73,8 @@ class _Writer:
         return lines
 
     def _initial(self) -> list[str]:
-        """Parameters, one exchange that settles the start; who comes before its sources keeps its start values."""
+        """Return parameters and one exchange that settles the start; components before their
+        sources keep their start values."""
         schedule = self.prepared.schedule
         lines = [f"{part.instance}_restart(start);" for part in self.parts.values()]
         known: list[str] = []
@@ -94,7 +95,7 @@ class _Writer:
         return lines + [line for component in schedule.sources_first for line in self._set(component)]
 
     def _set(self, component: str, known: Sequence[str] | None = None) -> list[str]:
-        """Inputs of a component; with ``known`` only those that come from one of these components."""
+        """Return inputs of a component; with ``known`` only those that come from one of these components."""
         return [
             f"{self._member(link.target.name)} = {self._member(link.source.name)};"
             for link in self._links_to(component)

@@ -19,10 +19,11 @@ ANNOTATION = """<ssc:Annotation type="com.opensimulationplatform"><osp:Algorithm
 
 
 def prepare(course: Course, threads: int = 0) -> Fly:
-    """An execution read from the .ssp for every flight; ``threads`` step the FMUs beside the calling one.
+    """Prepare an execution read from the .ssp for every simulation; ``threads`` step the FMUs in addition to the
+    calling one.
 
-    Its fixed-step algorithm is Jacobi: all FMUs are set from the last exchange, all step, all are
-    read. Before that it exchanges as often as there are FMUs, which settles the values at the start.
+    Its fixed-step algorithm is Jacobi: all FMUs are set from the last exchange, all step, all are read. Before that it
+    exchanges as often as there are FMUs, which settles the values at the start.
     """
     try:
         from libcosimpy import CosimEnums, CosimExecution, CosimLogging, CosimObserver
@@ -65,10 +66,10 @@ def prepare(course: Course, threads: int = 0) -> Fly:
 
 
 def _readable_copy(course: Course, threads: int) -> Path:
-    """The .ssp without what libcosim cannot read, and with its own annotation for step and threads.
+    """Copy the .ssp without content that libcosim cannot read, and with its own annotation for step and threads.
 
-    It needs both ends of a connection to be elements, so those to the system's own connectors
-    go; it does not read the parameter bindings of a system, whose values are set in `prepare`.
+    It needs both ends of a connection to be elements, so those to the system's own connectors go; it does not read the
+    parameter bindings of a system, whose values are set in `prepare`.
     """
     target = Path(tempfile.mkdtemp(prefix="perilune_libcosim_")) / course.ssp.name
     with zipfile.ZipFile(course.ssp) as source, zipfile.ZipFile(target, "w") as copy:

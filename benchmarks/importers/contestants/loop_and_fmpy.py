@@ -18,7 +18,7 @@ from ..contestant import Contestant, Course, Fly, Unavailable, Values
 
 
 def prepare_loop(course: Course, algorithm: str = "sequential", flavour: str | None = None) -> Fly:
-    """`Simulation`, its instances reset and reused; flies on after ``finished``, as the others do."""
+    """Prepare `Simulation`, its instances reset and reused; it continues after ``finished``, as the others do."""
     prepared = course.flight(1, algorithm)
     prepared = replace(prepared, options=replace(prepared.options, flavour=flavour))
     try:
@@ -39,7 +39,7 @@ def prepare_loop(course: Course, algorithm: str = "sequential", flavour: str | N
 
 @dataclass
 class _Unit:
-    """An FMU with its lists made once: value references and places in the common list of values."""
+    """An FMU with its lists built once: value references and places in the common list of values."""
 
     slave: FMU2Slave
     inputs: list[int]
@@ -129,10 +129,10 @@ def _unit(course: Course, component: str, fmu: Fmu, places: dict[str, int]) -> _
 
 
 def prepare_ssp(course: Course) -> Fly:
-    """simulate_ssp; it unpacks and instantiates the FMUs anew for every flight.
+    """Prepare simulate_ssp; it unpacks and instantiates the FMUs again for every simulation.
 
-    The parameters are handed to it, since it does not read the bindings of the SSD. It gives all
-    inputs 0 in the first step, exchanges after all have stepped, and records every connector.
+    The parameters are handed to it, since it does not read the bindings of the SSD. It gives all inputs 0 in the first
+    step, exchanges after all have stepped, and records every connector.
     """
     parameters = ParameterSet(
         name="benchmark",

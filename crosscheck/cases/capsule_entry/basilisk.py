@@ -37,7 +37,7 @@ SCALE_HEIGHT = (HEIGHTS[1] - HEIGHTS[0]) / math.log(DENSITIES[0] / DENSITIES[1])
 
 
 def fly(step: float) -> Table:
-    """The craft is updated first, then the air of its next step, then the drag's."""
+    """Simulate: the craft is updated first, then the air of its next step, then the drag's."""
     flight = Flight(step)
     flight.attract(MU)
     flight.set_inertia([list(row) for row in INERTIA], MASS)

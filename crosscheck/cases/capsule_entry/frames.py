@@ -35,6 +35,6 @@ def _then(first: np.ndarray, angle: np.ndarray, axis: np.ndarray) -> np.ndarray:
 
 
 def _rotate(q: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    """A vector of the rotated frame in the frame that it is rotated from, [3, n]."""
+    """Return a vector of the rotated frame in the frame that it is rotated from, [3, n]."""
     across = np.cross(q[1:], vector[:, None], axis=0)
     return vector[:, None] + 2.0 * (q[0] * across + np.cross(q[1:], across, axis=0))

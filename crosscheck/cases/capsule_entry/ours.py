@@ -33,7 +33,7 @@ ANGLES = ("bank", "sideslip", "attack")
 
 
 def simulate(step: float) -> Table:
-    """The force that the tables give is against the velocity; its table in inertial axes."""
+    """Simulate: the force of the tables is against the velocity; its table in inertial axes."""
     bank, sideslip_angle, angle_of_attack = ATTITUDE_ANGLES
     parameters = {
         "mass": MASS,

@@ -6,7 +6,7 @@ from crosscheck.table import Table
 
 
 def fly(step: float) -> Table:
-    """A hub alone."""
+    """Simulate a hub alone."""
     flight = Flight(step)
     flight.set_inertia([[INERTIA[0], 0.0, 0.0], [0.0, INERTIA[1], 0.0], [0.0, 0.0, INERTIA[2]]])
     flight.start((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), to_mrp(QUATERNION), ANGULAR_VELOCITY)

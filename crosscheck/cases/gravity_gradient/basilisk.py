@@ -50,7 +50,7 @@ def _torque(time: float) -> np.ndarray:
 
 
 def _start() -> np.ndarray:
-    """The attitude at the start: turns about y by yaw, z by pitch, x by roll, one after the other."""
+    """Return the attitude at the start: turns about y by yaw, z by pitch, x by roll, one after the other."""
     roll, yaw, pitch = ANGLES
     turns = ((yaw, (0, 1, 0)), (pitch, (0, 0, 1)), (roll, (1, 0, 0)))
     total = np.array([1.0, 0.0, 0.0, 0.0])

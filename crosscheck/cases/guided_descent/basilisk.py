@@ -26,7 +26,7 @@ class Guidance(sysModel.SysModel):
         self.fmu = SteppedFmu(ROOT / FMU, step, target_position=TARGET, gravity=GRAVITY)
 
     def UpdateState(self, now: int) -> None:  # noqa: N802
-        """A step of the FMU to this time, with the state at it: its outputs depend directly on its inputs."""
+        """Step the FMU to this time, with the state at it: its outputs depend directly on its inputs."""
         time = now * TO_SECONDS
         state = self.craft.scStateOutMsg.read()
         self.fmu.set(position=state.r_CN_N, velocity=state.v_CN_N, mass=MASS)
@@ -42,7 +42,7 @@ class Guidance(sysModel.SysModel):
 
 
 def fly(step: float) -> Table:
-    """The craft is updated first, then its guidance, whose force is that of the next step."""
+    """Simulate: the craft is updated first, then its guidance, whose force is that of the next step."""
     flight = Flight(step)
     flight.craft.hub.mHub = MASS
     flight.start(START, SPEED)

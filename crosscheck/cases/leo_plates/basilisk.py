@@ -16,7 +16,7 @@ from crosscheck.table import Table
 
 
 def fly(step: float, given: dict) -> Table:
-    """The craft is updated first, then the air of its next step and the Sun."""
+    """Simulate: the craft is updated first, then the air of its next step and the Sun."""
     flight = begin_in_gradient(case, step)
     ahead, surroundings = Ahead(flight.craft, step, case.MU), Surroundings(given, step)
     flight.add(ahead, priority=0)

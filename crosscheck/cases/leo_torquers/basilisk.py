@@ -17,7 +17,7 @@ from crosscheck.table import Table
 
 
 def fly(step: float, given: dict) -> Table:
-    """The craft is updated first, then where it will be in the middle of its next step, then the field there."""
+    """Simulate: the craft is updated first, then its position in the middle of its next step, then the field there."""
     flight = begin_in_gradient(case, step)
     ahead, surroundings = Ahead(flight.craft, step, case.MU), Surroundings(given, step)
     flight.add(ahead, priority=0)

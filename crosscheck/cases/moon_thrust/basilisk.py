@@ -20,7 +20,7 @@ from crosscheck.table import Table
 
 
 def fly(step: float) -> Table:
-    """A hub and a tank whose masses make up the lander's."""
+    """Simulate a hub and a tank whose masses add up to the lander's."""
     flight = Flight(step)
     flight.attract(MU)
     flight.craft.hub.mHub = INITIAL_MASS - PROPELLANT

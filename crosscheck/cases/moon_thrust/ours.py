@@ -18,7 +18,7 @@ from crosscheck.table import Table
 
 
 def simulate(step: float) -> Table:
-    """An engine and an attitude without delay, one command for the whole flight."""
+    """Simulate an engine and an attitude without delay, one command for the whole flight."""
     parameters = {
         "initial_position": list(START),
         "initial_velocity": list(SPEED),

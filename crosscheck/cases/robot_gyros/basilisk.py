@@ -22,7 +22,7 @@ FRICTIONLESS = ("wheelLinearFrictionRatio", "gimbalLinearFrictionRatio")
 
 
 def fly(step: float) -> Table:
-    """The hub has what the gyros leave of mass and inertia."""
+    """Simulate: the hub has the mass and inertia without the gyros'."""
     flight = Flight(step)
     hub = np.diag(INERTIA) - RATES.size * GYRO_INERTIA * np.eye(3)
     flight.set_inertia(hub.tolist(), MASS - RATES.size * GYRO_MASS)

@@ -1,4 +1,4 @@
-"""A rigid body turned and pushed by eight jets that fire for given times."""
+"""A rigid body turned and pushed by eight jets that fire for prescribed times."""
 
 import math
 

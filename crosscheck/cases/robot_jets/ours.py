@@ -20,7 +20,7 @@ from crosscheck.table import Table
 
 
 def simulate(step: float) -> Table:
-    """Rotors without momentum; thrusts change at whole steps, each time given twice."""
+    """Simulate rotors without momentum; thrusts change at whole steps, each time repeated."""
     begins = step * np.arange(round(CASE.duration / step))
     time = np.repeat(np.append(begins, CASE.duration), 2)[1:-1]
     commands = {}

@@ -23,7 +23,7 @@ from crosscheck.table import Table
 
 
 def fly(step: float) -> Table:
-    """A hub with balanced wheels, which are updated before it, so that a command is in force at once."""
+    """Simulate a hub with balanced wheels, which are updated before it, so that a command is in force at once."""
     flight = Flight(step)
     flight.set_inertia([list(row) for row in INERTIA])
     flight.start((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), to_mrp(QUATERNION), ANGULAR_VELOCITY)

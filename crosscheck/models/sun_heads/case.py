@@ -1,4 +1,4 @@
-"""Six coarse Sun sensor heads without noise, in full and in part of the light."""
+"""Six coarse Sun sensor heads without noise, in full and in partial light."""
 
 import math
 

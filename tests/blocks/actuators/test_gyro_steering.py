@@ -40,7 +40,7 @@ def torque(angles, rates):
 
 
 def answer(block_class, angles, wanted, time=0.25, **settings_):
-    """The block after one sample at ``time``."""
+    """Return the block after one sample at ``time``."""
     block = block_class(**settings_)
     block.initialize()
     block.gimbal_angles = angles
@@ -50,7 +50,7 @@ def answer(block_class, angles, wanted, time=0.25, **settings_):
 
 
 def turned(block_class, **settings_):
-    """Angles, rates and wanted torques J phi'' of every sample of the turn, and the angles at its end."""
+    """Return angles, rates and demanded torques J phi'' of every sample of the turn, and the angles at its end."""
     acceleration = PROFILE.deriv(2)
     component = Component(block_class)
     block = component.block
@@ -119,7 +119,7 @@ def test_robust_torque_is_exact_away_from_singular_states(seed):
 
 
 def test_law_leads_angles_that_are_off_it_back():
-    """No torque wanted: the angles move along the null space until the law holds, with a time constant of 5 s."""
+    """No torque demanded: the angles move along the null space until the law holds, with a time constant of 5 s."""
     angles = np.add(ISOTROPIC_ANGLES, [0.1, -0.05, 0.08, 0.02])
     start = momentum(angles)
 
@@ -171,7 +171,7 @@ def test_singular_states_are_safe_and_reported(block_class, angles, law_only):
 
 
 def flown(block_class, wanted, seconds, angles=ISOTROPIC_ANGLES, **settings_):
-    """Angles at every sample under a constant wanted torque, and the statuses."""
+    """Return angles at every sample under a constant torque demand, and the statuses."""
     component = Component(block_class)
     block = component.block
     for name, value in settings_.items():
@@ -211,7 +211,7 @@ def test_torque_beyond_the_envelope_ends_at_it_safely_and_the_way_back_is_free(b
 
 
 def test_swing_leads_out_of_a_state_in_which_the_pseudo_inverse_is_locked():
-    """Pairs against each other along x, torque along x wanted: A' maps it to zero rates. With a swing it moves."""
+    """Pairs against each other along x, torque along x demanded: A' maps it to zero rates. With a swing it moves."""
     angles = [0.0, 0.0, math.pi, math.pi]
     locked, _ = flown(GyroSteeringRobust, [1.0, 0.0, 0.0], 60.0, angles=angles, swing=0.0)
     assert np.abs(locked[-1] - angles).max() < 1e-6

@@ -19,7 +19,7 @@ demands = st.lists(st.tuples(demand, demand, demand), min_size=1, max_size=60)
 
 
 def fired(commands, **parameters):
-    """Pulses and rests of a block that is given the commands, one a tick."""
+    """Return pulses and rests of a block with these commands, one a tick."""
     block = PulseAllocation(torque_command=commands[0], **parameters)
     block.initialize()
     rows = [[*block.pulse_lengths, *block.remainder]]

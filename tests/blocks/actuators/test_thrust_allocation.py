@@ -36,7 +36,7 @@ def unit(vector):
 
 
 def flown(block, time):
-    """The direction the plant flies at ``time``."""
+    """Return the direction the plant flies at ``time``."""
     return unit(np.add(block.thrust_direction, np.multiply(block.thrust_direction_rate, time - block.command_time)))
 
 

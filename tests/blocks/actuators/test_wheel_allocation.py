@@ -34,7 +34,7 @@ def allocate(kind, torque, axes=PYRAMID, speeds=(0.0,) * 4, **settings):
 
 
 def random_array(seed):
-    """Unit axes that do not lie nearly in a plane, and a torque."""
+    """Return unit axes that are not nearly in a plane, and a torque."""
     random = np.random.default_rng(seed)
     axes = random.normal(size=(4, 3))
     axes /= np.linalg.norm(axes, axis=1)[:, None]
@@ -121,7 +121,7 @@ def test_null_motion_of_the_pseudo_inverse_ends_at_its_speed():
 
 
 def test_null_motion_of_the_minimax_ends_at_the_smallest_maximum():
-    """Of u + s n: half-way between the largest and the smallest of n u."""
+    """Half-way between the largest and the smallest of n u, of u + s n."""
     start = np.array([50.0, 20.0, -30.0, 10.0])
     end = settle(WheelAllocationMinimax, start)
     signed = start * [1.0, -1.0, 1.0, -1.0]

@@ -42,7 +42,7 @@ def small_gain(block):
 
 
 def test_the_robust_gain():
-    """That of another program, to the digits given."""
+    """Compare with another program's, to its digits."""
     expected = [[-325.472, -1276.363, -299.691, 0.0], [-97.484, -244.495, -468.357, 0.0], [0.0, 0.0, 0.0, -360.0]]
     assert small_gain(regulator(RobustControl, dead_zone=0.0)) == pytest.approx(np.array(expected), abs=6e-4)
 
@@ -77,7 +77,7 @@ def test_robust_limits_and_dead_zones():
 
 @given(st.lists(st.floats(-0.1, 0.1), min_size=2, max_size=40))
 def test_relays_close_and_open_at_their_thresholds(rates):
-    """By their definition, written anew: closed beyond y, open within y/2 or on the other side."""
+    """By their definition, written independently: closed beyond y, open within y/2 or on the other side."""
     block, sign, level = regulator(StandardControl), 0, 80.0
     threshold = 1.0 * DEGREE
     for rate in rates:

@@ -1,7 +1,7 @@
 """Control of the torquers, sample by sample: laws, limit, times and statuses.
 
-Truth: values made outside this package, by numpy from the laws; what of the momentum is across the field, by
-projection; the times written out.
+Truth: values computed outside this package, by numpy from the laws; momentum across the field, by projection; the times
+written out.
 """
 
 import math
@@ -25,7 +25,7 @@ vectors = st.tuples(components, components, components).map(np.array)
 
 
 def control_of(mode, *fields, momentum=(0.0, 0.0, 0.0), **parameters):
-    """The control after samples of the field, a second after each other, at the last of them."""
+    """Return the control after samples of the field, a second after each other, at the last of them."""
     control = MagneticControl(mode=mode, measured_field=fields[0], wheel_momentum=list(momentum), **parameters)
     control.initialize()
     for n, field in enumerate(fields[1:]):

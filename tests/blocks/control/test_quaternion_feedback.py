@@ -46,7 +46,7 @@ def turn_back(angle, seconds, error_limit=10.0, bias=0.0, known=1.0):
 
 
 def test_a_turn_is_about_the_eigenaxis_and_follows_its_equation():
-    """To the first order in the step, and 3e-4 of the inertia: the control takes the wheels for a part of the body."""
+    """To the first order in the step, and 3e-4 of the inertia: the control counts the wheels as the body's."""
     rows = turn_back(2.5, 12.0)
     angles = np.linalg.norm(rows, axis=1)
     across = rows - np.outer(rows @ AXIS, AXIS)
@@ -116,7 +116,7 @@ def test_the_integral_takes_a_constant_torque_off():
 
 
 def wrong_attitude(**inputs):
-    """A control at a constant error of attitude and rate, with an integral."""
+    """Return a control at a constant error of attitude and rate, with an integral."""
     return QuaternionFeedback(
         integral_time=20.0,
         estimated_quaternion=Rotation.from_rotvec([2e-3, -1e-3, 3e-3]).as_quat(scalar_first=True).tolist(),

@@ -119,7 +119,7 @@ class Loop:
             setattr(self.blocks[name], variable, value)
 
     def step(self, h):
-        """Sources with the inputs of now, then the others in order; what comes from behind is a step late."""
+        """Step sources with the inputs of now, then the others in order; values from later ones are a step late."""
         for name in SOURCES:
             self.read_inputs(name)
         for name in SOURCES:

@@ -45,7 +45,7 @@ def flown(seconds, direction, rate=(0.0, 0.0, 0.0), **settings):
 
 @given(vectors, vectors, vectors, vectors, st.floats(0.0, 2.0))
 def test_the_command_is_that_of_the_law(axis, rate, turning, feed, since):
-    """Without limits, small enough for the linear part of the closing rate to be the least or not."""
+    """Without limits, small enough for the linear closing rate to be the least or not."""
     attitude = np.array([axis[0], axis[1], 1.0]) / np.linalg.norm([axis[0], axis[1], 1.0])
     block = ThrustAxisControl(
         attitude=attitude.tolist(),

@@ -21,7 +21,7 @@ PLAN = np.array([1e-4, -2e-4, 3e-5])
 
 
 def fly(block, errors, rates, periods):
-    """Forces at ticks; the block is stepped between them, too, with inputs that must not matter."""
+    """Return forces at ticks; the block is stepped between them, too, with inputs that must not matter."""
     actual = []
     for k, (error, rate, period) in enumerate(zip(errors, rates, periods, strict=True)):
         block.translation_count = k + 1

@@ -22,7 +22,7 @@ INTENSITY = 0.7
 
 
 def system(damping, w):
-    """A and B S B' of the state (y, y')."""
+    """Return A and B S B' of the state (y, y')."""
     return np.array([[0.0, 1.0], [-w * w, -2.0 * damping * w]]), np.diag([0.0, INTENSITY * w**4])
 
 
@@ -45,7 +45,7 @@ def filter_of(damping, w, **settings):
 
 
 def two_normals(generator):
-    """The next two normal numbers of a generator state (MRG32k3a, Box and Muller), in exact integers."""
+    """Return the next two normal numbers of a generator state (MRG32k3a, Box and Muller), in exact integers."""
     state = [int(value) for value in generator]
     uniforms = [exact_numerator(state) / (P1 + 1) for _ in range(4)]
     return [math.sqrt(-2.0 * math.log(u)) * math.cos(2.0 * math.pi * v) for u, v in (uniforms[:2], uniforms[2:])]

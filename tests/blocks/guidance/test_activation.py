@@ -1,7 +1,7 @@
-"""The slot's input `active`: a guidance that waits, starts when it is told to, and may start anew.
+"""The slot's input `active`: a guidance that waits, starts when it is activated, and may start again.
 
-Truth: the same guidance without waiting. Activated at t it gives to the bit what a fresh one started at t gives, over
-a whole flight; active all along it is the guidance that knows no such input; inactive it commands nothing.
+Truth: the same guidance without waiting. Activated at t it gives to the bit what a fresh one started at t gives, over a
+whole flight; active all along it is the guidance that knows no such input; inactive it commands nothing.
 """
 
 import numpy as np
@@ -18,7 +18,7 @@ STEP = 0.5
 
 
 def states(guidance_class):
-    """A way to the target, seen every step; the network operator's band is 1200 to 1800 m."""
+    """Return a path to the target, sampled every step; the network operator's band is 1200 to 1800 m."""
     fraction = np.linspace(1.0, 0.0, 40)[:, None]
     target = np.array([0.0, 0.0, 1500.0 if guidance_class is NetworkOperatorGuidance else 2000.0])
     return target + fraction**2 * (POSITION - target), fraction * VELOCITY
@@ -30,7 +30,7 @@ def outputs(guidance):
 
 
 def fresh(guidance_class, **parameters):
-    """Outputs of a guidance that is started at START, with its input left alone."""
+    """Return outputs of a guidance that is started at START, with its input left alone."""
     positions, velocities = states(guidance_class)
     guidance = guidance_class(mass=940.0, **parameters)
     guidance.start_time = START
@@ -45,7 +45,7 @@ def fresh(guidance_class, **parameters):
 
 
 def told(guidance, **parameters):
-    """Outputs of a guidance in flight that is told at START to begin."""
+    """Return outputs of a guidance in flight that is activated at START."""
     positions, velocities = states(type(guidance))
     guidance.active = True
     rows = []

@@ -28,7 +28,7 @@ def at(block, time):
 
 
 def bound(way, speed, acceleration):
-    """The least time for a way (rad) at rest on both ends."""
+    """Return the least time for a distance (rad) at rest on both ends."""
     if way * acceleration <= speed * speed:
         return 2.0 * math.sqrt(way / acceleration)
     return way / speed + speed / acceleration

@@ -43,7 +43,7 @@ def command(guidance, position, velocity, step=0.0):
 
 
 def gains(guidance, position, velocity, step=0.0):
-    """Derivatives of the command to position and to velocity, (3, 3) each, by central differences."""
+    """Return derivatives of the command to position and to velocity, (3, 3) each, by central differences."""
     actual = []
     for change in np.eye(6):
         small = change * np.repeat([1e-2, 1e-4], 3)

@@ -109,7 +109,7 @@ def test_thrust_is_estimated_from_an_engine_with_a_lag(lag, factor):
 
 @pytest.mark.parametrize("steps", [(0.075, 0.15), (0.08, 0.08, 0.16, 0.08)])
 def test_samples_that_come_late_count_with_their_own_time(steps):
-    """An engine that does as told, seen at communication points that miss the sample instants: the factor stays 1."""
+    """An engine without errors, sampled at communication points that miss the sample instants: the factor stays 1."""
     block = begun(mode=HoverMode.HOLD, position=TARGET, velocity_increment=[0.0, 0.0, GRAVITY * H])
     time = 0.0
     for n in range(60):

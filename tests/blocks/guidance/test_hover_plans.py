@@ -193,7 +193,7 @@ def test_no_plan_possible_holds_where_it_is(mode, change):
 
 
 def test_a_capture_at_rest_with_the_engine_off_is_short():
-    """Where it hovers already, nothing is to be planned but the weight: no limit broken, no way lost."""
+    """Nothing is planned but the weight where it hovers already: no limit broken, no distance lost."""
     block = capturing(
         position=[0.0, 0.0, 2400.0],
         velocity=[0.0] * 3,

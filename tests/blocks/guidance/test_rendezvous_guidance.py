@@ -161,7 +161,7 @@ def fly(block, end, step=STEP):
 
 
 def commands(rows):
-    """The rows at which a tick happens."""
+    """Return the rows at which a tick happens."""
     return [row for before, row in zip([None, *rows], rows, strict=False) if before is None or before[1] != row[1]]
 
 

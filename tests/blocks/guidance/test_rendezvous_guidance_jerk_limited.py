@@ -24,7 +24,7 @@ def guidance(kind=RendezvousGuidanceJerkLimited, **parameters):
 
 
 def planned(block, time):
-    """Translation, and the turn, planned for a time."""
+    """Return translation, and the turn, planned for a time."""
     block.publish(time)
     translation = [*block.planned_position, *block.planned_velocity, *block.planned_relative_position]
     turn = [*block.planned_quaternion, *block.planned_angular_velocity, *block.planned_angular_acceleration]

@@ -53,7 +53,7 @@ def braking_start(ground_range):
 
 
 def burn(state, time, duration, guidance):
-    """The state ``duration`` (s) later, by one classic Runge-Kutta step."""
+    """Return the state ``duration`` (s) later, by one classic Runge-Kutta step."""
 
     def slope(moment, y):
         along = np.array(guidance.thrust_direction)
@@ -245,7 +245,7 @@ def test_exact_analytic_flights_arrive_with_and_without_and_need_less_thrust_wit
 @pytest.mark.parametrize("guidance_class", ALL)
 @pytest.mark.parametrize("correction", [False, True])
 def test_all_laws_arrive(guidance_class, correction):
-    """Those that stop miss by less than a cycle of thrust."""
+    """Laws that stop miss by less than a cycle of thrust."""
     miss, speed, largest, _ = fly(guidance_class, *braking_start(265e3), gravity_correction=correction)
     exact = guidance_class in EXACT
     assert miss < (1e-3 if exact else 0.5 * largest * STEP**2)

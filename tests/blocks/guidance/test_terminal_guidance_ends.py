@@ -1,7 +1,7 @@
-"""How the terminal guidances start, hold a command and end a flight.
+"""Start, held command and end of a flight of the terminal guidances.
 
-Truth: the interface's contract: time is counted down while a command is held, a flight stops within a cycle of
-its time or burns its last command for the time that is left.
+Truth: the interface's contract: time is counted down while a command is held, a flight stops within a cycle of its time
+or burns its last command for the time that is left.
 """
 
 import math

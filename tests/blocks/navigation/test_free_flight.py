@@ -39,7 +39,8 @@ def on_circle(t):
 
 
 def coast(block_class, duration, step=0.5, errors=(1e-3, 2e-4, -5e-4), **settings):
-    """The block at the end of a coast, fed with increments that are an inertial sensor's errors and nothing else."""
+    """Return the block at the end of a coast, fed with increments that are an inertial sensor's
+    errors and nothing else."""
     place, speed = on_circle(0.0)
     block = block_class(position=place.tolist(), velocity=speed.tolist(), **settings)
     block.initialize()

@@ -214,7 +214,8 @@ def test_samples_at_the_start_are_taken_in_at_the_start():
 
 
 def shifted_fixes(first, last, sigmas):
-    """A flight whose position fixes from sample ``first`` to ``last`` are wrong along x by so many of their sigmas."""
+    """Return a flight whose position fixes from sample ``first`` to ``last`` are wrong along x by some of their
+    sigmas."""
     seen = measurements(4)
     wrong = np.flatnonzero(seen.new_position)[first : last + 1]
     seen.position[wrong, 0] += sigmas * (0.0015 * altitude(wrong * STEP) + 2.0)

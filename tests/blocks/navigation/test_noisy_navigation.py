@@ -35,13 +35,13 @@ def transition(h):
 
 
 def gain(h):
-    """What a constant specific force and gravity add."""
+    """Return the increment by a constant specific force and gravity."""
     acceleration = SPECIFIC_FORCE - [0.0, 0.0, GRAVITY]
     return np.concatenate([0.5 * h * h * acceleration, h * acceleration])
 
 
 def navigation(**settings):
-    """The block with errors of ordinary size, unless set otherwise."""
+    """Return the block with errors of ordinary size, unless set otherwise."""
     errors = {
         "position_sigma": 20.0,
         "velocity_sigma": 0.2,
@@ -64,7 +64,7 @@ def estimate_of(block):
 
 
 def flight(seed, steps):
-    """A block and its truth, stepped; yields (k, block, truth) after every step and at the start."""
+    """Yield (k, block, truth) at the start and after every step."""
     generator = np.random.default_rng(seed)
     f, q = transition(STEP)
     root = np.linalg.cholesky(q)

@@ -154,7 +154,7 @@ def test_known_force_leaves_a_small_error():
 
 
 def mean_flight(block, ticks, periods):
-    """Samples, and means put out at ticks every ``periods`` seconds in turn."""
+    """Return samples, and means put out at ticks every ``periods`` seconds in turn."""
     random = np.random.default_rng(9)
     offsets = [random.normal(size=3)]
     block.translation_count = 1

@@ -48,7 +48,7 @@ def state(plant):
 
 
 def integrated(y, thrust, acceleration, limit, uniform, lag, seconds):
-    """The same by DOP853."""
+    """Integrate the same by DOP853."""
 
     def slope(_, y):
         axis, rate = y[8:11], y[11:14]

@@ -39,13 +39,13 @@ def state_of(block):
 
 
 def begin(entry, block, w=(0.0, 0.0, 0.0)):
-    """The block's state in inertial axes."""
+    """Return the block's state in inertial axes."""
     numbers = block.state.elements()
     return entry.start(numbers[0:3], numbers[3:6], numbers[6:9], list(w))
 
 
 def independent(block, seconds, **options):
-    """The same flight in inertial axes."""
+    """Simulate the same flight in inertial axes."""
     entry = Entry(COEFFICIENTS, **options)
     begun = begin(entry, block, block.angular_velocity)
     return np.concatenate(entry.read(entry.fly(begun, seconds), seconds))
@@ -60,7 +60,7 @@ def inertial(block, time):
 
 
 def test_derivatives():
-    """Those of another program at 70 km, to the digits given."""
+    """Compare with another program's at 70 km, to its digits."""
     block = capsule(initial_height=70000.0, initial_speed=7500.0, initial_bank=0.9, **TUMBLING)
     rate = block.derivatives(0.0, block.state, vector(10.0, -20.0, 5.0))
     assert rate.speed == pytest.approx(-4.132585, abs=6e-7)
@@ -162,7 +162,7 @@ def test_it_converges_with_the_fourth_power_of_its_step():
 
 
 def test_pulses_are_cut_where_they_end():
-    """Whatever the communication step: 1e-10 over 2 s of pulses; and each jet has a level and a factor of its own."""
+    """Whatever the communication step: 1e-10 over 2 s of pulses; and each jet has a separate level and factor."""
     actual = []
     for parts in (1, 4):
         block = capsule(jet_torque=[100.0, 90.0, 80.0, 70.0, 60.0, 50.0])

@@ -54,7 +54,7 @@ def parabola(initial, acceleration, time):
 
 
 def integrated(initial, thrust, direction, rate, since, start, end):
-    """The same motion by DOP853."""
+    """Integrate the same motion by DOP853."""
 
     def slope(t, y):
         along = np.add(direction, np.multiply(rate, t - since))
@@ -172,7 +172,7 @@ def test_turning_direction_follows_dop853(step):
 
 
 def test_commands_of_successive_cycles_follow_dop853():
-    """Ten cycles of 2 s, each with a direction, a rate and a thrust of its own."""
+    """Ten cycles of 2 s, each with another direction, rate and thrust."""
     generator = np.random.default_rng(3)
     plant = lander()
     expected = np.array(START + SPEED)

@@ -134,7 +134,7 @@ def test_torque_free_body_is_jacobis():
 @given(seeds)
 @settings(max_examples=20, deadline=None)
 def test_angular_momentum_is_kept_while_gimbals_move(seed):
-    """No jets, random gimbal rates anew in every step: R(q)(J w + H) stays to rounding (1e-12 of 100 N m s)."""
+    """No jets, new random gimbal rates in every step: R(q)(J w + H) stays to rounding (1e-12 of 100 N m s)."""
     random = np.random.default_rng([seed, 3])
     start = random_start(seed)
     block = plant(**start)

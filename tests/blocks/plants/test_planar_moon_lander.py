@@ -40,7 +40,7 @@ def fly(plant, duration, thrust=0.0, angle=0.0, step=0.1, start=0.0):
 
 
 def published(y0, duration, thrust, angle, curvature):
-    """The published equations; ``curvature`` adds V sin(th)/R to th' and is zero in print."""
+    """Integrate the published equations; ``curvature`` adds V sin(th)/R to th' and is zero in print."""
 
     def slope(_, y):
         v, th, h, _, m = y

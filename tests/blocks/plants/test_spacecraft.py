@@ -121,10 +121,10 @@ def test_motion_of_modes():
 
 
 def test_frequencies_of_free_modes():
-    """Those of the eigenvalues; the larger one as the plant says, both as it swings.
+    """Frequencies by the eigenvalues; the larger one as the plant states it, both as it swings.
 
-    What swings at two frequencies obeys x(n+4) + x(n) = a (x(n+3) + x(n+1)) + b x(n+2), with a = 2 (cos + cos) and
-    b = -2 - 4 cos cos of both angles by sample (Prony's method).
+    What swings at two frequencies obeys x(n+4) + x(n) = a (x(n+3) + x(n+1)) + b x(n+2), with a = 2 (cos + cos) and b =
+    -2 - 4 cos cos of both angles by sample (Prony's method).
     """
     expected = [0.9909749515958356, 1.756907491132191]
     shared = TRANSLATION @ TRANSLATION.T / MASS + ROTATION @ np.linalg.solve(INERTIA, ROTATION.T)

@@ -1,4 +1,4 @@
-"""What an open-loop turn leaves of a flexible mode.
+"""Residual motion of a flexible mode after an open-loop turn.
 
 Truth: the response of an undamped oscillator to the angular acceleration of the turn, in closed form. The hub's
 amplitude is s/(1 - s) J(W_ff)/W_ff with the fraction s of the inertia and J the size of the acceleration's transform.

@@ -66,7 +66,7 @@ def everything(plant):
 
 
 def integrated(y, thrust, direction, rate, since, start, end, lag, response, limit):
-    """The same by DOP853; without lag or response, ``y`` must be on the command already."""
+    """Integrate the same by DOP853; without lag or response, ``y`` must be on the command already."""
 
     def commanded(t):
         return unit(np.add(direction, np.multiply(rate, t - since)))
@@ -283,7 +283,7 @@ def test_response_and_limit_are_a_line_and_then_an_exponential():
 
 @pytest.mark.parametrize(("off", "others"), [("direction_response", {}), ("slew_rate_limit", {"thrust_lag": 0.3})])
 def test_short_constants_are_taken_in_shorter_steps(off, others):
-    """Constants below the internal step stay stable and come to the result of a fine step."""
+    """Constants below the internal step stay stable and reach the result of a fine step."""
     short = {"direction_response": 0.02, "slew_rate_limit": 0.5, "thrust_lag": 0.02} | others | {off: 0.0}
     ends = []
     for internal in (0.1, 0.005):

@@ -28,7 +28,7 @@ def move(block, time):
 
 
 def fly(block, count):
-    """A sample per second: true time by its components, times as reported, counts, statuses."""
+    """Return a sample per second: true time by its components, times as reported, counts, statuses."""
     rows = []
     for k in range(count):
         move(block, k + 1.0)

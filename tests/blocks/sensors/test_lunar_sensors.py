@@ -35,7 +35,7 @@ RANGED = {
 
 
 def sensor(block_class, altitude=1000.0, **settings_):
-    """A range sensor above the site, initialised."""
+    """Return a range sensor above the site, initialised."""
     block = block_class(position=[0.0, 0.0, altitude], **settings_)
     if block_class is DopplerVelocimeter:
         block.velocity = VELOCITY
@@ -53,7 +53,7 @@ def output(block):
 
 
 def truth(block):
-    """What a perfect range sensor measures."""
+    """Return the measurement of a perfect range sensor."""
     if isinstance(block, RadarAltimeter):
         return [np.linalg.norm(np.add(block.position, [0.0, 0.0, RADIUS])) - RADIUS]
     return list(block.velocity if isinstance(block, DopplerVelocimeter) else block.position)
@@ -218,7 +218,7 @@ def inertial(**settings_):
 
 
 def moving(block, motion, steps, step=0.1):
-    """Increments over so many steps of a sensed velocity given as a function of time."""
+    """Return increments over ``steps`` steps of a sensed velocity, a function of time."""
     rows = []
     for k in range(steps):
         block.sensed_velocity = np.asarray(motion(step * (k + 1)), dtype=float).tolist()

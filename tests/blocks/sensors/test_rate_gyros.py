@@ -132,7 +132,8 @@ CLUSTERS = [1, 4, 16, 64, 256]
 
 
 def covariances(size, count):
-    """Those of the differences of two clusters in a row with the ones 0, 1, ... pairs later, from sample to sample."""
+    """Return covariances of the differences of consecutive clusters with those 0, 1, ... pairs
+    later, from sample to sample."""
     weights = np.concatenate([np.full(size, -1.0 / size), np.full(size, 1.0 / size)])
     both = np.correlate(weights, weights, "full")
     lags = np.arange(1 - 2 * size, 2 * size)[None, :] + 2 * size * np.arange(count)[:, None]

@@ -19,7 +19,7 @@ SAMPLES = either(20_000, 10_000)
 
 
 def assert_white_normal(errors, sigma):
-    """Normal with a sigma, independent between axes and from sample to sample."""
+    """Assert normal errors with a sigma, independent between axes and from sample to sample."""
     scaled = np.asarray(errors) / sigma
     count = len(scaled)
     for axis in range(3):

@@ -26,7 +26,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def away(angle, seed=0):
-    """A unit vector (inertial) at an angle from the boresight."""
+    """Return a unit vector (inertial) at an angle from the boresight."""
     side = np.cross(AIM, np.random.default_rng(seed).normal(size=3))
     return Rotation.from_rotvec(angle * side / np.linalg.norm(side)).apply(AIM)
 

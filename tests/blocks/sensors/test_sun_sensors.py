@@ -36,7 +36,7 @@ def sensors(sun, illumination=1.0, position=(0.0, 0.0, 0.0), attitude=ATTITUDE, 
 
 @given(seeds, seeds, st.floats(0.51, 1.0))
 def test_heads_of_half_a_sphere_have_the_exact_direction(seed, axes, illumination):
-    """Of any perpendicular pairs; the currents are cosines times the visible share."""
+    """Any perpendicular pairs; the currents are cosines times the visible share."""
     sun, turn = directions(seed), Rotation.random(rng=np.random.default_rng(axes)).as_matrix()
     heads = np.concatenate([turn, -turn])
     block = sensors(sun, illumination, normals_of_heads=heads.ravel().tolist(), **WIDE)

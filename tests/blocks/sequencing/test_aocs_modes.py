@@ -32,7 +32,7 @@ class Flight:
         self.modes.initialize()
 
     def set(self, rate=None, angle=None, known=None):
-        """Inputs: size of the rate (rad/s), angle of the panel from the Sun (rad), whether the attitude is known."""
+        """Set size of the rate (rad/s), angle of the panel from the Sun (rad), and knowledge of the attitude."""
         if rate is not None:
             self.modes.estimated_angular_velocity = [0.0, -0.6 * rate, 0.8 * rate]
         if known is not None:
@@ -52,7 +52,7 @@ class Flight:
         return self.modes.mode
 
     def changes_after(self, seconds, mode):
-        """True if the mode changes to this one exactly at the sample after some seconds of the same inputs."""
+        """Return True if the mode changes to this one exactly at the sample after some seconds of the same inputs."""
         before = self.modes.mode
         stays = self.fly(seconds - self.period) == before != mode
         return stays and self.fly(self.period) == mode and self.modes.time_in_mode == 0.0

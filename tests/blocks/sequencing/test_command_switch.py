@@ -12,7 +12,7 @@ COMMAND |= {"burn_duration": 1}
 
 
 def values(source):
-    """A command of the source (0: nothing) by name, every value another one."""
+    """Return a command of the source (0: nothing) by name, every value another one."""
     actual, count = {}, 10.0 * source
     for name, size in COMMAND.items():
         actual[name] = [count + k for k in range(size)] if size > 1 else count

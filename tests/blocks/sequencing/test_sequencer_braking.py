@@ -1,4 +1,4 @@
-"""The landing sequencer while it brakes: the engine's ignition, where the hover begins, what is given up and when.
+"""The landing sequencer while it brakes: the engine's ignition, where the hover begins, timeouts of phases.
 
 Truth: the rules as docs/systems/landing_mission.md has them, with times and thresholds written out.
 """

@@ -21,7 +21,7 @@ def outputs(block):
 
 
 def descended(parts, probe, ground, cycle=0.1):
-    """Outputs at every tenth of a second of a descent in steps of 0.1 s/parts: contacts at their times (s)."""
+    """Return outputs at every tenth of a second of a descent in steps of 0.1 s/parts: contacts at their times (s)."""
     flown = hovering(8)
     block, history = flown.block, []
     block.cycle = cycle
@@ -37,7 +37,7 @@ def descended(parts, probe, ground, cycle=0.1):
 
 @given(st.sampled_from([2, 5, 10]), st.floats(0.0, 5.0), st.floats(0.0, 1.0))
 def test_decisions_do_not_depend_on_the_communication_step(parts, probe, fall):
-    """What acts in a flight of 0.1 s steps acts at the same time in one of finer steps, to the bit."""
+    """Events of a flight in 0.1 s steps act at the same time in one of finer steps, to the bit."""
     coarse, fine = descended(1, probe, probe + fall), descended(parts, probe, probe + fall)
     for before, after in zip(coarse, fine, strict=True):
         for name in OUTPUTS:
@@ -46,7 +46,7 @@ def test_decisions_do_not_depend_on_the_communication_step(parts, probe, fall):
 
 
 def test_outputs_change_at_the_end_of_a_cycle_only():
-    """A contact at 0.16 s is seen at 0.2 s and acts at 0.32 s; without a cycle it acts at the next step."""
+    """A contact at 0.16 s is read at 0.2 s and acts at 0.32 s; without a cycle it acts at the next step."""
     flown = hovering(8)
     for n in range(6):  # of 0.04 s: cycles end at 0.12 and 0.2 s
         flown.see(probe_contact=n >= 4)

@@ -104,7 +104,7 @@ def test_a_low_coast_is_ended_only_where_it_comes_to_the_ground(pericentre, ends
 
 
 def test_first_fixes_may_say_that_the_coast_falls():
-    """19 s of an estimate that leads to the ground, then one that does not: the coast goes on."""
+    """19 s of an estimate that leads to the ground, then one that does not: the coast continues."""
     low, high = (ellipse(pericentre, 285e3 / RADIUS + 0.3)[0] for pericentre in (-5e3, 8e3))
     flown = Flown(2, **low)
     assert flown.step(190).phase == 2

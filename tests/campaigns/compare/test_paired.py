@@ -17,7 +17,7 @@ from perilune.analysis.campaigns.compare.paired import compare_rates, compare_va
 
 
 def outcomes(both, only_a, only_b, neither):
-    """Outcomes of A and B with so many trials of each kind."""
+    """Return outcomes of A and B with these numbers of trials of each kind."""
     kinds = [(True, True)] * both + [(True, False)] * only_a + [(False, True)] * only_b + [(False, False)] * neither
     a, b = zip(*kinds, strict=True)
     return np.array(a), np.array(b)

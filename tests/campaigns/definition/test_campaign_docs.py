@@ -49,7 +49,7 @@ def test_the_requirements_of_the_example(campaign):
 
 
 def test_the_faults_of_the_example_fly(fmus, tmp_path):
-    """In each trial the jets of one axis fail when the draws say: the plant is given no pulses of those commanded."""
+    """In each trial the jets of one axis fail when the draws say: the plant receives no pulses of those commanded."""
     path = tmp_path / "failures.toml"
     (example,) = (text for text in EXAMPLES if "[fault]" in text)
     record = '[record]\ntraces = "all"\n[success]\nexpression = "1"\n'

@@ -1,4 +1,4 @@
-"""perilune.analysis.campaigns.definition.faults: what [fault.NAME] may hold, and what it comes to in each trial.
+"""perilune.analysis.campaigns.definition.faults: contents of [fault.NAME], and the fault in each trial.
 
 Truth: the draws of the table, put into the formulas here with Python's floats.
 """

@@ -1,6 +1,6 @@
-"""Configurations: what each sets, which are simulated, and that a configuration flies as the same options would.
+"""Configurations: settings of each, selection, and a simulation equal to that with the same options.
 
-Truth: the same campaign without configurations, with the options of one given to the command.
+Truth: the same campaign without configurations, with the options of one on the command line.
 """
 
 from pathlib import Path

@@ -52,7 +52,7 @@ reduction = "max"
 
 
 def write_table(folder, rows, name="reference.csv"):
-    """A table for gains; the numbers of trial k are k and 10 k."""
+    """Write a table for gains; the numbers of trial k are k and 10 k."""
     lines = ["# made by: a tool", "# input: gain = odd.gain", "# input: others = twice, odd.count, 0.1"]
     lines.append("trial,inputs,first,second")
     for trial, gain in enumerate(rows):
@@ -66,7 +66,7 @@ def write_table(folder, rows, name="reference.csv"):
 
 @pytest.fixture(params=["", 'draw_scheme = "counter"'], ids=["table", "counter"])
 def folder(request, tmp_path):
-    """A campaign with a lookup, its table and its system."""
+    """Return a campaign with a lookup, its table and its system."""
     odd_system(tmp_path)
     base = BASE.format(scheme=request.param)
     (tmp_path / "base.toml").write_text(base)
@@ -174,7 +174,7 @@ def test_a_path_is_meant_from_the_file_that_says_it(folder):
 
 @pytest.mark.parametrize("folder", [""], indirect=True)
 def test_other_trials_than_the_campaigns_have_no_lookups(folder):
-    """Draws from a file, and those of a study, are not what the table was made for."""
+    """Draws from a file, and those of a study, are not those of the table."""
     output = folder / "out"
     batch(folder, output=output)
     with pytest.warns(UserWarning, match="looked_up, difference: left out, since reference is of the campaign's own"):

@@ -25,7 +25,7 @@ def value(expression, reduction, times=TIMES, /, **options):
 
 
 def evaluate(requested, times, values):
-    """A metric of one flight."""
+    """Evaluate a metric of one flight."""
     (number,) = evaluate_metric(requested, times, values, np.array([times.size]))
     return number
 
@@ -116,6 +116,6 @@ def test_an_unknown_name_is_an_input_error():
     ],
 )
 def test_success(text, error, expected):
-    """Of three trials, the second one: each is judged by its own metrics."""
+    """The second of three trials: each is evaluated by its metrics."""
     metrics = {"error": np.array([200.0, error, math.nan]), "status": np.ones(3)}
     assert successes(Expression(text), metrics, 3)[1] == expected

@@ -39,7 +39,7 @@ def value(reduction, rows, window=None, **options):
 
 
 def evaluate(requested, times, values):
-    """A metric of one flight."""
+    """Evaluate a metric of one flight."""
     (number,) = evaluate_metric(requested, times, values, np.array([times.size]))
     return number
 

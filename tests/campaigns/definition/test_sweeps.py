@@ -117,7 +117,7 @@ def test_requirements_and_sweeps_do_not_go_together(campaign):
 
 @pytest.fixture(scope="module")
 def folder(fmus, tmp_path_factory):
-    """A sweep of five masses, four trials each, from the command line."""
+    """Run a sweep of five masses, four trials each, from the command line."""
     place = tmp_path_factory.mktemp("sweep") / "results"
     words = ["--compare", "guidance=analytic_guidance", "--trials", "20", "--set", SWEEP, "--output", str(place)]
     assert main(["batch", SYSTEM, "--campaign", "paper", *words]) == 0

@@ -1,6 +1,6 @@
 """A campaign with faults that start when its draws say, flown, stored, flown again.
 
-Truth: each row of a ramp and a gain computed here in a few lines; flights of `perilune.Fault` made by hand from the
+Truth: each row of a ramp and a gain computed here in a few lines; flights of hand-written `perilune.Fault` from the
 table of draws, with equal bits; the same campaign without faults.
 """
 
@@ -106,7 +106,7 @@ def result(ssp, campaign, tmp_path_factory):
 
 
 def by_hand(row):
-    """The faults of a trial from its draws, as a Python program would make them."""
+    """Return the faults of a trial from its draws, as a Python program would create them."""
     t0, end, faults = row["t0"], row["t0"] + 1.0, []
     if row["case"] == 1:
         faults.append(perilune.Fault("gain.u", "bias", 2.0 * row["size"], t0, end))
@@ -118,7 +118,7 @@ def by_hand(row):
 
 
 def computed(row):
-    """The readers' rows, from the definition of the faults and of the blocks (slope 2 m/s, factor 3)."""
+    """Compute the readers' rows from the definition of the faults and of the blocks (slope 2 m/s, factor 3)."""
     time = STEP * np.arange(ROWS)
     y = row["ramp.start"] + 2.0 * time
     if row["case"] in (2, 3):

@@ -20,7 +20,7 @@ pytestmark = pytest.mark.flies
 
 @pytest.fixture(scope="module")
 def crashing(tmp_path_factory):
-    """The words of a command that simulates it, and the folder that it wrote."""
+    """Return the words of a command that simulates it, and the folder that it wrote."""
     folder = tmp_path_factory.mktemp("crashing")
     fmu = odd_fmu(folder, DEED=Deed.SEGFAULT, IN=Call.STEP, COUNTED=13)
     (folder / "c.toml").write_text(COUNTS.format(name="odd", trials=75))
@@ -30,7 +30,7 @@ def crashing(tmp_path_factory):
 
 
 def crashed(folder):
-    """How many trials of a folder crashed."""
+    """Count the crashed trials of a folder."""
     statuses = pyarrow.parquet.read_table(folder / "trials", columns=["status"])["status"].to_pylist()
     return statuses.count("crashed")
 

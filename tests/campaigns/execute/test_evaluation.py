@@ -1,6 +1,6 @@
-"""MetricEvaluator: what flights come to when a task's are looked at together.
+"""MetricEvaluator: evaluation of all flights of a task together.
 
-Truth: every metric of every flight worked out by itself, to the bit; statuses and last rows by hand.
+Truth: every metric of every flight evaluated separately, to the bit; statuses and last rows by hand.
 """
 
 import itertools
@@ -49,7 +49,7 @@ SIZES = (0, 1, 4, 17, 40)  # where groups begin and end
 
 
 def flight(number):
-    """A flight by its number: every seventh fails, every eleventh without a row."""
+    """Return a flight by its number: every seventh fails, every eleventh without a row."""
     source = np.random.default_rng(number)
     rows = 0 if number % 11 == 10 else 5 + number % 4
     signals = {name: source.normal(size=rows) for name in ("p.x", "p.y", "p.status")}

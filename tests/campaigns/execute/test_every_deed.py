@@ -46,7 +46,7 @@ def cluster(tmp_path_factory):
 
 
 def words_for(folder, **quirks):
-    """The words that name a campaign of a good FMU, or one with quirks."""
+    """Return the words that name a campaign of a good FMU, or one with quirks."""
     folder.mkdir()
     (folder / "c.toml").write_text(COUNTS.format(name="odd", trials=TRIALS))
     return [str(odd_fmu(folder, **quirks)), "--campaign", str(folder / "c.toml"), "--step", "0.25", "--stop-time", "1"]

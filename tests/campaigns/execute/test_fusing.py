@@ -17,7 +17,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 @pytest.fixture
 def fused(monkeypatch):
-    """The systems of simulations whose steps are compiled under way."""
+    """Record the systems of simulations whose steps are compiled under way."""
     systems = []
     original = Simulation.fuse
 

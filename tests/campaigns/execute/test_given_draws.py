@@ -1,4 +1,4 @@
-"""Draws that are given fly as drawn ones do.
+"""Supplied samples are simulated as drawn ones are.
 
 Truth: the batch that drew them, to the last bit; the closed form of the odd FMU for others.
 """
@@ -80,7 +80,7 @@ def test_the_draws_of_a_batch_are_that_batch(tmp_path):
 
 
 def expected(half, late):
-    """The last y + 100 half, and the fault's bias where it flies."""
+    """Return the last y + 100 half, and the fault's bias where it acts."""
     return 2 * half * 0.5 + 2.0 + 100 * half + np.where(half > 0.5, half, 0.0)
 
 

@@ -1,4 +1,4 @@
-"""Flights one behind another without a return to Python, and those that do not come to their end among them.
+"""Consecutive flights without a return to Python, among them some that do not reach their end.
 
 Truth: the same trials with a time limit, which fly one at a time; a replay of each.
 """

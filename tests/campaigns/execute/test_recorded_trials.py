@@ -23,7 +23,7 @@ SAMPLED = 'every = 50\nsignals = ["plant.position[3]", "guidance.finished", "pla
 
 
 def campaign(folder, record):
-    """The published campaign with more in its [record]."""
+    """Write the published campaign with more in its [record]."""
     path = folder / "c.toml"
     text = PAPER.read_text().replace('traces = "none"', "# ")
     path.write_text(text.replace("[record]\n", f"[record]\n{record}"))

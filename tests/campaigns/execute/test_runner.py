@@ -40,7 +40,7 @@ def result(fmus, folder):
 
 
 def campaign(tmp_path, head="", tail="", name="c.toml"):
-    """The published campaign with a head before its first line and a tail behind its last; both win."""
+    """Write the published campaign with a head before its first line and a tail after its last; both win."""
     text = PAPER.read_text()
     for line in filter(None, head.splitlines()):
         key = line.partition("=")[0].strip()

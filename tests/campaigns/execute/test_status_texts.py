@@ -1,4 +1,4 @@
-"""How a trial ended, written and read back.
+"""~ Ending of a trial, written and read back.
 
 Truth: flights made by hand, whose worst statuses are seen.
 """

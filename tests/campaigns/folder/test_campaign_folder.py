@@ -31,7 +31,7 @@ def original(tmp_path_factory):
 
 @pytest.fixture
 def folder(original, tmp_path):
-    """A copy that a test may damage."""
+    """Return a copy that a test may damage."""
     return shutil.copytree(original, tmp_path / "batch")
 
 
@@ -86,7 +86,7 @@ def test_some_trials_of_a_folder_are_a_table(original):
 
 
 def rewrite(folder, change):
-    """The second shard with other rows or columns, its row groups and what it says of itself as before."""
+    """Rewrite the second shard with other rows or columns, its row groups and metadata as before."""
     path = folder / "trials" / "000001.parquet"
     table = pyarrow.parquet.read_table(path)
     changed = change(table)

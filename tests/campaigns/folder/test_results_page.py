@@ -22,7 +22,7 @@ FLAGS = doctest.NORMALIZE_WHITESPACE
 
 @pytest.fixture(scope="module")
 def place(fmus, tmp_path_factory):
-    """A folder in which the page's campaigns have flown."""
+    """Return a folder in which the page's campaigns have been simulated."""
     folder = tmp_path_factory.mktemp("page")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
@@ -33,7 +33,7 @@ def place(fmus, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def shown(place):
-    """What the names of the page stand for once all of its lines have run, each with what it shows."""
+    """Return the variables of the page once all of its lines have run, each with its output."""
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(place)
         page = doctest.DocTestParser().get_doctest(LINES, {}, "results.md", "results.md", 0)

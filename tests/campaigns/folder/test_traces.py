@@ -18,7 +18,7 @@ LENGTHS = {0: 21, 1: 13, 2: 5, 3: 21}  # rows of the first flights; END is 20 s
 
 @pytest.fixture(scope="module")
 def written():
-    """A batch whose flights of beta end at different times, one of them between two rows of the others."""
+    """Return a batch whose flights of beta end at different times, one of them between two rows of the others."""
     sample = sample_batch(traced=4)
     beta = sample.trials["beta"]
     traces = {

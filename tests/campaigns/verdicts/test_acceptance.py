@@ -108,7 +108,7 @@ def test_below_a_half_both_verdicts_were_possible():
 @pytest.mark.parametrize("share", [0.9987, 0.99, 0.9])
 @pytest.mark.parametrize("beside", [0.5, 0.999, 1.001, 2.0])
 def test_ten_thousand_campaigns_are_wrong_in_a_tenth_at_most(share, beside):
-    """Failure rates just beside the required one and far from it; 10.9 % is three deviations above 10."""
+    """Failure rates just off the required one and far from it; 10.9 % is three deviations above 10."""
     rate = (1.0 - share) * beside
     flights = flights_needed(1, share, 0.9)
     failures = np.random.default_rng(17).binomial(flights, rate, 10_000)

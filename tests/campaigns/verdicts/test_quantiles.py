@@ -21,7 +21,7 @@ OTHERS = {"percentile", "quantile", "nanpercentile", "nanquantile", "median", "n
 
 @given(st.integers(0, 10_000), st.integers(1, 10**6))
 def test_ranks_counted_in_whole_numbers(parts, count):
-    """Of a fraction of so many ten thousandths: the least k with k / n >= p, from 0."""
+    """A fraction in ten thousandths: the least k with k / n >= p, from 0."""
     assert quantile_rank(parts / 10_000, count) == max(0, -(-parts * count // 10_000) - 1)
 
 

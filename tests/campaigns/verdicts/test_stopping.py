@@ -22,7 +22,8 @@ RULE = stopping_rule(0.9987, 0.9)
 
 
 def ever(rule, rate, most, verdict):
-    """The probability that a verdict's boundary is ever crossed at the looks up to ``most``, and the expected flights.
+    """Return the probability that a verdict's boundary is ever crossed at the looks up to ``most``, and expected
+    flights.
 
     All counts are kept, and either boundary ends the campaign; ``rate`` is of failures.
     """
@@ -162,7 +163,7 @@ def test_systems_off_the_limit_are_decided():
 
 
 def test_flights_that_99_87_at_90_takes():
-    """What docs/theory/stopping.md says of it, by the recursion of this file."""
+    """Numbers of docs/theory/stopping.md, by the recursion of this file."""
     assert RULE.look == 100
     assert RULE.flights_to_meet(0, 0) == {0: 2300, 1: 4000, 2: 5600}
     assert RULE.flights_to_meet(2000, 1) == {0: 2000, 1: 3600, 2: 5200}
@@ -172,7 +173,7 @@ def test_flights_that_99_87_at_90_takes():
 
 @given(st.lists(st.booleans(), max_size=300), st.integers(1, 7), st.data())
 def test_a_verdict_is_a_function_of_the_flights_in_order(kept, look, data):
-    """What comes after the deciding look changes nothing, nor in how many parts the flights arrived."""
+    """Flights after the deciding look change nothing, nor the number of blocks in which they arrived."""
     rule = StoppingRule(0.8, 0.8, look)
     kept = np.array(kept, dtype=bool)
     whole = rule.decision(kept)

@@ -18,7 +18,7 @@ from perilune.analysis.campaigns.verdicts.stopping import StoppingRule
 
 
 def tolerance_bound(values, permitted, upper):
-    """The bound from all of some values, which come in two blocks."""
+    """Return the bound from all of some values, which are in two blocks."""
     return of_blocks(lambda: (values[:7], values[7:]), len(values), permitted, upper)
 
 

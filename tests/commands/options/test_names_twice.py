@@ -22,7 +22,7 @@ BATCH = ["batch", SYSTEM, "--compare", "guidance=analytic_guidance", "--trials",
 
 @pytest.fixture
 def here(tmp_path, monkeypatch):
-    """A working folder with a campaign and a parameter set of names that the system has, and of another content."""
+    """Return a working folder with a campaign and a parameter set of names that the system has, but other content."""
     monkeypatch.chdir(tmp_path)
     (campaign,) = (SYSTEMS / SYSTEM).rglob("paper.toml")
     text = campaign.read_text()

@@ -61,7 +61,7 @@ SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGKILL)
 
 @pytest.fixture
 def slow_compiler(tmp_path):
-    """An environment whose compiler says its version, and leaves the work to a process that takes for good."""
+    """Return an environment whose compiler states its version, and leaves the work to a process that never ends."""
     (tmp_path / "bin").mkdir()
     script = tmp_path / "bin" / "cc"
     script.write_text('#!/bin/sh\ncase "$*" in *" -o "*) sleep 600 & wait ;; *) echo 1 ;; esac\n')

@@ -1,4 +1,4 @@
-"""Files of the cache: damaged ones are made again, and a cache that cannot be used is done without, each in one line.
+"""Files of the cache: damaged ones are written again, and an unusable cache is ignored, each in one line.
 
 Truth: the content that was written, and the files that there are.
 """

@@ -17,7 +17,7 @@ from perilune.common.machine.commit import commit_of_checkout, commit_of_origin
 
 @pytest.fixture
 def repository(tmp_path):
-    """A repository with one commit, whose whole name is the second."""
+    """Return a repository with one commit, and the commit's whole name."""
     (tmp_path / "file").write_text("1")
     who = ["-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false"]
     for line in (["init", "-q"], ["add", "file"], [*who, "commit", "-qm", "first"], ["tag", "-m", "t", "v1"]):

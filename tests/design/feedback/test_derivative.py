@@ -52,7 +52,7 @@ def test_a_mass_on_a_spring() -> None:
 
 
 def lagged(a: np.ndarray, b: np.ndarray, gain: np.ndarray, lag: float, time: float) -> float:
-    """How much a motion under lag u' = -u - K x' has grown."""
+    """Return the growth of a motion under lag u' = -u - K x'."""
     states = len(a)
 
     def rate(_: float, s: np.ndarray) -> np.ndarray:

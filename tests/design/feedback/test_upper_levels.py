@@ -39,7 +39,7 @@ def test_places_every_draw(size: tuple[int, int, int], count: int) -> None:
 
 
 def gap() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """A mass, and one on a spring of which only the speed is measured."""
+    """Return a mass, and one on a spring of which only the speed is measured."""
     a = np.zeros((4, 4))
     a[0, 2] = a[1, 3] = 1.0
     a[3, 1] = -0.5

@@ -125,7 +125,7 @@ FUNCTIONS = {
 
 
 def read_back(law, theta, d):
-    """The printed lines carried out as Python, with their bars and powers; without saturation."""
+    """Evaluate the printed lines as Python, with their bars and powers; without saturation."""
     values = dict(zip(("q1", "q2", "q3"), law.q, strict=True), theta=theta, h0=1.0, hf=d, h=0.0)
     for name, text in formula(law).items():
         code = re.sub(r"\|([^|]+)\|", r"abs(\1)", text).replace("^", "**")

@@ -24,7 +24,7 @@ def test_places_every_draw(states: int, inputs: int) -> None:
 
 
 def brunovsky(lengths: list[int], random: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """A pair with these indices, in coordinates, with a feedback and with inputs mixed so that it keeps them.
+    """Draw a pair with these indices, in coordinates, with a feedback and with inputs mixed so that it keeps them.
 
     Inputs may be mixed among those of the same index, and with later ones of longer chains.
     """

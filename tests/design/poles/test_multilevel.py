@@ -41,7 +41,7 @@ def test_the_identity_of_level_0(states: int, inputs: int, most: int) -> None:
 
 
 def annihilated(closed_loop: np.ndarray, poles: dict[float, int]) -> float:
-    """The product of (Ac - lambda I)^k, relative to the power of |Ac| of the same degree."""
+    """Return the product of (Ac - lambda I)^k, relative to the power of |Ac| of the same degree."""
     product = np.eye(len(closed_loop))
     for pole, index in poles.items():
         product = product @ np.linalg.matrix_power(closed_loop - pole * np.eye(len(closed_loop)), index)

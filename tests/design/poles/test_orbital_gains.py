@@ -1,12 +1,12 @@
 """Gains for the orbital orientation of a spacecraft whose yaw is not measured, against numbers found elsewhere.
 
-Orbital frame, absolute rates: x = (roll, yaw, pitch, rates - wanted rates), u = moments, measured without yaw. Linear
-about the wanted state: A = [A11 I; A21 A22], B = [0; J^-1] with [v] the matrix of v x,
+Orbital frame, absolute rates: x = (roll, yaw, pitch, rates - reference rates), u = moments, measured without yaw.
+Linear about the reference state: A = [A11 I; A21 A22], B = [0; J^-1] with [v] the matrix of v x,
 
     A11 = [0 -w0 0; w0 0 0; 0 0 0]    A22 = J^-1 ([J wp] - [wp] J)    wp = (0, 0, -w0)    e2 = (0, 1, 0)
     A21 = 3 w0^2 J^-1 ([e2] J - [J e2]) [0 0 1; 0 0 0; -1 0 0].
 
-The numbers are those of the specification of the task; the closed forms of gains were derived for one unmeasured state.
+The numbers are those of the specification of the task; the closed forms of gains are for one unmeasured state.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def cross_matrix(v: np.ndarray) -> np.ndarray:
 
 
 def plant() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """A, B, C."""
+    """Return A, B, C."""
     inverse, wanted, up = np.linalg.inv(INERTIA), np.array([0.0, 0.0, -ORBIT]), np.array([0.0, 1.0, 0.0])
     kinematics = np.array([[0.0, -ORBIT, 0.0], [ORBIT, 0.0, 0.0], [0.0, 0.0, 0.0]])
     gyroscopic = inverse @ (cross_matrix(INERTIA @ wanted) - cross_matrix(wanted) @ INERTIA)

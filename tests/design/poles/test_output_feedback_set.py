@@ -1,6 +1,6 @@
 """The set of all output feedbacks: it has m p numbers, and contains every feedback found otherwise.
 
-Output feedback that is free of a parameter of the plant: the published example, and plants made to have one.
+Output feedback that is free of a parameter of the plant: the published example, and plants constructed to have one.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def test_what_the_plants_do_not_let_be_prescribed() -> None:
 
 
 def test_plants_that_a_common_feedback_made() -> None:
-    """A_k = companion of N_k - B F C in coordinates that leave B and C: then F is found again from part of the N_k."""
+    """A_k = companion of N_k - B F C in coordinates that leave B and C: then F is found again from some of the N_k."""
     random = np.random.default_rng(2)
     for _ in range(either(50, 6)):
         gain, prescribed = random.normal(size=(2, 3)), random.normal(size=(2, 2, 2))

@@ -19,7 +19,7 @@ PERIOD = 0.8
 
 
 def integrated(rate, state: np.ndarray, lengths: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """The same by scipy, interval by interval."""
+    """Integrate the same by scipy, interval by interval."""
     instants = np.unique([0.0, *lengths, PERIOD])
     for begin, end in pairwise(instants):
         on = np.where(lengths > 0.5 * (begin + end), values, 0.0)

@@ -38,7 +38,7 @@ def test_has_the_poles_and_is_smaller() -> None:
 
 
 def test_no_way_down_remains() -> None:
-    """Where the search ended, F is at right angles to every direction that leaves the poles (Lagrange)."""
+    """F at the end of the search is at right angles to every direction that leaves the poles (Lagrange)."""
     ended = 0
     for a, b, c, poles in random_systems(either(20, 3), 4, 3, 3, most_pairs=0, seed=37):
         actual = modal.output_feedback(a, b, c, poles, choice="smallest")

@@ -1,4 +1,4 @@
-"""Wanted spectra: read, made real, spread over levels."""
+"""Required spectra: read, converted to real matrices, spread over levels."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ class PendulumGain(Block):
 
 
 def pendulum() -> modal.SymbolicGain:
-    """A pendulum about a rest at an angle; one pole has a root."""
+    """Return a pendulum about a rest at an angle; one pole has a root."""
     a = [[0, 1], [-K * sp.cos(ANGLE) / M, -D / M]]
     return modal.symbolic_gain(a, [[0], [sp.sin(ANGLE) / M**2]], [-sp.sqrt(K / M), sp.Rational(-1, 3)])
 

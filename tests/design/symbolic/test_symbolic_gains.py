@@ -29,7 +29,7 @@ def cross(v: sp.Matrix) -> sp.Matrix:
 
 
 def orbit(inertia: sp.Matrix) -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
-    """A, B, A11, A21, A22 as the page has them."""
+    """Return A, B, A11, A21, A22 as the page has them."""
     inverse, down, up = inertia.inv(), sp.Matrix([0, 0, -W0]), sp.Matrix([0, 1, 0])
     a11 = sp.Matrix([[0, -W0, 0], [W0, 0, 0], [0, 0, 0]])
     tilt = sp.Matrix([[0, 0, 1], [0, 0, 0], [-1, 0, 0]])
@@ -86,14 +86,14 @@ def compiled(matrix: sp.ImmutableMatrix) -> Callable[..., np.ndarray]:
 
 
 def vanishes(matrix: sp.Matrix, angle: sp.Symbol) -> bool:
-    """True if 0 with the tangent of half the angle as an unknown."""
+    """Return True if 0 with the tangent of half the angle as an unknown."""
     t = sp.Symbol("t")
     rational = {sp.sin(angle): 2 * t / (1 + t**2), sp.cos(angle): (1 - t**2) / (1 + t**2)}
     return all(sp.cancel(element.subs(rational)) == 0 for element in matrix)
 
 
 def capsule() -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
-    """A, B, J2 and W, bank and sideslip rates over body rates; the air's moment is q (mx, my) times sideslip."""
+    """Return A, B, J2 and W, bank and sideslip rates over body rates; the air's moment is q (mx, my) times sideslip."""
     jx, jy, jxy, q, mx, my, a0 = sp.symbols("jx jy jxy q mx my a0", real=True)
     inertia = sp.Matrix([[jx, jxy], [jxy, jy]])
     turn = sp.Matrix([[sp.cos(a0), -sp.sin(a0)], [sp.sin(a0), sp.cos(a0)]])
@@ -131,7 +131,7 @@ def test_the_robust_law_of_the_capsule_is_the_one_that_its_page_prints(method: s
 
 
 def check_the_robust_law_in_numbers(formula: modal.SymbolicGain, a: sp.Matrix, b: sp.Matrix) -> None:
-    """The numeric Ackermann formula, any pressure; the page's gains and N_1."""
+    """Compare with the numeric Ackermann formula at any pressure, and the page's gains and N_1."""
     random = np.random.default_rng(62)
     n0, n1 = robust_polynomial()
     page = {"jx": 1400.0, "jy": 1250.0, "jxy": -40.0, "a0": np.radians(-20.0), "mx": 0.0527, "my": -1.061}
@@ -214,7 +214,7 @@ def test_refusals(a: list, b: list, required: list, options: dict, message: str)
 
 
 def test_arrays_are_taken_too() -> None:
-    """Of floats, and of numpy's numbers."""
+    """Arrays of floats, and of numpy's numbers."""
     actual = modal.symbolic_gain(
         np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]), list(np.array([-1.0, -2.0]))
     )

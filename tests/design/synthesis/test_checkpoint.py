@@ -1,4 +1,4 @@
-"""Checkpoints: a search that was interrupted goes on to the very same result.
+"""Checkpoints: an interrupted search continues to the very same result.
 
 Truth: the same search without interruption, compared in everything it holds, to the last bit.
 """

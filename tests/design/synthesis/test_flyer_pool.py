@@ -21,7 +21,7 @@ def doubled(flyer, number):
 
 
 def failing(flyer, number, wait):
-    """The first task fails at once; the others wait a little, so that they are not all begun by then."""
+    """Fail the first task at once; the others wait a little, so that they are not all begun by then."""
     with LOCK:
         COUNTED.append(number)
     if number == 0:

@@ -19,7 +19,7 @@ POINTS = st.integers(1, 3).flatmap(
 
 
 def dominates(a, b):
-    """The definition."""
+    """Evaluate the definition."""
     return all(x <= y for x, y in zip(a, b, strict=True)) and any(x < y for x, y in zip(a, b, strict=True))
 
 
@@ -58,7 +58,7 @@ def test_the_order_is_by_rank_first(points):
 
 @given(POINTS, st.data())
 def test_growing_objectives_never_improve_a_standing(points, data):
-    """What makes it safe to reject a sum of which some terms are still to come."""
+    """Sums of which some terms are still missing can be rejected safely."""
     order = ParetoOrder(points)
     width = points.shape[1]
     point = np.array(data.draw(st.tuples(*[st.floats(0.0, 6.0)] * width)))

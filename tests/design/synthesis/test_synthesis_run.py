@@ -27,7 +27,7 @@ def synthesis(folder, text=TEXT):
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory, fmus):
-    """A search in one go, with its folder."""
+    """Run a search in one go, with its folder."""
     folder = tmp_path_factory.mktemp("whole")
     return run_synthesis(synthesis(folder), workers=1, output=folder / "out"), folder / "out"
 

@@ -22,7 +22,7 @@ WHERE = ("c.toml", "lookup.bound.inputs")
 
 
 def inputs_of(descent):
-    """The same descent as numbers by role."""
+    """Return the same descent as numbers by role."""
     inputs = {"position": descent.position, "velocity": descent.velocity, "target": descent.target}
     numbers = {
         "mass": descent.mass,
@@ -43,7 +43,8 @@ def problem_of(descent):
 
 @pytest.mark.parametrize(("descent", "time"), [(C1, 200.0), (C2, 300.0), (A1, 60.0)], ids=["C1", "C2", "A1"])
 def test_it_is_the_path_of_another_formulation(descent, time):
-    """That one holds gravity at the nodes of its last path and so misses its dependence on the path: it costs more."""
+    """The other formulation holds gravity at the nodes of its last path and so misses its
+    dependence on the path: it costs more."""
     actual, expected = solve_fixed_time(problem_of(descent), time, 24), settle(descent, time, 4)
     impulse = -descent.exhaust * actual.log_mass[-1]
     assert impulse == pytest.approx(expected.impulse, rel=2e-6)
@@ -69,9 +70,8 @@ def test_random_approaches_keep_their_limits():
     ids=either(["A1", "C1", "C2"], ["A1"]),
 )
 def test_least_time_is_that_of_bisection(descent, kg, seconds):
-    """Of 80 intervals; the expected ones bisect the derivative of the blocks' interior point to 0.1 s, with gravity
-    held at nodes, so that they may lie above by some grams.
-    """
+    """With 80 intervals; the expected ones bisect the derivative of the blocks' interior point to 0.1 s, with gravity
+    held at nodes, so that they may be above by some grams."""
     path = least_propellant(problem_of(descent), 80, 0.1)
     assert path.propellant_fraction * descent.mass == pytest.approx(kg, abs=8e-3)
     assert path.propellant_fraction * descent.mass < kg + 1e-3

@@ -80,7 +80,7 @@ def test_means_are_those_of_the_prototype(campaign):
 
 @pytest.fixture
 def mine(tmp_path):
-    """A short campaign whose table is not there yet."""
+    """Write a short campaign whose table is missing."""
     path = tmp_path / "mine.toml"
     path.write_text('extends = "laws_approach"\ntrials = 3\nseed = 5\n[lookup.bound]\nfile = "tables/mine.csv"\n')
     return path

@@ -39,7 +39,7 @@ def solution(intervals=INTERVALS):
 
 
 def as_printed(_, s, throttle, turning):
-    """The paper's equations (1) and its adjoint system."""
+    """Return the paper's equations (1) and its adjoint system."""
     _, vx, _, vy, tm, angle, rate, psi1, psi2, psi3, psi4, _, psi6, _ = s
     acceleration = THRUST_RATIO * EARTH * throttle * IMPULSE / (IMPULSE - THRUST_RATIO * tm)
     along = psi2 * math.cos(angle) + psi4 * math.sin(angle)
@@ -118,7 +118,7 @@ TRANSFER_STEP = 76.0 / INTERVALS
 
 
 def tangent_acceleration(t, c1, c2, c3, c4):
-    """The paper's alpha* with its two mistakes mended: of the fraction (c4 - c3 t)/(c2 - c1 t)."""
+    """Return the paper's alpha* with its two mistakes mended: of the fraction (c4 - c3 t)/(c2 - c1 t)."""
     size = (c2 - c1 * t) ** 2 + (c4 - c3 * t) ** 2
     return -2.0 * (c2 * c3 - c1 * c4) * (c1 * c2 + c3 * c4 - (c1**2 + c3**2) * t) / size**2
 

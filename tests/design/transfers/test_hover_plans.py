@@ -1,7 +1,7 @@
 """perilune.analysis.design.transfers: the programme for people, its sweeps, the true optimum.
 
-Truth: Huang 2017, tables and figures 3 and 7, and figures of the same problem made with other programs beforehand;
-motion integrated by scipy; no plan takes less than the bound.
+Truth: Huang 2017, tables and figures 3 and 7, and figures of the same problem by other programs; motion integrated by
+scipy; no plan takes less than the bound.
 """
 
 import math
@@ -57,7 +57,7 @@ def test_angles(best):
 
 
 def _published(t5):
-    """The paper's own numbers flown; how far from the target they end: x, y, x', y'."""
+    """Simulate the paper's own numbers; return the final miss x, y, x', y'."""
     t2, _, _, tp, t7 = PUBLISHED
     width = 0.5 * t2 * math.sqrt(2.0 * (1.0 - PUBLISHED_K))
     times = HoverProgramme(t2=t2, t5=t5, width=width, last_burn=tp, t7=t7)
@@ -154,7 +154,7 @@ def test_true_optimum_with_margins():
 
 
 def test_true_optimum_of_a_programme_straight_down():
-    """Nothing to turn for: it is the vertical programme."""
+    """A programme without a turn is the vertical one."""
     down = find_programme(VEHICLE, replace(TRANSFER, distance=0.0))
     actual = find_true_optimum(down, 60, ENGINE)
     assert actual.propellant_fraction == pytest.approx(STRAIGHT_DOWN, abs=2e-5)

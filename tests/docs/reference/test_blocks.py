@@ -36,7 +36,7 @@ SOURCE = re.compile(r"\bSources?\b[^:]*: |docs/[\w/]+\.md")
 
 
 def words_of(block: type[Block]) -> str:
-    """What the docstrings of a block and of what it is derived from say."""
+    """Return the docstrings of a block and of its bases."""
     bases = [base for base in block.__mro__ if issubclass(base, Block) and base is not Block]
     return "\n".join(inspect.cleandoc(base.__doc__ or "") for base in bases)
 

@@ -222,7 +222,7 @@ def test_the_commands(place, tmp_path, monkeypatch, capsys):
 
 
 def _prepare(words: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    """The command up to where it would begin its work."""
+    """Run the command up to the begin of its work."""
     with monkeypatch.context() as patch:
         for work in WORK[words[0]]:
             module, _, name = work.rpartition(".")
@@ -232,7 +232,7 @@ def _prepare(words: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def _without_page(words: list[str], expected: list[str]) -> tuple[list[str], list[str]]:
-    """The command without its page, and what it then prints."""
+    """Return the command without its page, and its output then."""
     at = words.index("--report")
     return words[:at] + words[at + 2 :], [line for line in expected if line != f"written: {words[at + 1]}"]
 

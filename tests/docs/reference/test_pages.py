@@ -41,7 +41,7 @@ def sections(page):
 
 
 def test_every_option_of_every_verb_is_there(pages):
-    """Those that `perilune VERB --help` prints, and no others."""
+    """Options that `perilune VERB --help` prints, and no others."""
     actual = sections(pages["reference/verbs.md"])
     assert list(actual) == list(VERBS)
     for verb, text in actual.items():
@@ -84,7 +84,7 @@ def test_every_page_is_in_the_navigation(pages):
 
 
 def test_the_site_has_four_doors():
-    """Those that README names; the derived reference is behind one of them, and README fits two screens."""
+    """Doors that README names; the derived reference is in one of them, and README fits two screens."""
     doors = [name for door in site_settings()["nav"] for name in door]
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     assert doors == re.findall(r"^- \*\*(.+?)\*\*: ", readme, re.MULTILINE) == ["Learn", "Do", "Look up", "Understand"]

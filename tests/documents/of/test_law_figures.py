@@ -29,7 +29,7 @@ GRAPHS = st.integers(2, 12).flatmap(
 
 
 def longest(node, edges):
-    """The definition, by recursion."""
+    """Evaluate the definition, by recursion."""
     return max((1 + longest(start, edges) for start, end in edges if end == node), default=0)
 
 

@@ -1,6 +1,6 @@
-"""The pages of plans: what stands on them, nothing fetched, the same bytes every time; in a browser, wide and narrow.
+"""The pages of plans: their content, nothing fetched, the same bytes every time; in a browser, wide and narrow.
 
-Truth: the studies that they are made of; the widths that the browser lays out.
+Truth: the studies that they show; the widths that the browser lays out.
 """
 
 import math

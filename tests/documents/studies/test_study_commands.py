@@ -1,6 +1,6 @@
 """`--report` of the three studies: refused before a flight where it cannot be written, else a page.
 
-Truth: the page's numbers beside those of --json.
+Truth: the page's numbers and those of --json.
 """
 
 import json

@@ -86,7 +86,7 @@ def test_the_flight_is_that_of_the_worst_case(worst_result):
 
 
 def noisy(result, matters):
-    """The first 30 simulations as 10 random trials of 3 realisations, the rest as the search, 9 fresh ones."""
+    """Return the first 30 simulations as 10 random trials of 3 realisations, the rest as the search, 9 fresh ones."""
     flown = Flown()
     later = 3 if matters else 1
     count = 30 + later * ((result.flown.values.size - 30 - 9) // later) + 9

@@ -79,7 +79,7 @@ def test_all_platforms_that_can_be_compiled(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_the_blocks_of_a_file_go_to_a_folder_of_their_own(capsys: pytest.CaptureFixture[str]) -> None:
-    """Where ``use`` does not look; those that need Python are left out."""
+    """A folder in which ``use`` does not look; blocks that need Python are left out."""
     Path("blocks.py").write_text(BLOCKS)
     assert main(["export", "blocks.py", "--fmi", "3", "--platform", LOCAL]) == 0
     assert capsys.readouterr().out == "build/fmus/fmi3/ramp.fmu\n"

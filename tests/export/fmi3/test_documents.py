@@ -1,4 +1,4 @@
-"""What an FMU of FMI 3.0 says of itself, for every block.
+"""Description of an FMU of FMI 3.0, for every block.
 
 Truth: FMPy's validation with the standard's schemas, and the FMI 2.0 description that FMPy reads of the same block.
 """
@@ -31,7 +31,7 @@ SCHEMAS = Path(fmpy.__file__).parent / "schema" / "fmi3"
 
 
 def describe(block: type[Block], folder: Path) -> tuple[ModelDescription, ModelDescription]:
-    """The block as FMPy reads it in FMI 2.0 and 3.0; what it says of the latter is checked."""
+    """Return the block as FMPy reads it in FMI 2.0 and 3.0; the latter is validated."""
     path = folder / "block.fmu"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr(
@@ -133,14 +133,14 @@ def test_terminals_are_named_after_slots_and_bundles() -> None:
 
 
 class Phase(Enumeration, first=2):
-    """What it does."""
+    """Its activity."""
 
     CLIMB = member("upwards")
     FALL = member("down & out")
 
 
 class Motion(Record):
-    """Where it is."""
+    """Its motion."""
 
     position = Field(Vector3, unit="m", description="of the centre", frozen=True)
     speed = Field(unit="m/s", description="of the centre")

@@ -28,7 +28,7 @@ pytestmark = pytest.mark.skipif(local_platform(3) is None, reason="FMI 3.0 libra
 
 
 class Way(Enumeration):
-    """Which way to walk."""
+    """Direction of the walk."""
 
     STAY = member("stay")
     FORWARDS = member("forwards")
@@ -100,7 +100,7 @@ class Walk:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """The FMU, and where it is unpacked."""
+    """Return the FMU, and its unpacked folder."""
     folder = tmp_path_factory.mktemp("walk")
     platform = local_platform(3)
     assert platform is not None
@@ -116,7 +116,7 @@ def walk(built: tuple[Path, str]) -> Iterator[Walk]:
 
 
 def refuse(walk: Walk, message: str, call: Any, *arguments: Any, **named: Any) -> None:
-    """The call ends with an error and this message, or with a part of it."""
+    """Assert that the call ends with an error whose message contains this one."""
     with pytest.raises(FMICallException):
         call(*arguments, **named)
     assert message in walk.log[-1]

@@ -36,7 +36,7 @@ pytestmark = pytest.mark.skipif(importlib.util.find_spec("ziglang") is None, rea
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """An FMU with the libraries of all platforms."""
+    """Build an FMU with the libraries of all platforms."""
     path = tmp_path_factory.mktemp("all") / f"{NAME}.fmu"
     return build_native_fmu(BLOCK, path, platforms=platforms_of(3), portable=True, fmi=3)
 

@@ -1,6 +1,6 @@
 """Whole systems of FMI 3.0 FMUs in a container of the FMU Manipulation Toolbox: the bits of `--algorithm jacobi`.
 
-The container is made of the components and connections of the exported .ssp, arrays as wholes, with the FMUs' starts
+The container consists of the components and connections of the exported .ssp, arrays as wholes, with the FMUs' starts
 instead of parameter sets, and is itself an FMU of FMI 3.0, which FMPy and Perilune fly.
 """
 
@@ -34,7 +34,7 @@ def quiet():
 
 
 def without_parameters(exported, path):
-    """The exported system without parameter bindings and evidence; its description, its files."""
+    """Return the exported system without parameter bindings and evidence; its description, its files."""
     with zipfile.ZipFile(exported) as archive:
         files = {name: archive.read(name) for name in archive.namelist() if not name.startswith("extra/")}
     root = etree.fromstring(files["SystemStructure.ssd"])
@@ -46,7 +46,7 @@ def without_parameters(exported, path):
 
 
 def make_container(folder, root, files, step):
-    """The container of a description: its FMUs by component, each connection as a link."""
+    """Write the container of a description: its FMUs by component, each connection as a link."""
     components = {each.get("name"): files[each.get("source")] for each in root.iter(f"{SSD}Component")}
     for name, content in components.items():
         (folder / f"{name}.fmu").write_bytes(content)

@@ -40,7 +40,7 @@ def quiet() -> None:
 
 
 def make_container(folder: Path) -> Path:
-    """The guidance's command on the switch's braking terminal; all else is the container's."""
+    """Write a container with the guidance's command on the switch's braking terminal; all else is the container's."""
     for block in (GUIDANCE, SWITCH):
         shutil.copy(fmi3_fmu(block), folder / f"{block.fmu_name}.fmu")
     guidance, switch = (f"{block.fmu_name}.fmu" for block in (GUIDANCE, SWITCH))

@@ -41,7 +41,7 @@ class Ours(Block):
 
 
 def build(block: type[Block], folder: Path, fmi: int = 2) -> Path:
-    """The native FMU of a block for this machine."""
+    """Build the native FMU of a block for this machine."""
     platform = local_platform(fmi)
     if platform is None:
         pytest.skip("no library for this machine")
@@ -49,7 +49,7 @@ def build(block: type[Block], folder: Path, fmi: int = 2) -> Path:
 
 
 def read(fmu: Path) -> tuple[dict[str, str], dict[str, bytes]]:
-    """The attributes of modelDescription.xml, and all files."""
+    """Return the attributes of modelDescription.xml, and all files."""
     with zipfile.ZipFile(fmu) as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
     return {str(k): str(v) for k, v in etree.fromstring(files["modelDescription.xml"]).attrib.items()}, files
@@ -57,7 +57,7 @@ def read(fmu: Path) -> tuple[dict[str, str], dict[str, bytes]]:
 
 @pytest.fixture(params=["native", "python", "fmi3"])
 def shipped(request: pytest.FixtureRequest, fmus: Path) -> tuple[str, Path]:
-    """A shipped FMU in each of its forms."""
+    """Return a shipped FMU in each of its forms."""
     if request.param == "fmi3":
         if local_platform(3) is None:
             pytest.skip("FMI 3.0 libraries are not compiled for this system")

@@ -41,7 +41,7 @@ FORMS = [
 
 
 def fly(block: type[Block], form: str, arguments: tuple[Any, ...], folder: Path) -> Flown:
-    """A flight of one form of a block by FMPy."""
+    """Simulate one form of a block by FMPy."""
     if form != "fmi3":
         return fly_fmi2(shipped_fmu(block.fmu_name, form), *arguments, folder)
     if local_platform(3) is None:
@@ -103,7 +103,7 @@ class Counted(Block):
 
 @pytest.fixture
 def counted(tmp_path: Path) -> tuple[Component, NativeInstance]:
-    """The block in Python and in C, started at 100 s."""
+    """Return the block in Python and in C, started at 100 s."""
     component = Component(Counted)
     component.start_time = 100.0
     component.start()

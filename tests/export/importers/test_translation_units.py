@@ -39,13 +39,13 @@ pytestmark = pytest.mark.skipif(shutil.which("cc") is None, reason="no system cc
 
 @pytest.fixture(scope="module")
 def system_fmu(fmus: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A system as one FMU, with two candidates of a slot."""
+    """Build a system as one FMU, with two candidates of a slot."""
     slots = {"guidance": ["analytic_guidance", "astar_guidance"]}
     return build_one(tmp_path_factory.mktemp("system") / "system.fmu", SYSTEM, slots)
 
 
 def unpack_sources(fmu: Path, folder: Path) -> list[str]:
-    """The `.c` files of an FMU's sources/, which are written to a folder."""
+    """Write the files of an FMU's sources/ to a folder; return the `.c` files."""
     with zipfile.ZipFile(fmu) as archive:
         names = [name for name in archive.namelist() if name.startswith("sources/")]
         archive.extractall(folder, names)
@@ -53,7 +53,7 @@ def unpack_sources(fmu: Path, folder: Path) -> list[str]:
 
 
 def listed(fmu: Path) -> list[str]:
-    """The files that an importer is to compile, as FMPy reads them of either version."""
+    """Return the files that an importer is to compile, as FMPy reads them of either version."""
     description = fmpy.read_model_description(str(fmu))
     sets = [each for configuration in description.buildConfigurations for each in configuration.sourceFileSets]
     return [name for each in sets for name in each.sourceFiles]
@@ -96,7 +96,7 @@ def test_every_c_file_of_a_system_is_a_translation_unit(system_fmu: Path, tmp_pa
 
 
 def compile_as_cpp(fmu: Path, compiler: str, folder: Path) -> bytes:
-    """The library of an FMU's sources, taken for C++17."""
+    """Compile the library of an FMU's sources, taken for C++17."""
     if shutil.which(compiler) is None:
         pytest.skip(f"no {compiler}")
     units = unpack_sources(fmu, folder)
@@ -106,7 +106,7 @@ def compile_as_cpp(fmu: Path, compiler: str, folder: Path) -> bytes:
 
 
 def with_library(fmu: Path, library: bytes, folder: Path) -> Path:
-    """The FMU with another library for this machine."""
+    """Return the FMU with another library for this machine."""
     files = read_zip(fmu)
     version = 3 if "sources/fmi3Functions.h" in files else 2
     (name,) = [name for name in files if name.startswith(f"binaries/{local_platform(version)}/")]

@@ -101,7 +101,7 @@ class Bad(Block):
 
 
 def block_of(folder: Path, step: str, functions: str = "") -> tuple[type[Block], Path]:
-    """A block with the given body of step, from a file of its own."""
+    """Return a block with this body of step, from a separate file."""
     file = folder / "bad.py"
     file.write_text(TEMPLATE.format(step=step.replace("\n", "\n        "), functions=functions), encoding="utf-8")
     spec = importlib.util.spec_from_file_location(f"bad_{abs(hash((step, functions)))}", file)

@@ -65,7 +65,7 @@ class Math(Block):
 
 @pytest.fixture(scope="module")
 def fmus(tmp_path_factory):
-    """The folder of the blocks as native FMUs."""
+    """Return the folder of the blocks as native FMUs."""
     folder = tmp_path_factory.mktemp("blocks")
     (folder / "blocks.py").write_text(BLOCKS)
     build_own_blocks(folder / "blocks.py", folder / "fmus", ["native"], [local_platform()])
@@ -74,7 +74,7 @@ def fmus(tmp_path_factory):
 
 @pytest.fixture
 def slotted(fmus, tmp_path):
-    """A system whose parameter k (m) goes to a component, and its two candidates."""
+    """Return a system whose parameter k (m) goes to a component, and its two candidates."""
     ssd = document(
         system(
             component("c", "in_metres", "parameter start Real; output y Real"),
@@ -106,7 +106,7 @@ def test_one_variable_cannot_stand_for_two_units(slotted, tmp_path):
 
 
 def test_what_one_candidate_has_alone(slotted, tmp_path):
-    """Closed form: 2 * 1.5 km and what is given."""
+    """Closed form: 2 * 1.5 km and the set value."""
     path, slots = slotted
     fmu = build_one(tmp_path / "one.fmu", path, slots, ["c.twice"], set={"c.in_kilometres.only": 0.25})
     assert [fly_one(fmu, {"c.use": number})["c.twice"][0] for number in (1, 2)] == [0.0, 3.25]

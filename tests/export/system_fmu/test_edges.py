@@ -31,7 +31,7 @@ PHASE = (
 
 @pytest.fixture
 def make(tiny_folder, tmp_path):
-    """A function from a root system to the system's file."""
+    """Return a function from a root system to the system's file."""
 
     def make(*elements, **more):
         times = {key: more.pop(key) for key in ("stop", "step", "more", "units") if key in more}
@@ -120,7 +120,7 @@ def test_wrong_faults(make, tmp_path):
 
 
 def test_outputs_depend_on_faults(make, tmp_path):
-    """Those of what an output follows at once, and not those behind a delay."""
+    """Faults of signals that an output follows at once, not those before a delay."""
     path = make(
         component("r", "ramp", RAMP),
         component("g", "gain", GAIN),
@@ -137,7 +137,7 @@ def test_outputs_depend_on_faults(make, tmp_path):
 
 
 def test_candidates_of_different_steps(make, tiny_folder, tmp_path):
-    """Where no description says it, the step is that of the FMUs."""
+    """Without a description's, the step is that of the FMUs."""
     file = tmp_path / "slow.py"
     file.write_text(SLOW)
     build_own_blocks(file, tmp_path / "fmus", ["native"], [local_platform()])

@@ -40,7 +40,7 @@ def fly(slave, steps, size=STEP):
 
 
 def test_a_state_goes_on_in_another_process(fmu, tmp_path):
-    """Bytes are all that it is given."""
+    """Bytes are all that it receives."""
     slave = Slave(fmu, tmp_path / "one", **{"guidance.use": 2, "navigation.seed": 5})
     fly(slave, 300)
     state = slave.fmu.getFMUstate()

@@ -52,7 +52,8 @@ class Wide(Block):
 
 @pytest.fixture(scope="module")
 def one(tmp_path_factory):
-    """The FMU of a system with an input u, whose parameter k is the factor of the slot's component and of another."""
+    """Build the FMU of a system with an input u, whose parameter k is the factor of the slot's
+    component and of another."""
     folder = tmp_path_factory.mktemp("blocks")
     (folder / "blocks.py").write_text(BLOCKS)
     build_own_blocks(folder / "blocks.py", folder / "fmus", ["native"], [local_platform()])
@@ -78,7 +79,7 @@ WIDE, NARROW = {"c.use": 1}, {"c.use": 2}
 
 
 def refused(one, folder, values):
-    """The messages of an instance that does not start."""
+    """Return the messages of an instance that does not start."""
     slave = Slave(one, folder)
     slave.fmu.reset()
     with pytest.raises(FMICallException):

@@ -62,7 +62,7 @@ def fly_with_faults(slave: Slave, faults: tuple[Fault, ...], steps: int) -> dict
 
 @pytest.mark.parametrize("algorithm", ["sequential", "jacobi"])
 def test_the_bits_of_the_system(path: Path, tmp_path: Path, algorithm: str) -> None:
-    """Of components before and behind others; a freeze keeps what a fault before it does not reach."""
+    """Components before and after others; a freeze keeps values that a fault before it does not reach."""
     names = [fault.name for fault in FAULTS]
     fmu = build_one(tmp_path / "one.fmu", path, exposed=SIGNALS, faulty=names, algorithm=algorithm)
     assert validate_fmu(str(fmu)) == []

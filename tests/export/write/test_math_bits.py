@@ -51,7 +51,7 @@ def ints(random: Random, count: int) -> list[int]:
 
 
 def python_result(function: Callable, *arguments: float) -> Result:
-    """What CPython does; an int that leaves 64 bits is the one error that only C has."""
+    """Return CPython's result; an int that leaves 64 bits is the one error that only C has."""
     try:
         value = function(*arguments)
     except (ArithmeticError, ValueError) as error:
@@ -62,7 +62,7 @@ def python_result(function: Callable, *arguments: float) -> Result:
 
 
 def bits(value: float | int | bool) -> object:
-    """A value to be compared bit by bit; all NaNs are one."""
+    """Return a value to be compared bit by bit; all NaNs are one."""
     if isinstance(value, float):
         return "nan" if math.isnan(value) else struct.pack("<d", value)
     return int(value)
@@ -125,13 +125,13 @@ def _source() -> bytes:
 
 @cache
 def harness(portable: bool) -> ctypes.CDLL:
-    """The compiled cases, by the system's compiler or by zig."""
+    """Compile the cases, by the system's compiler or by zig."""
     sources = {"harness.c": _source(), "kernel_math.h": (C_FILES / "kernel" / "kernel_math.h").read_bytes()}
     return load(sources, "harness.c", portable)
 
 
 def c_results(name: str, portable: bool, columns: list[list]) -> list[Result]:
-    """What C does, per sample."""
+    """Return the results of C, per sample."""
     _, kinds, returned, _ = CASES[name]
     count = len(columns[0])
     inputs = [(C_BUFFERS[kind] * count)(*column) for kind, column in zip(kinds, columns, strict=True)]

@@ -32,7 +32,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def complex_momentum(angles):
-    """The cluster's momentum as printed, for complex angles too."""
+    """Return the cluster's momentum as printed, for complex angles too."""
     c, s = np.cos(angles), np.sin(angles)
     return np.array([c.sum(), s[0] + s[1], s[2] + s[3]])
 
@@ -43,7 +43,7 @@ def matrix(angles):
 
 
 def residual(angles):
-    """The law u - v + rho (u v - 1), from the angles, which may be complex."""
+    """Return the law u - v + rho (u v - 1), from the angles, which may be complex."""
     c, s = np.cos(angles), np.sin(angles)
     u = (c[0] + c[1]) / np.sqrt(4.0 - (s[0] + s[1]) ** 2)
     v = (c[2] + c[3]) / np.sqrt(4.0 - (s[2] + s[3]) ** 2)
@@ -199,7 +199,7 @@ def test_robust_rates_are_the_pseudo_inverse_away_from_singular_states(seed):
 @given(seeds, st.sampled_from([0.0, 0.2, 0.45]), st.floats(0.0, 10.0))
 @settings(max_examples=either(300, 75), deadline=None)
 def test_robust_rates_near_singular_states_solve_the_damped_problem(seed, swing, time):
-    """Against numpy's solution of A W A' + k E; bounded by |A|/k times the wanted rate."""
+    """Against numpy's solution of A W A' + k E; bounded by |A|/k times the demanded rate."""
     random = np.random.default_rng(seed)
     angles = np.repeat(random.uniform(-4.0, 4.0, 2), 2) + random.normal(size=4) * 10.0 ** random.uniform(-9.0, -1.0)
     wanted = random.normal(size=3)

@@ -96,7 +96,7 @@ def programmes(wrenches, maximum=MAXIMUM):
 
 
 def largest_scale(wrench, maximum=MAXIMUM):
-    """How much of a wrench the jets can give, by linear programming."""
+    """Return the share of a wrench that the jets can give, by linear programming."""
     matrix = np.hstack([B, -np.asarray(wrench)[:, None]])
     bounds = [(0.0, maximum)] * 8 + [(0.0, None)]
     return -linprog([0.0] * 8 + [-1.0], A_eq=matrix, b_eq=np.zeros(6), bounds=bounds, method="highs").fun
@@ -288,7 +288,7 @@ def test_lattice_of_forces_without_torque():
 
 @cache
 def lattice(highest):
-    """The lattice from its description, which the test above has searched for."""
+    """Return the lattice from its description, which the test above has searched for."""
     points = np.array(list(itertools.product(range(-2 * highest, 2 * highest + 1), repeat=3)))
     sizes = np.abs(points)
     return points[(points % 2 == points[:, :1] % 2).all(axis=1) & (sizes.sum(1) - sizes.min(1) <= 2 * highest)]

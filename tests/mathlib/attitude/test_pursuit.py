@@ -43,7 +43,7 @@ def followed(base, rate, end, step, response, limit, start=START):
 
 
 def integrated(base, rate, end, response, limit, start=START):
-    """The same by DOP853."""
+    """Integrate the same by DOP853."""
 
     def slope(s, y):
         goal = unit(np.add(base, np.multiply(rate, s)))
@@ -91,7 +91,7 @@ def test_limit_alone_catches_a_goal_at_rest_after_angle_over_limit(apart):
 
 
 def test_goal_that_turns_steadily_is_followed_at_response_times_rate():
-    """The goal is given anew in every step, as a guidance does; started on the steady angle."""
+    """The goal is set again in every step, as a guidance does; started on the steady angle."""
     response, rate, step = 0.5, 0.3, 0.05
     behind = Rotation.from_rotvec([0.0, 0.0, -response * rate])
     direction = vector(*behind.apply([1.0, 0.0, 0.0]))

@@ -32,7 +32,7 @@ def test_axes_of_a_rotation(seed):
 @pytest.mark.parametrize("axis", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.36, -0.48, 0.8]])
 @pytest.mark.parametrize("angle", [0.0, 1e-9, math.pi / 2.0, math.pi - 1e-9, math.pi])
 def test_axes_of_half_a_turn_and_of_no_turn(axis, angle):
-    """Where three of four components or the scalar are near 0."""
+    """Three of four components or the scalar are near 0."""
     truth = Rotation.from_rotvec(angle * np.array(axis))
     q = from_axes(*(vector(*column) for column in truth.as_matrix().T))
     assert (rotation(q).inv() * truth).magnitude() < 1e-14
@@ -40,7 +40,7 @@ def test_axes_of_half_a_turn_and_of_no_turn(axis, angle):
 
 @given(seeds)
 def test_two_directions_have_the_rotation_between_their_frames(seed):
-    """Of any length; and x of `from_pair` is along the first, z across both."""
+    """Directions of any length; and x of `from_pair` is along the first, z across both."""
     random = np.random.default_rng(seed)
     truth, first, second = Rotation.random(rng=random), random.normal(size=3), 10.0 * random.normal(size=3)
     sine = np.linalg.norm(np.cross(first, second)) / np.linalg.norm(first) / np.linalg.norm(second)

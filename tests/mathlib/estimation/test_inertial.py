@@ -53,7 +53,7 @@ def test_dead_reckoning_follows_the_equations_of_motion():
 
 
 def measured(errors, f):
-    """The specific force with an inertial sensor's errors (bias, scale factors, rotation), by numpy."""
+    """Return the specific force with an inertial sensor's errors (bias, scale factors, rotation), by numpy."""
     return f + errors[:3] + errors[3:6] * f + np.cross(errors[6:], f)
 
 

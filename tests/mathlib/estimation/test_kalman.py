@@ -25,12 +25,12 @@ def random_system(generator, n):
 
 
 def column(x):
-    """A column of ours."""
+    """Return a column of ours."""
     return Matrix([[element] for element in x.tolist()])
 
 
 def row(h):
-    """A row of ours."""
+    """Return a row of ours."""
     return Matrix([h.tolist()])
 
 

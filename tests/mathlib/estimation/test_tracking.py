@@ -25,7 +25,7 @@ def matrices(rate_noise, disturbance_noise, h, n):
 
 
 def predict(p, rate_noise, disturbance_noise, h):
-    """The covariance of two or of three ahead."""
+    """Return the covariance of two or of three ahead."""
     return predict_pair(p, rate_noise, h) if len(p) == 2 else predict_triple(p, rate_noise, disturbance_noise, h)
 
 

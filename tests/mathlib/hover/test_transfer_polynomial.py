@@ -43,7 +43,7 @@ DERIVATIVES = (transfer_position, transfer_velocity, transfer_acceleration, tran
 
 
 def made(start, goal, duration):
-    """The transfer, and scipy's polynomial."""
+    """Return the transfer, and scipy's polynomial."""
     c = transfer(*(vector(*v) for v in start), vector(*goal), duration)
     ends = [list(map(np.array, start)), [np.array(goal), np.zeros(3), np.zeros(3), np.zeros(3)]]
     return c, BPoly.from_derivatives([0.0, duration], ends)

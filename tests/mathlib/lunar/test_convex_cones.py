@@ -61,7 +61,7 @@ def get(c, field, size):
 
 
 def product(x, y):
-    """The product of the cone's algebra."""
+    """Return the product of the cone's algebra."""
     return np.concatenate([[x @ y], x[0] * y[1:] + y[0] * x[1:]])
 
 

@@ -31,7 +31,7 @@ SEED = 20
 
 
 def task_of(descent):
-    """The same descent for the blocks."""
+    """Return the same descent for the blocks."""
     return DescentTask(
         position=vector(*descent.position.tolist()),
         velocity=vector(*descent.velocity.tolist()),
@@ -71,7 +71,7 @@ def test_a_settled_plan_is_that_of_another_solver(descent, time):
 
 
 def random_start(random, kind):
-    """A start and a time: braking, or near the ground with glide slope and tilt."""
+    """Draw a start and a time: braking, or near the ground with glide slope and tilt."""
     if kind < 2:
         base, time = ((C1, 200.0), (C2, 300.0))[kind]
         position = base.position * random.uniform(0.97, 1.03) + np.array([0.0, random.uniform(-3e3, 3e3), 0.0])

@@ -1,6 +1,6 @@
-"""The Moon's sphere seen from the landing site: `perilune.fmus_src.mathlib.lunar.gravity`.
+"""The Moon's sphere relative to the landing site: `perilune.fmus_src.mathlib.lunar.gravity`.
 
-Truth: exact cases above, beside and below the site, and gravity as the gradient of mu/distance by central
+Truth: exact cases above, below and to the side of the site, and gravity as the gradient of mu/distance by central
 differences of numpy (tolerance 1e-8 relative, the differences' own error); its size mu/distance^2 to 1e-14.
 """
 

@@ -179,7 +179,7 @@ def test_the_time_of_a_jerk_is_the_root_of_klumpp_s_cubic(leg, seed, printed):
 
 @pytest.mark.parametrize("jerk", [-0.5, -0.2])
 def test_a_jerk_without_a_time(jerk):
-    """Of the wrong sign, the only real root of the cubic lies behind the target."""
+    """A jerk of the wrong sign: the only real root of the cubic is after the target."""
     way, gain = C1.errors(200.0)
     forward = np.array([-1.0, 0.0, 0.0])
     constant = np.array([5.0, 0.0, 2.2 - C1.gravity])

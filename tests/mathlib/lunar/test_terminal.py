@@ -26,7 +26,7 @@ ZERO = [0.0, 0.0, 0.0]
 
 
 def on_sequences(function):
-    """A kernel function that takes any sequences for its vectors."""
+    """Return a kernel function that takes any sequences for its vectors."""
     return lambda *arguments: function(*[vector(*each) if np.ndim(each) else each for each in arguments])
 
 
@@ -49,7 +49,7 @@ def impulse(dr, v, dv, time, g=GRAVITY):
 
 
 def polynomials(dr, v, dv, g=GRAVITY):
-    """A and B, component by component, as polynomials of time-to-go."""
+    """Return A and B, component by component, as polynomials of time-to-go."""
     impulses = [Polynomial([dv[i], g * UP[i]]) for i in range(3)]
     misses = [Polynomial([dr[i], -v[i], 0.5 * g * UP[i]]) for i in range(3)]
     return impulses, misses

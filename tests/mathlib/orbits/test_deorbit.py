@@ -1,7 +1,7 @@
-"""Where one is on the orbit and how long to brake: `perilune.fmus_src.mathlib.orbits.deorbit` and `landing_site`.
+"""Position on the orbit and duration of braking: `perilune.fmus_src.mathlib.orbits.deorbit` and `landing_site`.
 
-Truth: the motion itself, integrated by scipy (the burn's orbit comes down to the pericentre), rotations by scipy, plain
-geometry of the sphere, and properties: a moved site lies on the sphere, a re-designation never exceeds its reach.
+Truth: the motion itself, integrated by scipy (the burn's orbit descends to the pericentre), rotations by scipy, plain
+geometry of the sphere, and properties: a moved site is on the sphere, a re-designation never exceeds its reach.
 """
 
 import math

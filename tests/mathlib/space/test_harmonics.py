@@ -72,7 +72,7 @@ def test_sums_of_the_coefficients():
 
 @cache
 def legendre(n, m):
-    """The m-th derivative of the Legendre polynomial P_n: exact coefficients in ascending powers."""
+    """Return the m-th derivative of the Legendre polynomial P_n: exact coefficients in ascending powers."""
     before, polynomial = [Fraction(1)], [Fraction(0), Fraction(1)]
     for k in range(1, n):
         longer = [Fraction(0), *(Fraction(2 * k + 1, k + 1) * c for c in polynomial)]
@@ -86,7 +86,7 @@ def legendre(n, m):
 
 
 def potential(x, y, z, degree):
-    """The Earth's potential from the definition: P_nm(s) = (1 - s^2)^(m/2) d^m P_n/ds^m."""
+    """Return the Earth's potential from the definition: P_nm(s) = (1 - s^2)^(m/2) d^m P_n/ds^m."""
     r = mpmath.sqrt(x * x + y * y + z * z)
     longitude, sine = mpmath.atan2(y, x), z / r
     total = mpmath.mpf(1)

@@ -39,7 +39,7 @@ def test_half_shadow(kilometres):
 
 @given(st.floats(0.0, 1.0))
 def test_half_shadow_by_quadrature(fraction):
-    """Both disks as circles in a plane: the visible part of the Sun's, strip by strip."""
+    """Both disks as circles in a plane: the visible area of the Sun's, strip by strip."""
     y = 6.3675e6 + 2.0e4 * fraction
     position = np.array([-2e6, y, 0.0])
     away = np.array(SUN) - position

@@ -56,7 +56,7 @@ def test_moon():
 @pytest.mark.parametrize("axes", [lambda t: earth_axes(t, TT_MINUS_UT1), moon_axes])
 @given(t=st.floats(6e8, 1.2e9), later=st.floats(-10.0, 10.0))
 def test_axes_of_seconds_ago(axes, t, later):
-    """The angle goes on; the pole, and the Moon's librations, move by less than 1e-7 rad in ten seconds."""
+    """The angle continues; the pole, and the Moon's librations, move by less than 1e-7 rad in ten seconds."""
     fixed_pole = matrix(axes(t), t + later)
     assert np.abs(fixed_pole - matrix(axes(t + later), t + later)).max() < 1e-7
     assert np.abs(fixed_pole @ fixed_pole.T - np.eye(3)).max() < 1e-14

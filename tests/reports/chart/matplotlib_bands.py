@@ -10,7 +10,7 @@ from tests.support.figures.read_figure import read_charts
 
 
 def read_bands(bands: Bands, frame: Frame, colour: str, *, is_stepped: bool) -> Chart:
-    """The chart of `band_chart` whose range is not clipped."""
+    """Return the chart of `band_chart` whose range is not clipped."""
     with house_style():
         figure = new_figure(2.1, 3.4)
         axes = figure.subplots()

@@ -17,7 +17,7 @@ from tests.support.figures.read_figure import read_charts
 
 
 def read_distribution(metric: Metric, samples: Mapping[str, np.ndarray], styles: Sequence[Look]) -> Chart:
-    """The chart of `distribution_chart`, of series that have several finite numbers."""
+    """Return the chart of `distribution_chart`, of series that have several finite numbers."""
     with house_style():
         figure = new_figure(2.5, 3.4)
         axes = figure.subplots()

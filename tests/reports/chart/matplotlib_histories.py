@@ -42,7 +42,7 @@ def _read(unit: str, time: np.ndarray, draw: Callable[[Axes], None], width: floa
 
 
 def error_charts(error: Error, run: Result) -> list[Chart]:
-    """The panels of an error, as `history_figures` orders them."""
+    """Return the panels of an error, as `history_figures` orders them."""
     chosen, rows = select_rows(error.rows, run)
     time = run.time[rows]
     values = np.where(chosen, error.estimate.values(run) - error.truth.values(run), np.nan)[:, rows]
@@ -70,7 +70,7 @@ def error_charts(error: Error, run: Result) -> list[Chart]:
 
 
 def curve_charts(curve: Curve, run: Result) -> list[Chart]:
-    """The plot of curves as wide as the page, or their panels."""
+    """Return the plot of curves as wide as the page, or their panels."""
     chosen, rows = select_rows(curve.rows, run)
     time = run.time[rows]
     values = [np.where(chosen, signal.values(run)[0], np.nan)[rows] for signal in curve.signals]
@@ -93,7 +93,7 @@ def curve_charts(curve: Curve, run: Result) -> list[Chart]:
 
 
 def band_charts(band: Band, run: Result) -> list[Chart]:
-    """The whole history of a band and its zoom."""
+    """Return the whole history of a band and its zoom."""
     time, name = run.time, band.signal.unit_name
     factor = display_factor(name)
     row = band_figure.settling_row(np.logical_and.reduce(band_figure.inside(band, run)))

@@ -27,7 +27,7 @@ def _read(draw: Callable[[Axes], None], height: float, width: float) -> Chart:
 
 
 def path_chart(path: Path, run: Result, height: float, width: float, intervals: int) -> Chart:
-    """A path of scalars in m whose axes have scales of their own."""
+    """Return a path of scalars in m whose axes have separate scales."""
     chosen, rows = select_rows(path.rows, run)
 
     def line(signal: Signal) -> np.ndarray:
@@ -56,7 +56,7 @@ def path_chart(path: Path, run: Result, height: float, width: float, intervals: 
 
 
 def against_chart(band: Band, run: Result, other: Signal, height: float, width: float) -> Chart:
-    """A band over another signal that spans no decades."""
+    """Return a band over another signal that spans no decades."""
 
     def draw(axes: Axes) -> None:
         across = other.plot_values(run)[0]

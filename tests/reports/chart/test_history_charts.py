@@ -31,7 +31,7 @@ FLOATS = re.compile(r"-?(?:\d+\.?\d*|\.\d+)")
 
 
 def read_back(group, run, reduced):
-    """The chart of a panel that matplotlib draws."""
+    """Return the chart of a panel that matplotlib draws."""
     with house_style():
         figure = new_figure(HEIGHT, PANEL_WIDTH)
         axes = figure.subplots()
@@ -106,7 +106,7 @@ def test_constructed_equals_read_back(system):
 
 @pytest.fixture(scope="module")
 def odd(fmus):
-    """A run whose signals have spikes, gaps, lone samples and nothing finite."""
+    """Return a run whose signals have spikes, gaps, lone samples and nothing finite."""
     run = perilune.simulate("satellite_pointing", stop_time=20.0)
     names = [name for name in run.signals if run.types[name] == "Real" and "[" not in name][:5]
     size = run.time.size

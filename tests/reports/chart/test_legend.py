@@ -1,6 +1,6 @@
 """Legends of charts.
 
-Truth: the curves that the chart was made of.
+Truth: the curves of the chart.
 """
 
 from __future__ import annotations

@@ -44,7 +44,7 @@ UNIT = linear_axis((0.0, 1.0), 4)
 
 
 def draw(chart, **options):
-    """The laid out chart, and the root of its picture."""
+    """Return the laid out chart, and the root of its picture."""
     placed = lay_out_fluid(chart, WIDTH, HEIGHT)
     return placed, etree.fromstring(str(write_svg(placed, "a", "what it shows", WIDTH, HEIGHT, **options)))
 

@@ -1,4 +1,4 @@
-"""What pages show at first sight, and how readers get to the rest: contents, search, keys, with scripts and without.
+"""First screen of pages, and the ways to the rest: contents, search, keys, with scripts and without.
 
 Truth: what a browser lays out, and the words of the page.
 """

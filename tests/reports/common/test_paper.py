@@ -1,4 +1,4 @@
-"""How many sheets pages take, and that what is left out on paper is said there.
+"""Number of sheets of pages, and notes on paper about omitted content.
 
 Truth: the sheets that a browser prints, on letter and, in full length, on A4.
 """
@@ -63,6 +63,6 @@ def test_a_stability_study_is_short(browser, tmp_path, studies, times, full):
 
 
 def larger(loop, factor, number):
-    """A loop whose response is larger by a factor."""
+    """Return a loop whose response is larger by a factor."""
     curve = replace(loop.curve, value=factor * loop.curve.value)
     return replace(loop, curve=curve, name=f"{loop.name} {number}")

@@ -24,14 +24,14 @@ def lines(figure):
 
 
 def colours(figure):
-    """An image, which is no vector, and its colour bar."""
+    """Draw an image, which is no vector, and its colour bar."""
     axes = figure.subplots()
     figure.colorbar(axes.imshow(np.arange(12.0).reshape(3, 4)), label="share")
     axes.set_xlabel("column")
 
 
 def saved(figure, text_as_paths):
-    """What savefig writes."""
+    """Return the output of savefig."""
     content = io.BytesIO()
     with matplotlib.rc_context({"svg.hashsalt": "it", "svg.fonttype": "path" if text_as_paths else "none"}):
         figure.savefig(content, format="svg", dpi=200, metadata={"Date": None, "Creator": None})

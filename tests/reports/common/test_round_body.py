@@ -1,6 +1,6 @@
 """perilune.analysis.reports.common.round_body against spherical trigonometry.
 
-Truth: orbits whose angles along and across a great circle are given, turned about the body's centre.
+Truth: orbits with known angles along and across a great circle, turned about the body's centre.
 """
 
 import math

@@ -21,7 +21,7 @@ DIGITS = {"1", "2", "25", "3", "4", "5", "6", "7", "8", "9"}  # of a step, and o
 
 
 def zoomed(random, low, high, *, logarithmic):
-    """The ends of a zoom or a pan, of a range that is many times smaller or as large."""
+    """Draw the ends of a zoom or a pan, of a range that is many times smaller or as large."""
     if logarithmic:
         ratio = (high / low) ** random.choice([1.0, random.random(), 1e-3 * random.random(), 1e-9])
         at = low * (high / low) ** random.random()

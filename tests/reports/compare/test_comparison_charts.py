@@ -27,7 +27,7 @@ AXES = ("north", "west", "up")
 
 
 def has_axes(panel, abscissa, ordinate):
-    """True if its picture has these words at its axes."""
+    """Return True if its picture has these words at its axes."""
     return panel.figure.charts[0].x.label == abscissa and f">{ordinate}<" in str(panel.figure.svg)
 
 
@@ -91,7 +91,7 @@ def test_overlaid_lines_are_in_the_order_of_the_legend():
 
 
 def is_to_scale(chart, width, height):
-    """True if a unit is equally long on both axes."""
+    """Return True if a unit is equally long on both axes."""
     _, _, across, up = chart.box
     along_x, along_y = width * across / np.ptp(chart.x.ends), height * up / np.ptp(chart.y.ends)
     return along_x == pytest.approx(along_y, rel=1e-4)

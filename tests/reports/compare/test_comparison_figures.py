@@ -1,7 +1,7 @@
-"""What the comparison's figures show: bands over time, paths, ellipses, and which signals become which quantities.
+"""Content of the comparison's figures: bands over time, paths, ellipses, and quantities of signals.
 
-Truth: percentiles, norms and projections computed here with numpy from the traces; properties of ellipses
-(points of the k-sigma ellipse are k away in Mahalanobis' distance, and hold the share that they should).
+Truth: percentiles, norms and projections computed here with numpy from the traces; properties of ellipses (points of
+the k-sigma ellipse are k away in Mahalanobis' distance, and hold the share that they should).
 """
 
 import re

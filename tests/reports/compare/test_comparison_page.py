@@ -1,6 +1,6 @@
 """perilune.analysis.reports.compare.page: the numbers on the page, and what it says where something is missing.
 
-Truth: the same numbers computed here with numpy and scipy from the parquet files; batches made by hand.
+Truth: the same numbers computed here with numpy and scipy from the parquet files; hand-written batches.
 """
 
 import json
@@ -55,13 +55,13 @@ def numbers(element):
 
 
 def table_rows(element, columns):
-    """Exact numbers of the rows of a section's tables that have so many."""
+    """Return exact numbers of the rows of a section's tables that have ``columns`` of them."""
     actual = [numbers(row) for row in element.xpath(".//tbody/tr")]
     return [row for row in actual if len(row) == columns]
 
 
 def statistics_of(values):
-    """What a metric's row says, in its order."""
+    """Return the statistics in a metric's row, in its order."""
     quantiles = np.quantile(values, [0.05, 0.5, 0.95, 0.99], method="inverted_cdf")
     rms = math.sqrt(np.mean(values**2))
     return [values.mean(), values.std(ddof=1), rms, values.min(), *quantiles, values.max(), len(values)]
@@ -142,7 +142,7 @@ def test_metrics_of_the_successful_and_of_all_trials(page, trials):
 
 
 def test_a_quantile_printed_twice_is_one_number(tmp_path):
-    """Misses without a vertical part: the metric's table and that of the ends tell of the same numbers."""
+    """Misses without a vertical component: the metric's table and that of the ends have the same numbers."""
     write_sample(tmp_path / "out", flat=True)
     page = write([tmp_path / "out"], tmp_path / "page.html")
     metric = table_rows(section_of(page, "Metrics of the successful trials"), 10)[:3]

@@ -9,7 +9,7 @@ from tests.support.pages.scripts import require_scripts
 
 @pytest.fixture(scope="session")
 def layout_bundle() -> str | None:
-    """The script: `make web`."""
+    """Return the script: `make web`."""
     require_scripts()
     return read_bundle("layout")
 

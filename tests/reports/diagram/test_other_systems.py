@@ -24,13 +24,13 @@ DELAY = component("delay", "delay", "input u Real m; output y Real m")
 
 @pytest.fixture
 def native(tiny_folder):
-    """The tiny FMUs, which are not loaded here."""
+    """Return the tiny FMUs, which are not loaded here."""
     return tiny_folder / "native"
 
 
 @pytest.fixture
 def figure(native, tmp_path):
-    """The diagram of a system, packed with further files, and its table of connections."""
+    """Return the diagram of a system, packed with further files, and its table of connections."""
 
     def draw(root, faults=(), files=None, **options):
         path = pack(tmp_path / "system.ssp", native, document(root), **(files or {}))

@@ -27,7 +27,7 @@ SMALL = "lunar_descent_2d"
 
 @pytest.fixture(scope="module")
 def page_of(tmp_path_factory):
-    """The page of a system, written once by the command line."""
+    """Return the page of a system, written once by the command line."""
     pages = {}
 
     def write(name):
@@ -126,7 +126,7 @@ def test_the_page_of_a_run_has_it_with_faults(tmp_path):
 @pytest.mark.usefixtures("layout_bundle")
 @pytest.mark.parametrize("width", [1400, 390])
 def test_in_a_browser(browser, page_of, tmp_path, width):
-    """Nothing is wider than the window: on a narrow one, which a frame is, the diagram scrolls in its box."""
+    """No element is wider than the window: on a narrow one, which a frame is, the diagram scrolls in its box."""
     picture, page = tmp_path / "page.png", tmp_path / "page.html"
     frame = f'<iframe src="{page_of(LARGEST).as_uri()}" style="border: 0; width: {width}px; height: 3000px"></iframe>'
     page.write_text(f'<!DOCTYPE html><body style="margin: 0">{frame}')

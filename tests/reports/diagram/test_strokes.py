@@ -15,7 +15,7 @@ steps = st.lists(st.integers(0, SIZE), min_size=2, max_size=5)
 
 
 def corners(numbers):
-    """A line that goes to abscissas and ordinates in turn."""
+    """Return a line that goes to abscissas and ordinates in turn."""
     points = [(0.0, 0.0)]
     for position, number in enumerate(numbers):
         x, y = points[-1]
@@ -24,7 +24,7 @@ def corners(numbers):
 
 
 def halves(points):
-    """The middles of the unit lengths that a line covers."""
+    """Return the middles of the unit lengths that a line covers."""
     middles = set()
     for (x0, y0), (x1, y1) in pairwise(points):
         for k in range(int(min(x0, x1)), int(max(x0, x1))):

@@ -26,7 +26,7 @@ RING = 60
 
 @pytest.fixture(scope="module")
 def folder_of(tmp_path_factory):
-    """The folder of a system by name; a ring is written."""
+    """Return the folder of a system by name; a ring is written."""
 
     def find(name):
         if name != "ring":
@@ -42,7 +42,7 @@ def folder_of(tmp_path_factory):
 
 @pytest.fixture(scope="module", params=[*system_names(), "ring"])
 def figure(request, folder_of):
-    """The SSD's root, and the diagram."""
+    """Return the SSD's root, and the diagram."""
     folder = folder_of(request.param)
     prepared = prepare_system(folder)
     svg = make_diagram(prepared).svg

@@ -1,4 +1,4 @@
-"""What figures a system asks for, and that everything wrong in it ends in one line that names the place.
+"""Declared figures of a system, and their errors, each in one line that names the place.
 
 Truth: the declaration as written, the number of the line on which its wrong element begins, and the factors of units.
 """
@@ -37,7 +37,7 @@ def loaded():
 
 @pytest.fixture
 def tiny(tiny_folder):
-    """The tiny FMUs, of which the declarations alone count here."""
+    """Return the tiny FMUs, of which the declarations alone count here."""
     return tiny_folder / "native"
 
 
@@ -245,7 +245,7 @@ def test_signals_are_those_that_a_flight_records(tiny, tmp_path):
 
 
 def swapped(tmp_path, tiny, inside, use):
-    """A system of an angle and a ramp, without declared connectors, with an FMU put in."""
+    """Return a system of an angle and a ramp, without declared connectors, with an FMU put in."""
     parts = system(component("body", "angle"), component("ramp", "ramp"))
     path = pack(tmp_path / "s.ssp", tiny, with_report(document(parts), inside))
     options = SystemOptions(use={slot: str(tiny / f"{name}.fmu") for slot, name in use.items()})

@@ -31,7 +31,7 @@ def loaded():
 
 @pytest.fixture
 def read(tmp_path, loaded):
-    """The figures of a system with this in its report, and these frames."""
+    """Read the figures of a system with this in its report, and these frames."""
 
     def read_report(inside, frames=FRAMES):
         folder = tmp_path / NAME

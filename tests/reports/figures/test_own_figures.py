@@ -1,6 +1,6 @@
 """The figures that a system asks for, on the page of a run.
 
-Truth: histories made by hand, whose answers can be said; and of a flight its own record, counted here row by row.
+Truth: hand-written histories with closed-form answers; and of a flight its own record, counted here row by row.
 """
 
 import math
@@ -66,7 +66,7 @@ def values_in(*markups):
 
 
 def texts(figure):
-    """What is written in a figure."""
+    """Return the texts in a figure."""
     return {text.strip() for text in etree.fromstring(figure).xpath("//*[local-name()='text']/text()")}
 
 
@@ -217,7 +217,7 @@ def test_many_pulses_stay_small():
 
 
 def test_an_error_within_its_sigma():
-    """Of four rows one is within sigma and three within three of it; 301 rows from 50 s on begin with the first."""
+    """One of four rows is within sigma and three within three of it; 301 rows from 50 s on begin with the first."""
     actual = one(ERROR, flown(**errors()))
     inside = sum(1 for row in range(100, ROWS) if row % 4 == 0) / 301
     within = sum(1 for row in range(100, ROWS) if row % 4 != 3) / 301
@@ -275,7 +275,7 @@ def test_short_runs(rows):
 
 
 def settled(time, *conditions):
-    """The time of the first row from which on all conditions hold to the last one."""
+    """Return the time of the first row from which on all conditions hold to the last one."""
     row = len(time)
     while row and all(condition[row - 1] for condition in conditions):
         row -= 1

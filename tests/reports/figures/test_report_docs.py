@@ -26,7 +26,7 @@ def test_every_element_and_attribute_is_documented():
 
 
 def test_every_shape_has_a_script():
-    """Which draws nothing of a shape that it does not know."""
+    """Scripts draw nothing of a shape that they do not know."""
     script = Path(ROOT, "web", "scene", "objects", "shapes.ts").read_text(encoding="utf-8")
     builders = re.search(r"const BUILDERS: [^{]*\{(.*?)\}", script, re.DOTALL)[1]
     assert sorted(re.findall(r"\w+", builders)) == sorted(SHAPES)

@@ -1,6 +1,6 @@
 """Phases, budgets, limits, paths and curves on the page of a run.
 
-Truth: a run made by hand, whose phases, sums and places can be said.
+Truth: a hand-written run with known phases, sums and places.
 """
 
 import math
@@ -102,7 +102,7 @@ def test_statuses_where_they_rise():
 
 
 def test_statuses_with_times_of_their_own():
-    """Of three statuses the second was first, and the third never."""
+    """The second of three statuses was first, and the third never."""
     requested = replace(PHASES, status=None, status_times=vector("ship.times", 3, SECOND))
     times = np.stack([np.where(TIME < 60.0, -1.0, 60.0), np.where(TIME < 30.0, -1.0, 30.0), np.full(TIME.size, -1.0)])
     assert statuses_of(requested, mission(times=times)) == [(2, 30.0), (1, 60.0)]
@@ -199,7 +199,7 @@ def test_limits_at_the_end():
     ],
 )
 def test_limits_that_are_not_evaluated(changed, ended, why):
-    """What stands in the last row of a flight without the event, or without an end, is held against nothing."""
+    """Values of the last row of a flight without the event, or without an end, are compared with no limit."""
     requested = replace(LIMITS, when=scalar("ship.done"))
     flight = replace(mission(**changed), status=ended)
     section = one(requested, flight)

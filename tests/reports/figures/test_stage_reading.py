@@ -150,7 +150,7 @@ STORED = StoredBound(400.5, 290.0, 240, (), {"braking": 399.0, "transfer": 21.0}
 
 
 def keep(monkeypatch, bound):
-    """The system declares a bound of these inputs, and this is kept of it."""
+    """Declare a bound of these inputs for the system, and store this one of it."""
     monkeypatch.setattr(stage_readers, "read_inputs", lambda prepared: INPUTS)
     monkeypatch.setattr(stage_readers, "find_bound", lambda prepared: bound)
 

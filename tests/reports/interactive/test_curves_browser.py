@@ -53,7 +53,7 @@ POINT = "document.querySelector(arguments[0]).dispatchEvent(new PointerEvent('po
 
 
 def panel_of(driver, label):
-    """The area of the plot of a signal over time, scrolled to."""
+    """Return the area of the plot of a signal over time, scrolled to."""
     frame = driver.find_element(By.XPATH, f"//*[@aria-label='{label} over time']/..")
     area = scroll_to_plot(driver, frame)
     return frame.find_element(By.CSS_SELECTOR, ".chart"), area
@@ -69,7 +69,7 @@ def drag(driver, area, begin, end):
 
 
 def values_of(table, label, row):
-    """What a panel shall show of a signal at a row."""
+    """Return the values that a panel shall show of a signal at a row."""
     names = elements(label, table.column_names)
     unit = UNITS.get(label.rpartition(".")[2])
     return [number(float(np.float32(table[name][row].as_py())) * display_factor(unit), 6) for name in names], unit

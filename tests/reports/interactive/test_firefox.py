@@ -25,7 +25,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 @pytest.fixture(scope="module")
 def observed(flight, batch):
-    """What the pages show."""
+    """Return the observations of the pages."""
     firefox = shutil.which("firefox-esr") or shutil.which("firefox")
     if firefox is None or not (PACKAGES / "puppeteer-core").is_dir():
         if os.environ.get("PERILUNE_REQUIRE_FIREFOX") == "1":

@@ -17,7 +17,7 @@ from tests.support.scenes.made import vector
 
 
 def recorded(trial, rows, *, failed=False, without=()):
-    """A descent of so many samples, half a second each, each trial 10 m further aside."""
+    """Return a descent of ``rows`` samples, half a second each, each trial 10 m further aside."""
     flight, _ = descent(rows=rows)
     flight.signals["ship.position[2]"] = flight.signals["ship.position[2]"] + 10.0 * trial
     for name in without:

@@ -26,7 +26,7 @@ ROUNDED = 2.5e-4  # tenths of 260
 
 
 def fly(direction):
-    """A body with a random attitude at a point, and an arrow's direction at both its samples."""
+    """Return a body with a random attitude at a point, and an arrow's direction at both its samples."""
     rotation = Rotation.random(rng=RANDOM)
     quaternion = np.tile(rotation.as_quat(scalar_first=True)[:, None], 2)
     signals = {"position": np.tile(POINT[:, None], 2), "attitude": quaternion, "way": np.tile(direction[:, None], 2)}
@@ -34,7 +34,8 @@ def fly(direction):
 
 
 def seen(point):
-    """A pinhole camera 3.6 diagonals from the body, 2.5 rad about z from x and 0.25 rad above, that looks at it."""
+    """Return the picture point by a pinhole camera 3.6 diagonals from the body, 2.5 rad about z
+    from x and 0.25 rad above."""
     away = np.array([np.cos(0.25) * np.cos(2.5), np.cos(0.25) * np.sin(2.5), np.sin(0.25)])
     right = np.cross(-away, [0.0, 0.0, 1.0]) / np.cos(0.25)
     line = point - (POINT + 3.6 * np.linalg.norm(SIZE) * away)

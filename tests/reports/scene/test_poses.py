@@ -1,4 +1,4 @@
-"""Where a body of a scene is, and how it is rotated, in each form in which a system can say it.
+"""Position and rotation of a body of a scene, in each form in which a system can declare them.
 
 Truth: scipy's Rotation, the matrices of docs/systems/orbital_attitude.md and entry_attitude.md, Cartesian coordinates
 of points on a sphere, the theorem of Gauss and Bonnet, and the direction of motion.
@@ -31,7 +31,7 @@ def pose(signals, declared, surface=None):
 
 
 def assert_axes(rotation, expected):
-    """The axes of the body in the scene's frame."""
+    """Assert the axes of the body in the scene's frame."""
     assert np.abs(rotation.as_matrix() - expected.as_matrix()).max() < EXACT
 
 
@@ -114,7 +114,7 @@ GEOGRAPHIC = Geographic(angle("longitude"), angle("latitude"), scalar("ship.heig
 
 
 def geographic(rows=ROWS):
-    """A flight of a third of the circumference down to 20 km."""
+    """Return a flight of a third of the circumference down to 20 km."""
     way = np.linspace(0.0, 1.0, rows)
     return {"longitude": -3.0 + 2.0 * way, "latitude": 0.4 + 0.5 * way**2, "height": 1e5 - 8e4 * way}
 

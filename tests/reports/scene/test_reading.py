@@ -1,4 +1,4 @@
-"""What a Scene declares, and that everything wrong in it ends in one line that names the element.
+"""Declarations of a Scene, and their errors, each in one line that names the element.
 
 Truth: the declaration as written, and the number of the line on which its wrong element begins.
 """
@@ -46,7 +46,7 @@ def loaded():
 
 @pytest.fixture
 def read(tmp_path, loaded):
-    """The figures of a system with this in its report, and the text of its SSD."""
+    """Read the figures of a system with this in its report, and the text of its SSD."""
 
     def read_report(inside, name=ROBOT):
         folder = tmp_path / name

@@ -45,7 +45,7 @@ def desktop(browser, page):
 
 @pytest.fixture
 def scene(desktop):
-    """The scene as it is at first."""
+    """Return the scene as it is at first."""
     desktop.press("Follow")
     desktop.press("reset the view")
     desktop.slider.send_keys(Keys.HOME)
@@ -91,7 +91,7 @@ class SceneView:
 
 
 def differ(first, second):
-    """Whether more than 0.1 % of the pixels differ."""
+    """Return True if more than 0.1 % of the pixels differ."""
     return np.mean(np.any(np.abs(first - second) > 0.02, axis=-1)) > 1e-3
 
 

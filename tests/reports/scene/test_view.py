@@ -1,7 +1,7 @@
-"""What a page stores of the scenes of our systems, and what is said of them.
+"""Stored data of a page on the scenes of our systems, and its texts.
 
-Truth: scipy's Rotation on the signals of the flight, a field in two frames, the ground's sphere, the time for which
-the plant says that its jets have fired, the jets' matrix of the robot, and the forms of text that HTML and JSON give a
+Truth: scipy's Rotation on the signals of the flight, a field in two frames, the ground's sphere, the time for which the
+plant says that its jets have fired, the jets' matrix of the robot, and the forms of text that HTML and JSON give a
 meaning.
 """
 

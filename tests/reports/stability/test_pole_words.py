@@ -1,4 +1,4 @@
-"""What a stability page says of single real poles and of encirclements that are not counted.
+"""Texts of a stability page on single real poles and on encirclements that are not counted.
 
 Truth: a first-order loop whose pole z is negative, which has no conjugate; a loop with a pole that is slower than the
 lowest frequency, whose count is no whole number while its closed loop is stable.

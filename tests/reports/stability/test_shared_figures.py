@@ -1,6 +1,6 @@
 """Figures of several loops that nobody could tell apart are drawn once, and nothing else is left out.
 
-Truth: loops made of one another, whose responses differ by as much as is said.
+Truth: loops derived from one another, whose responses differ by as much as is said.
 """
 
 from dataclasses import replace
@@ -17,7 +17,7 @@ AXES = ("x", "y", "z")
 
 
 def scaled(loop, factor, **changed):
-    """The loop with a response larger by a factor, nothing else changed."""
+    """Return the loop with a response larger by a factor, nothing else changed."""
     return replace(loop, curve=replace(loop.curve, value=factor * loop.curve.value), **changed)
 
 

@@ -35,14 +35,14 @@ addEventListener("load", () => {
 
 
 def unfolded(page):
-    """The text of a page with all that is folded away unfolded."""
+    """Return the text of a page with all folded sections unfolded."""
     text = without_policy(page.read_text(encoding="utf-8"))
     return re.sub(r"<details(?! open)(?! class=\"printed\" open)", "<details open", text)
 
 
 @pytest.fixture(scope="module")
 def few(studies, tmp_path_factory):
-    """A page so short that a picture holds it."""
+    """Write a page so short that a picture holds it."""
     path = tmp_path_factory.mktemp("stability") / "page.html"
     everything = studies.everything
     loops = tuple(loop for loop in everything.loops if loop.loop != "pair")

@@ -103,7 +103,7 @@ def test_figures_show_what_is_unstable(studies):
 
 
 def test_hatches_lie_in_what_they_fill():
-    """Of a diamond and a rectangle: within their edges, parallel, and both ends on an edge."""
+    """Hatches of a diamond and a rectangle: within their edges, parallel, and both ends on an edge."""
     diamond = np.array([-1.0, 0.0, 1.0, 0.0, -1.0]), np.array([0.0, 2.0, 0.0, -2.0, 0.0])
     strokes = hatch(*diamond, VERMILION, 1.0)
     np.testing.assert_allclose(np.abs(strokes.x) + np.abs(strokes.y) / 2.0, 1.0)

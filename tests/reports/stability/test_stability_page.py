@@ -38,7 +38,7 @@ def write(report, page):
 
 
 def section(page, heading):
-    """The section with a heading of the second level."""
+    """Return the section with a heading of the second level."""
     (actual,) = (part for part in parse(page).xpath("//section") if part.xpath("h2")[0].text == heading)
     return actual
 

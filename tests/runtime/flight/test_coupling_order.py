@@ -1,4 +1,4 @@
-"""How fast a coupled flight converges to the closed form as the communication step gets shorter.
+"""Convergence of a coupled simulation to the closed form as the communication step gets shorter.
 
 Truth: x' = -x + y, y' = -y - x from (1, 0), which is exp(-t) (cos t, -sin t). Each half integrates its own equation
 exactly with its input held over the step, so that all of the error is the coupling's: of first order with either

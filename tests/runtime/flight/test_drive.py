@@ -32,7 +32,7 @@ def fly(path, given, faults=(), **options):
 
 
 def gains(tiny, tmp_path, name="gains.ssp"):
-    """A root input through a connection to a gain and a delay, and a gain whose input nothing is connected to."""
+    """Write a root input through a connection to a gain and a delay, and a gain whose input nothing is connected to."""
     return pack(
         tmp_path / name,
         tiny,

@@ -93,7 +93,7 @@ def test_under_jacobi(flown):
 
 
 def rounded_times(step):
-    """Steps whose n h is below, at and above the decimal number it stands for."""
+    """Return steps whose n h is below, at and above the decimal number it stands for."""
     kinds = {}
     for n in range(1, 60):
         kinds.setdefault(np.sign(n * step - float(f"{n * step:.6g}")), n)

@@ -26,7 +26,7 @@ def prepared(system, **options):
 
 
 def in_memory(simulation):
-    """How many instructions read or write FMUs' memory."""
+    """Count the instructions that read or write FMUs' memory."""
     return int(np.isin(simulation.program.instructions[:, codes.CODE], codes.IN_MEMORY).sum())
 
 

@@ -1,4 +1,4 @@
-"""What FMUs say, on standard error.
+"""Messages of FMUs, on standard error.
 
 Truth: what the FMU of the test says, step by step; FMI 2.0's statuses.
 """

@@ -42,7 +42,7 @@ def fly(simulation, first, last):
 
 
 def saved(simulation):
-    """The memory at SAVED, and what it was saved as."""
+    """Return the memory at SAVED, and its saved state."""
     memory = simulation.memory()
     fly(simulation, -1, SAVED)
     return memory, memory.take(SAVED)

@@ -1,22 +1,20 @@
 """Other importers read our .ssp, wire the same system and arrive at the same numbers.
 
-What each needs, found out by trying it:
+Requirements of each, by experiment:
 
-libcosim 0.11.2 (libcosimpy 0.0.6) reads FMUs, connectors and connections of the .ssp. It refuses
-connections that end at a connector of the system itself, so these are taken out of a copy, and
-it leaves parameter bindings of a system aside, so the values are set through its interface. Its
-fixed-step algorithm is Jacobi: all FMUs get the values of the last exchange, all step, all are
-read. Before the first step it exchanges as often as there are FMUs, then leaves initialisation
-mode and exchanges once more; this settles the same values at the start as one pass of ours in
-the order of the connections. It counts time in whole nanoseconds, so the times it hands to the
-FMUs differ from ours in the last bit: 1e-9 holds, equality does not.
+libcosim 0.11.2 (libcosimpy 0.0.6) reads FMUs, connectors and connections of the .ssp. It refuses connections that end
+at a connector of the system itself, so these are taken out of a copy, and it leaves parameter bindings of a system
+aside, so the values are set through its interface. Its fixed-step algorithm is Jacobi: all FMUs get the values of the
+last exchange, all step, all are read. Before the first step it exchanges as often as there are FMUs, then leaves
+initialisation mode and exchanges once more; this settles the same values at the start as one pass of ours in the order
+of the connections. It counts time in whole nanoseconds, so the times it hands to the FMUs differ from ours in the last
+bit: 1e-9 holds, equality does not.
 
-fmucontainer (FMU Manipulation Toolbox 2.0) reads the .ssp as it is, without parameter bindings,
-which are handed to it as start values. It initialises in the order of the connections, as we
-do. By itself it is Jacobi; told to be sequential it steps in the order of the SSD, which for
-this system is our sequential order. Both are equal to ours to the last bit.
+fmucontainer (FMU Manipulation Toolbox 2.0) reads the .ssp as it is, without parameter bindings, which are handed to it
+as start values. It initialises in the order of the connections, as we do. By itself it is Jacobi; set to sequential it
+steps in the order of the SSD, which for this system is our sequential order. Both are equal to ours to the last bit.
 
-Every contestant flies in a process of its own.
+Every contestant runs in a separate process.
 """
 
 from __future__ import annotations
@@ -43,7 +41,7 @@ Fly = Callable[[str, int], dict[str, float]]
 
 @pytest.fixture(scope="module", params=FLAVOURS)
 def fly(request: pytest.FixtureRequest, fmus: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Fly]:
-    """A function from a contestant's name and a number of steps to the values at the end."""
+    """Yield a function from a contestant's name and a number of steps to the values at the end."""
     flavour = request.param
     folder = fmus.with_name(flavour)
     if flavour == "native" and not folder.is_dir():

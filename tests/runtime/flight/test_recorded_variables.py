@@ -25,7 +25,7 @@ GAIN = component("gain", "gain", "input u Real m; output y Real m")
 
 
 def local(text):
-    """A description whose outputs are local variables."""
+    """Return a description whose outputs are local variables."""
     text = re.sub(r"<ModelStructure>.*</ModelStructure>", "<ModelStructure/>", text, flags=re.S)
     return text.replace('causality="output"', 'causality="local"')
 

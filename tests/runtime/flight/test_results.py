@@ -1,4 +1,4 @@
-"""What a run leaves on disk: every bit comes back, with types, units and where it came from.
+"""Files of a run: every bit is read back, with types, units and provenance.
 
 Truth: the arrays in memory; hashes computed here from the files; Python's csv module and pyarrow's reader.
 """

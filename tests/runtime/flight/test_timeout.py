@@ -1,4 +1,4 @@
-"""A limit on the wall clock: rows until then are kept, a batch goes on, a step that hangs does not keep the process.
+"""A limit on the wall clock: rows until then are kept, a batch continues, a step that hangs does not keep the process.
 
 Truth: the same flight without a limit, bit for bit; the FMU's own sleep.
 """

@@ -34,7 +34,7 @@ SERIES = np.array(
 
 @pytest.fixture(scope="module")
 def gains(tmp_path_factory: pytest.TempPathFactory) -> dict[int, Path]:
-    """The FMUs of a block with tunable parameters, by version of FMI."""
+    """Build the FMUs of a block with tunable parameters, by version of FMI."""
     folder = tmp_path_factory.mktemp("gains")
     platforms = {version: local_platform(version) for version in (2, 3)}
     return {
@@ -50,7 +50,7 @@ def packed(folder: Path, tiny: Path) -> Path:
 
 
 def ramp(rises: list[float], start: float = 1.0) -> list[float]:
-    """The ramp from the slope of each step."""
+    """Return the ramp from the slope of each step."""
     return np.cumsum([start, *(STEP * slope for slope in rises)]).tolist()
 
 

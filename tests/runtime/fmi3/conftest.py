@@ -9,5 +9,5 @@ from tests.support.fmi3.strict_pair import pack_strict_pair
 
 @pytest.fixture
 def strict_pair(tmp_path):
-    """Makes an .ssp of two strict FMUs, see `pack_strict_pair`."""
+    """Return a writer of an .ssp of two strict FMUs, see `pack_strict_pair`."""
     return partial(pack_strict_pair, tmp_path)

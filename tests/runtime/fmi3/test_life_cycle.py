@@ -39,7 +39,7 @@ def test_without_a_discrete_input_in_flight_there_is_no_event_mode(tmp_path):
 
 
 def test_early_returns_are_continued_to_the_communication_point(tmp_path):
-    """Each step of 0.25 s is cut at 0.1 and 0.2 s, each cut an event; y' = gain u goes on across them."""
+    """Each step of 0.25 s is cut at 0.1 and 0.2 s, each cut an event; y' = gain u continues across them."""
     path = str(strict_fmu(tmp_path, events=True))
     flight = perilune.simulate(path, input=series(tmp_path), set={"Strict.early": 0.1})
     assert flight.status == "stop_time"
@@ -149,7 +149,7 @@ def test_binary_beyond_its_room_ends_the_flight(strict_pair):
 
 
 def test_state_of_one_instance_in_another():
-    """Saved after 1 s, carried as bytes: the other goes on with the same bits, and so does the first, set back."""
+    """Saved after 1 s, carried as bytes: the other continues with the same bits, and so does the first, set back."""
     path = reference_fmu(3, "VanDerPol")
     fmu = load_fmu(path.read_bytes(), str(path))
     first, second = instantiate(fmu, "first"), instantiate(fmu, "second")
@@ -195,7 +195,7 @@ expression = "last > 0"
 
 @pytest.mark.parametrize("events", [False, True])
 def test_trials_after_failures_are_those_of_fresh_instances(tmp_path, events):
-    """Reset, or instantiated anew after an error: y is the drawn u after 1 s with gain 1."""
+    """Reset, or instantiated again after an error: y is the drawn u after 1 s with gain 1."""
     path, plan = str(strict_fmu(tmp_path, events=events)), tmp_path / "plan.toml"
     plan.write_text(PLAN)
     trials = perilune.batch(path, plan, workers=1).trials["default"]

@@ -45,7 +45,7 @@ def given_gains():
 
 
 def expected(time):
-    """The outputs of both, by Euler's steps with the inputs of each step's start."""
+    """Return the outputs of both, by Euler's steps with the inputs of each step's start."""
     first, second = np.zeros((len(time), 3)), np.zeros((len(time), 3))
     for step, length in enumerate(np.diff(time)):
         first[step + 1] = first[step] + length * np.array(GAINS["one"]) * INPUT

@@ -88,7 +88,7 @@ def test_margins_of_a_loop_of_both_versions(tmp_path):
 
 
 def test_bounces_of_a_ball_lose_their_share_of_speed():
-    """BouncingBall: after a bounce at speed v it leaves at e v, so that a drawn e is seen in what follows."""
+    """BouncingBall: after a bounce at speed v it leaves at e v, so that a drawn e appears in the later motion."""
     path = str(reference_fmu(3, "BouncingBall"))
     for restitution in (0.6, 0.8):
         flight = perilune.simulate(path, set={"BouncingBall.e": restitution}, step=0.001, stop_time=1.0)

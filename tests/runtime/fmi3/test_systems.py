@@ -16,25 +16,25 @@ EULER = 1e-3  # s, of StateSpace
 
 
 def folder_with(tmp_path, **fmus):
-    """The folder, with Reference-FMUs under these names."""
+    """Return the folder, with Reference-FMUs under these names."""
     for name, (version, model) in fmus.items():
         shutil.copy(reference_fmu(version, model), tmp_path / f"{name}.fmu")
     return tmp_path
 
 
 def packed(folder, *elements, wires, stop=2.0, step=0.125):
-    """An .ssp of components connected by pairs of names."""
+    """Write an .ssp of components connected by pairs of names."""
     lines = "".join(connection(start, end) for start, end in wires)
     return str(pack(folder / "t.ssp", folder, document(system(*elements, connections=lines), stop=stop, step=step)))
 
 
 def extended(matrix, drive):
-    """The matrix of (x, 1) where x' = A x + b with a constant b."""
+    """Return the matrix of (x, 1) where x' = A x + b with a constant b."""
     return np.block([[matrix, drive[:, None]], [np.zeros((1, drive.size + 1))]])
 
 
 def solved(matrix, drive, time):
-    """x after so many seconds from 0, by Euler's steps of EULER s."""
+    """Return x after ``time`` seconds from 0, by Euler's steps of EULER s."""
     step = np.eye(drive.size + 1) + EULER * extended(matrix, drive)
     return np.linalg.matrix_power(step, round(time / EULER))[: drive.size, drive.size]
 
@@ -75,7 +75,7 @@ def test_oscillator_through_feedthroughs_of_both_versions(tmp_path, versions):
 
 
 def test_elements_of_an_array_from_fmus_of_both_versions(tmp_path):
-    """Of x' = A x + u as StateSpace solves it; u[3] is unconnected and keeps its start."""
+    """Elements of x' = A x + u as StateSpace solves it; u[3] is unconnected and keeps its start."""
     folder = folder_with(tmp_path, two=(2, "Feedthrough"), three=(3, "Feedthrough"), space=(3, "StateSpace"))
     passes = "input Float64_continuous_input Real; output Float64_continuous_output Real"
     path = packed(

@@ -25,7 +25,7 @@ LINK;VanDerPol.fmu;x0;Feedthrough.fmu;Float64_continuous_input
 
 @pytest.fixture(scope="module")
 def container(tmp_path_factory):
-    """The toolbox takes arrays of fixed sizes only."""
+    """Build a container; the toolbox takes arrays of fixed sizes only."""
     folder = tmp_path_factory.mktemp("container")
     for name in ("VanDerPol", "Feedthrough"):
         shutil.copy(reference_fmu(3, name), folder)

@@ -34,7 +34,7 @@ def test_integer_beyond_the_receivers_type_ends_the_flight(tmp_path):
 
 @pytest.mark.parametrize("number", [2**53 + 1, -(2**63), 2**63 - 1])
 def test_whole_numbers_of_64_bits_are_set_exactly(tmp_path, number):
-    """A parameter that an FMU has not exactly as given would be refused when it is read back."""
+    """A parameter that an FMU changes would be refused when it is read back."""
     flight = perilune.simulate(str(strict_fmu(tmp_path)), set={"Strict.wide_in": number}, record=["wide_in"])
     assert flight.status == "stop_time"
     assert flight.signals["Strict.wide_in"].tolist() == [float(number)] * 5

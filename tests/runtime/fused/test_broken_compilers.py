@@ -29,7 +29,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="compilers here 
 
 @pytest.fixture
 def ramp(tiny_folder, tmp_path, monkeypatch):
-    """A system, whose fused steps are in a cache of its own."""
+    """Write a system, whose fused steps are in a separate cache."""
     monkeypatch.setattr(fuse, "CACHE", tmp_path)
     fuse._load.cache_clear()
     return pack(tmp_path / "s.ssp", tiny_folder / "native", RAMP)
@@ -37,7 +37,7 @@ def ramp(tiny_folder, tmp_path, monkeypatch):
 
 @pytest.fixture
 def compiler(tmp_path, monkeypatch):
-    """Put a script of Python in place of the compiler, or what else is given."""
+    """Put a script of Python in place of the compiler, or another program."""
 
     def replace(text):
         script = tmp_path / "cc"
@@ -118,7 +118,7 @@ def test_a_damaged_library_is_compiled_anew(ramp, tmp_path):
 
 
 def test_an_interruption_ends_the_compiler(ramp, compiler):
-    """And who closes the simulation meanwhile leaves the instances alone, which the compilation looks at."""
+    """Closing the simulation meanwhile leaves the instances alone, which the compilation looks at."""
     compiler(f"import sys\nif '-o' in sys.argv:\n    open({str(ramp.with_name('begun'))!r}, 'w').close(); {SLEEP}")
     problems = []
 
@@ -157,7 +157,7 @@ def test_what_is_simulated_elsewhere(tmp_path):
 
 
 def foreign(folder):
-    """A guidance of Perilune's packed anew, so that its bytes are not known any more."""
+    """Pack a guidance of Perilune's again, so that its bytes are not known any more."""
     path = folder / "guidance.fmu"
     with zipfile.ZipFile(shipped_fmu("analytic_guidance", "native")) as shipped, zipfile.ZipFile(path, "w") as packed:
         for name in shipped.namelist():

@@ -1,4 +1,4 @@
-"""C of FMUs made part of a unit: names, texts, headers.
+"""C of FMUs within a unit: names, texts, headers.
 
 Truth: what the C compiler says of two components that have the same names with other meanings; texts by hand.
 """

@@ -1,4 +1,4 @@
-"""What cannot be fused is refused in one line.
+"""Refusals of systems that cannot be fused, in one line.
 
 Truth: the lines, and the exit status 2.
 """

@@ -38,7 +38,7 @@ assert repr(fused.table().to_pydict()) == repr(native.table().to_pydict())
 
 
 def find_file(name):
-    """A library of gcc."""
+    """Return the path of a library of gcc."""
     command = ["gcc", f"-print-file-name={name}"]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 

@@ -1,4 +1,4 @@
-"""What a process makes of a child that sends anything: an end, in bounded time, and never a wait for good.
+"""End of a connection whose child sends anything: in bounded time, never an endless wait.
 
 Truth: the bytes that the test writes itself, in place of a child.
 """
@@ -28,7 +28,7 @@ ANSWERS = {
 
 @pytest.fixture
 def pair(monkeypatch):
-    """A connection whose child the test is, which ends when it is told to."""
+    """Yield a connection whose child the test is; it ends on a signal of the test."""
     monkeypatch.setattr(module, "FRAME_TIMEOUT", 0.2)
     ours, theirs = socket.socketpair()
 

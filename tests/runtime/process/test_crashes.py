@@ -1,4 +1,4 @@
-"""FMUs that end their process, or do not return: `run` says who and when, batches go on, nothing is left behind.
+"""FMUs that end their process, or do not return: `run` names FMU and time, batches continue, nothing remains.
 
 Truth: the FMU's source, which does to its process what the test asks for; the same campaign with an FMU that does not.
 """
@@ -122,14 +122,14 @@ MEMORY = {
 
 @pytest.mark.parametrize("deed", MEMORY)
 def test_allocations_fail_near_the_limit_of_memory(tmp_path, deed):
-    """Of 0.2 GB: one fills 0.18 and gives up, the other uses 1 GB without a look at whether it has it."""
+    """Limit of 0.2 GB: one fills 0.18 and gives up, the other uses 1 GB without a look at whether it has it."""
     flight = perilune.simulate(odd_fmu(tmp_path, DEED=deed, IN=Call.STEP), stop_time=1.0, memory=0.2)
     status, how = MEMORY[deed].split("|")
     assert (flight.status, flight.message) == (status, f"odd: on the way to t = 0.75 s: {how}")
 
 
 def fly(folder, workers, trials=200, **quirks):
-    """The trials of a batch, and who had a count of 13."""
+    """Return the trials of a batch, and those with a count of 13."""
     folder.mkdir()
     fmu = odd_fmu(folder, **quirks)
     (folder / "c.toml").write_text(COUNTS.format(name="odd", trials=trials))
@@ -161,7 +161,7 @@ def test_a_batch_goes_on(tmp_path, good, deed, workers):
 
 
 def test_a_reset_that_crashes_is_not_trusted(tmp_path, good):
-    """Each trial has instances of its own then."""
+    """Each trial has new instances then."""
     trials, _ = fly(tmp_path / "batch", 1, 30, DEED=Deed.SEGFAULT, IN=Call.RESETTING)
     assert trials.statuses == ["stop_time"] * 30
     assert np.array_equal(trials.metrics["last"], good.metrics["last"][:30])
@@ -205,7 +205,7 @@ NAMES = {
 
 @pytest.fixture
 def heard(monkeypatch, capfd):
-    """What is printed, by a flight server of the test's own too."""
+    """Yield a reader of printed lines, with a flight server of the test's own too."""
     monkeypatch.setattr(children, "_server", None)
     yield lambda: capfd.readouterr().err.splitlines()
     children.start_server().close()

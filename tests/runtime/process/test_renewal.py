@@ -70,7 +70,7 @@ def make(folder, kind):
 
 
 def trials(fmu, folder, trial_count=TRIALS, **options):
-    """The columns p and last of a campaign."""
+    """Return the columns p and last of a campaign."""
     campaign = folder / "campaign.toml"
     name = "Coupled" if fmu.name == "Coupled.fmu" else "coupled"
     campaign.write_text(CAMPAIGN.format(trials=trial_count).replace("coupled", name))

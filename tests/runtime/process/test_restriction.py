@@ -1,4 +1,4 @@
-"""What foreign FMUs may not do in their process: write elsewhere, use the network, reach other processes.
+"""Restrictions on foreign FMUs in their process: no writing elsewhere, no network, no access to other processes.
 
 Truth: the errors that the operating system gives an FMU that tries; what lies in the folders afterwards.
 """
@@ -49,7 +49,7 @@ NO = ("Permission denied", "Operation not permitted")
 
 
 def tries(folder, *options):
-    """What an FMU that tries everything says: whether each was done."""
+    """Return the report of an FMU that tries everything: the result of each attempt."""
     fmu = odd_fmu(folder, DEED=Deed.TRY, IN=Call.INITIALISATION)
     (folder / "home").mkdir()
     (folder / "results").mkdir()
@@ -62,7 +62,7 @@ def tries(folder, *options):
 
 
 def test_what_is_refused(tmp_path):
-    """The flight goes on all the same."""
+    """The simulation continues."""
     said = tries(tmp_path)
     assert {name: said[name] for name in ("own folder", "socketpair")} == {"own folder": "done", "socketpair": "done"}
     assert {name: said[name] in NO for name in REFUSED} == dict.fromkeys(REFUSED, True)

@@ -67,7 +67,7 @@ def maps(process):
 
 
 def family_of(command):
-    """The processes that a command has started, and those that these have."""
+    """Return the processes that a command has started, and those that these have."""
     servers, children = [], []
     for each in psutil.Process(command.pid).children(recursive=True):
         with suppress(psutil.NoSuchProcess):  # it has ended in the meantime
@@ -76,7 +76,7 @@ def family_of(command):
 
 
 def waiting(tmp_path, words, **quirks):
-    """A command whose FMU waits in its calls, and the processes that belong to it: command, server, children."""
+    """Start a command whose FMU waits in its calls; return its processes: command, server, children."""
     fmu = odd_fmu(tmp_path, **quirks)
     (tmp_path / "c.toml").write_text(CAMPAIGN)
     line = [text.format(fmu=fmu, campaign=tmp_path / "c.toml") for text in words]

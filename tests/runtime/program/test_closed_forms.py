@@ -22,7 +22,7 @@ from tests.support.foreign.odd_fmu import odd_fmu
 
 @pytest.fixture
 def discrete(tiny_folder, tmp_path):
-    """A ramp 1, 0, -1, -2, -3 through a discrete Float64 of an FMU with event mode, at the same time."""
+    """Prepare a ramp 1, 0, -1, -2, -3 through a discrete Float64 of an FMU with event mode, at the same time."""
     shutil.copy(reference_fmu(3, "Feedthrough"), tmp_path / "feed.fmu")
     shutil.copy(tiny_folder / "native" / "ramp.fmu", tmp_path / "ramp.fmu")
     passes = "input Float64_discrete_input Real; output Float64_discrete_output Real"
@@ -37,7 +37,7 @@ def discrete(tiny_folder, tmp_path):
 
 @pytest.fixture
 def ended(tmp_path):
-    """An FMU that ends the flight at 0.6 s; its input over time is 1 + t with a bias of 10, its gain 3."""
+    """Prepare an FMU that ends the flight at 0.6 s; its input over time is 1 + t with a bias of 10, its gain 3."""
     series = read_series({"time": [0.0, 1.0], "u": [1.0, 2.0], "gain": [3.0, 3.0]})
     options = SystemOptions(step=0.25, stop_time=1.0)
     return prepare_system(odd_fmu(tmp_path, ENDS_AT=0.6), options, series=series), [parse_fault("odd.u=bias:10@0")]
@@ -68,7 +68,7 @@ def test_the_last_row_has_what_the_fmu_was_given(ended):
 
 
 def test_a_frozen_whole_number_of_64_bits_stays_what_it_was(frozen):
-    """Given at the end of a step, the number of its start counts in the next one: from 0.75 s on it is another."""
+    """Set at the end of a step, the number of its start counts in the next one: from 0.75 s on it is another."""
     assert fly_reference(*frozen).signals["sink.mismatches"] == [0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0]
 
 

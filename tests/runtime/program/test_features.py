@@ -24,7 +24,7 @@ both = pytest.mark.parametrize("algorithm", ["sequential", "jacobi"])
 
 @pytest.fixture
 def packed(tiny, tmp_path):
-    """Makes an .ssp of components of the tiny FMUs."""
+    """Return a writer of an .ssp of components of the tiny FMUs."""
 
     def make(*elements, wires, declared="", stop=2.0):
         lines = "".join(connection(*wire) for wire in wires)

@@ -1,4 +1,4 @@
-"""Which kinds of connectors may be connected.
+"""Permitted connections between kinds of connectors.
 
 Truth: the table "Allowed connections" of SSP 2.0, section Connections, row by row as printed there.
 """

@@ -190,7 +190,7 @@ def test_refusals(folder, text, words):
 
 @pytest.mark.parametrize("location", ["config", "fmus"])
 def test_a_folder_for_the_description_and_one_for_fmus(tiny_folder, tmp_path, location):
-    """As the platform's demonstrations are: config/ beside fmus/; descriptions of groups in the one or the other."""
+    """As the platform's demonstrations are: config/ next to fmus/; descriptions of groups in the one or the other."""
     wires = joined("one.port", "other.plug", "VariableGroup") + joined("ramp.y", "one.a")
     text = structure(
         simulator("ramp", "../fmus/ramp") + simulator("one", "../fmus/cross") + simulator("other", "../fmus/gain"),

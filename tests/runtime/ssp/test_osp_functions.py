@@ -24,7 +24,7 @@ def variable(name, kind="Variable"):
 
 
 def signal(start, end, group=""):
-    """A connection between a variable and a signal of a function, ``f:in`` or ``f:out``, in the order given."""
+    """Return a connection between a variable and a signal of a function, ``f:in`` or ``f:out``, in this order."""
     ends = [
         '<Signal{} function="{}" name="{}"/>'.format(group, *end.split(":"))
         if ":" in end
@@ -54,7 +54,7 @@ def test_a_gain(folder):
 
 
 def test_a_sum(folder):
-    """Of three outputs, one of which is connected to something else too, and one given twice."""
+    """A sum of three outputs, one of which is connected to something else too, and one repeated."""
     text = structure(
         RAMPS + simulator("slow", "delay", 0.25),
         signal("ramp.y", "s:in[0]")

@@ -1,4 +1,4 @@
-"""Where the files of a system lie, as other tools write it: archives, folders, folders above them, names in capitals.
+"""Locations of a system's files as other tools write them: archives, folders, folders above them, capitals.
 
 Truth: the same system in our way of writing, sample by sample.
 """
@@ -136,7 +136,7 @@ def test_an_fmu_in_a_process_of_its_own_is_the_fmu(tiny, tmp_path, plain):
 
 
 def test_suffixes_in_capitals(tiny, tmp_path, plain, capsys):
-    """RAMP.FMU, as Windows tools write it: in an archive, beside an SSD, and by itself."""
+    """RAMP.FMU, as Windows tools write it: in an archive, next to an SSD, and by itself."""
     root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
     text = document(root).replace("resources/ramp.fmu", "RAMP.FMU").replace("resources/gain.fmu", "resources/GAIN.FMU")
     fmus = {"ramp.fmu": "RAMP.FMU", "gain.fmu": "resources/GAIN.FMU"}

@@ -1,8 +1,8 @@
-"""What SSP 1.0 says of a document, on tiny FMUs whose answers are computed by hand.
+"""Semantics of SSP 1.0 documents, on tiny FMUs whose answers are computed by hand.
 
-Truth: the SSP 1.0 standard: unit conversion comes before a LinearTransformation, a prefix is put before
-names before they are mapped, the bindings of an outer system win over those inside it, later ones
-over earlier ones; and pencil and paper for the numbers.
+Truth: the SSP 1.0 standard: unit conversion comes before a LinearTransformation, a prefix is put before names before
+they are mapped, the bindings of an outer system win over those inside it, later ones over earlier ones; and pencil and
+paper for the numbers.
 """
 
 import math

@@ -98,7 +98,7 @@ def test_refused_in_one_line(text, says):
 
 @pytest.fixture(scope="module")
 def network(tiny_folder, tmp_path_factory):
-    """A ramp that feeds a nested system with a gain, and whole numbers; nothing feeds the second gain."""
+    """Return a ramp that feeds a nested system with a gain, and whole numbers; nothing feeds the second gain."""
     inner = system(
         component("gain", "gain", "input u Real m; output y Real m"),
         name="inner",

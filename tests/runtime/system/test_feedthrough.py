@@ -39,7 +39,7 @@ def without_outputs(text):
 
 @pytest.fixture(params=[without_dependencies, without_outputs])
 def undeclared(tiny, tmp_path, request):
-    """A folder of tiny FMUs, gain and cross of which declare no dependencies of their outputs."""
+    """Write a folder of tiny FMUs, gain and cross of which declare no dependencies of their outputs."""
     for name in ("ramp", "delay", "gain"):
         (tmp_path / f"{name}.fmu").write_bytes((tiny / f"{name}.fmu").read_bytes())
     for name in ("gain", "cross"):

@@ -1,4 +1,4 @@
-"""What of an FMU is unpacked, and what loading it again may share.
+"""Unpacked files of an FMU, and those shared when it is loaded again.
 
 Truth: the FMU's own archive.
 """
@@ -33,7 +33,7 @@ def load(path):
 
 @pytest.fixture
 def large(tiny, tmp_path):
-    """The ramp with files for another platform, sources, documents, and files for no purpose that FMI knows."""
+    """Write the ramp with files for another platform, sources, documents, and files for no purpose that FMI knows."""
     more = ("binaries/win32/ramp.dll", "binaries/common.txt", "sources/ramp.c", "documentation/index.html", "extra/x")
     files = contents(tiny / "ramp.fmu") | {name: name.encode() for name in (*more, "resources/deep/table.csv")}
     path = write_zip(tmp_path / "large.fmu", files)
@@ -60,7 +60,7 @@ def test_of_others_everything(large, tmp_path):
 
 @pytest.mark.parametrize("flavour", ["native", "python"])
 def test_what_was_built_is_our_own(flavour):
-    """The list beside the built FMUs is what sha256sum writes."""
+    """The list next to the built FMUs is what sha256sum writes."""
     folder = shipped_fmu("", flavour).parent
     listed = dict(reversed(line.split("  ")) for line in (folder / SUMS).read_text().splitlines())
     for path in sorted(folder.glob("*.fmu")):

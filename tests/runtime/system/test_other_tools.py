@@ -1,4 +1,4 @@
-"""What other tools write and the standard allows: it flies as if it had been written our way.
+"""Files of other tools within the standard: simulated as if written our way.
 
 Truth: the same system in our way of writing, sample by sample; pencil and paper for the tiny FMUs' answers.
 """

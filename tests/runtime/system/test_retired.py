@@ -1,6 +1,6 @@
 """Names of FMUs that became values of another: they are simulated as before, and the command line says what to write.
 
-Truth: the simulation with the block and its values given by the user, signal by signal.
+Truth: the simulation with the block and its values set by the user, signal by signal.
 """
 
 import numpy as np

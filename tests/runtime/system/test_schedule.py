@@ -1,8 +1,7 @@
 """Order of execution on tiny FMUs, every row computed by hand; both flavours of the FMUs.
 
-Truth: pencil and paper. A ramp counts 1, 1.5, 2, ...; a gain triples at the same time; a delay gives what it
-was given one step ago. Sequential: followers answer for their own time. Jacobi: everyone works on
-the last exchange.
+Truth: pencil and paper. A ramp counts 1, 1.5, 2, ...; a gain triples at the same time; a delay returns its input of one
+step ago. Sequential: followers answer for their own time. Jacobi: all use the last exchange.
 """
 
 import itertools

@@ -48,7 +48,7 @@ def fourier(output, amplitude, thresholds=()):
 
 
 def relay_law(level, dead_zone, hysteresis):
-    """The relay's output over a cycle that switches it: the branch is known from the direction of the input."""
+    """Return the relay's output over a cycle that switches it: the branch is known from the direction of the input."""
 
     def output(x, falling):
         on, off = dead_zone + hysteresis, dead_zone - hysteresis

@@ -104,7 +104,7 @@ def test_quantiser_against_a_dense_grid():
 
 @pytest.mark.parametrize("hysteresis", [0.01, 0.1, 1.0])
 def test_relay_with_hysteresis(hysteresis):
-    """-1/N has the constant imaginary part -pi h/(4 M): with 1/(s (s + 1)) a cubic for the frequency."""
+    """-1/N has the constant imaginary component -pi h/(4 M): with 1/(s (s + 1)) a cubic for the frequency."""
     actual = only(
         predict(lambda w: 1.0 / (1j * w * (1j * w + 1.0)), 1e-3, 1e2, "relay", {"level": 1.0, "hysteresis": hysteresis})
     )
@@ -218,7 +218,7 @@ class Jet:
         return predict(self.response, 1e-4 / self.period, math.pi / self.period, "relay", self.relay)
 
     def fly(self, position, velocity, samples):
-        """The input of the relay at every sample."""
+        """Simulate the input of the relay at every sample."""
         (numerator,), denominator, _ = cont2discrete(
             ([self.gain * self.lead, self.gain], [self.lag, 1.0]), self.period, method="bilinear"
         )

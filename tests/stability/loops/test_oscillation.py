@@ -1,7 +1,7 @@
 """Oscillations in records: analysis/stability/oscillation.py.
 
-Truth: signals made with a known amplitude and period, among them the Van der Pol oscillator, whose period is
-published; signals that settle, decay, grow, drift or are noise.
+Truth: signals with a known amplitude and period, among them the Van der Pol oscillator, whose period is published;
+signals that settle, decay, grow, drift or are noise.
 """
 
 import math

@@ -19,7 +19,7 @@ LINES = multisine(SAMPLES, 1.0, (SAMPLES - 1) // 2, 1, per_decade=20).lines * 2.
 
 
 def resonant(rate, damping, gain):
-    """An integrator with a resonance, held over a sample, with one sample of delay."""
+    """Return an integrator with a resonance, held over a sample, with one sample of delay."""
     plant = control.tf([gain * rate**2], [1.0, 2.0 * damping * rate, rate**2, 0.0])
     return response_of(control.c2d(control.ss(plant), STEP, "zoh") * control.ss(0.0, 1.0, 1.0, 0.0, STEP))
 

@@ -23,7 +23,7 @@ def unscaled(random: np.random.Generator, matrix: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("channels", [2, 3, 4, 6])
 def test_largest_singular_value_with_vectors_of_equal_sizes(channels: int) -> None:
-    """Where |u_i| = |v_i| the slope of the convex bound is zero: D = I is best. The others are smaller."""
+    """With |u_i| = |v_i| the slope of the convex bound is zero: D = I is best. The others are smaller."""
     random = np.random.default_rng(channels)
     vector = complex_normal(random, MATRICES, channels, channels)
     left, _ = np.linalg.qr(vector)

@@ -1,4 +1,4 @@
-"""A rare failure of a real campaign, beside the trials of a batch that fail.
+"""A rare failure of a real campaign, compared with the trials of a batch that fail.
 
 Truth: the share of a batch's trials that fail, with its exact binomial interval (Clopper and Pearson); a million trials
 under `make long`, and counts of stored ones of a noisy landing.

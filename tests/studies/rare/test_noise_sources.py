@@ -24,7 +24,8 @@ CASES = {
 
 
 def limit_state(weights, draws, probability, seed):
-    """A weighted sum of the noise of each source and of all draws together, 0 at what has the probability."""
+    """Return a weighted sum of the noise of each source and of all draws together, 0 at the
+    quantile of the probability."""
     weights = np.asarray(weights, dtype=float)
     limit = stats.norm.isf(probability) * np.hypot(np.linalg.norm(weights), draws)
 
@@ -97,7 +98,7 @@ def test_a_source_that_is_not_renewed_ends_levels_whatever_the_others_do(weights
 
 
 def test_noise_of_failures_is_distributed_as_noise_of_failures():
-    """Given failure the sum is a truncated normal, and what is across it is as ever."""
+    """On condition of failure the sum is a truncated normal, and what is across it is as ever."""
     noise = np.concatenate(
         [
             hashed_normals(

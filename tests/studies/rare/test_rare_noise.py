@@ -30,7 +30,7 @@ def trials():
 
 @pytest.fixture(scope="module")
 def limit(trials):
-    """What 4 % of the trials exceed."""
+    """Return the value that 4 % of the trials exceed."""
     column = sorted(trials.trials["analytic_guidance"].metrics["position_error"].tolist())
     return column[-13]
 

@@ -1,6 +1,6 @@
-"""A rare failure flown: what the command says of a system whose failure has a closed form.
+"""A simulated rare failure: output of the command on a system whose failure has a closed form.
 
-Truth: Phi(-beta) of the linear system; flights again of what is told; one worker.
+Truth: Phi(-beta) of the linear system; repeated simulations of the reported trials; one worker.
 """
 
 import json

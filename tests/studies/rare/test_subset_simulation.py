@@ -18,17 +18,17 @@ MEAN_FLIGHTS = {1e-4: 2e4, 1e-7: 3.3e4}
 
 
 def plane(u):
-    """The distance along the diagonal of ten draws."""
+    """Return the distance along the diagonal of ten draws."""
     return u.sum(axis=1) / np.sqrt(u.shape[1])
 
 
 def two_ways(u):
-    """The larger of two draws of different signs: two regions of failure."""
+    """Return the larger of two draws of different signs: two regions of failure."""
     return np.maximum(u[:, 0], -u[:, 1])
 
 
 def shell(u):
-    """The squared distance: failure in every direction."""
+    """Return the squared distance: failure in every direction."""
     return np.sum(u**2, axis=1)
 
 
@@ -82,7 +82,7 @@ def test_the_same_seed_gives_the_same_bits():
 
 
 def test_failures_are_distributed_as_failures():
-    """Given failure the distance along the plane is a truncated normal, and what is across it is as ever."""
+    """On condition of failure the distance along the plane is a truncated normal, and what is across it is as ever."""
     points = np.concatenate(
         [
             subset_simulation(lambda at: at.draws[:, 0] - 3.0, 2, seed=seed).failures.draws
@@ -105,7 +105,7 @@ def test_what_is_not_reached_has_a_bound():
 
 
 def test_infinite_margins_are_failures():
-    """A part of the space where nothing can be told but that it is a failure."""
+    """A region of the space known only to be a failure."""
     actual = subset_simulation(lambda at: np.where(at.draws[:, 0] > 3.0, np.inf, at.draws[:, 0] - 3.5), 2, seed=3)
     assert actual.interval.low < stats.norm.sf(3.0) < actual.interval.high
 
@@ -126,7 +126,7 @@ def test_wrong_numbers(options):
 
 
 def test_correlation_of_chains():
-    """Of two-state Markov chains: their correlation at lag k is rho^k."""
+    """Two-state Markov chains: their correlation at lag k is rho^k."""
     random, rho, fraction, length = np.random.default_rng(1), 0.6, 0.3, 12
     state = random.random(100_000) < fraction
     states = [state]
@@ -140,7 +140,7 @@ def test_correlation_of_chains():
 
 
 def test_families_without_relatives_are_independent_draws():
-    """Every failure of a family of its own: the variance of a share of independent draws."""
+    """Every failure in a separate family: the variance of a share of independent draws."""
     actual = family_interval(0.1, np.arange(100), 1000, 0.95)
     assert actual.variation == pytest.approx(np.sqrt(0.9 / (0.1 * 1000)), rel=1e-12)
     one = family_interval(0.1, np.zeros(100), 1000, 0.95)  # all of one family: nothing is known

@@ -1,8 +1,8 @@
 """The worst margin of a loop over the draws of a campaign.
 
 Truth: a gain margin in closed form, that of the nominal loop over the gain that is drawn; margins and poles by
-python-control on support/loops/exact_systems.py at the worst draws and on a grid over the box; studies again of what is
-told.
+python-control on support/loops/exact_systems.py at the worst draws and on a grid over the box; repeated studies of the
+reported points.
 """
 
 import json
@@ -54,7 +54,7 @@ BOX = {"control.proportional": (0.01, 0.03), "control.derivative": (0.15, 0.6)}
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
-    """Writes a campaign of draws; gives its path."""
+    """Return a writer of a campaign of draws."""
 
     def write(draws, name="late_double_integrator", tail=TAIL):
         path = tmp_path_factory.mktemp("campaign") / "c.toml"
@@ -125,7 +125,7 @@ def test_other_margins(late, box, margin):
 
 
 def test_the_worst_is_studied_again(actual, late, box, capsys):
-    """Dispersed over the file of draws, and by the command that is told, which makes the whole study."""
+    """Dispersed over the file of draws, and by the reported command, which runs the whole study."""
     folder, result = actual
     report = perilune.stability(late, loops=["loop"], campaign=box, draws=folder / "worst.parquet", workers=1)
     spread = report.loops[0].dispersion

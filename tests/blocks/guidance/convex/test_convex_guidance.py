@@ -1,4 +1,4 @@
-"""Convex guidance: flights, times of flight, plans made anew, and each status.
+"""Convex guidance: flights, times of flight, new plans, and each status.
 
 Truth: Clarabel's paths of another formulation, and a point mass in the central field by Runge and Kutta's method.
 """
@@ -172,7 +172,7 @@ def test_a_start_below_the_glide_slope_is_flown_with_a_lower_one():
 
 
 def test_without_a_plan_zem_zev_commands():
-    """Where the least thrust lifts the vehicle and the tilt keeps it upright, it cannot descend."""
+    """No descent is possible: the least thrust lifts the vehicle and the tilt keeps it upright."""
     light = replace(A1, position=np.array([50.0, 0.0, 200.0]), velocity=np.zeros(3), mass=200.0)
     limits = fly(ConvexGuidance, light).outputs["limit"]
     assert {UNREACHED, THRUST} <= set(limits)
@@ -201,7 +201,7 @@ def test_a_frozen_time_to_go_is_flown_by_zem_zev():
 
 
 def test_plans_have_equal_bits_in_python_and_in_c():
-    """A first plan with glide slope and tilt, and one made anew."""
+    """A first plan with glide slope and tilt, and a second one."""
     native = begin(ConvexGuidance, A1)
     plain = Component(ConvexGuidance)
     for name, references in native.references.items():

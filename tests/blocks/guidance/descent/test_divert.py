@@ -18,7 +18,7 @@ ASIDE = np.array([900.0, -700.0, 1600.0])
 
 
 def rows_of(leg, count=12):
-    """A way along which nothing ends."""
+    """Return a path along which nothing ends."""
     s = np.linspace(0.0, 0.4, count)[:, None]
     return leg.position + s**2 * (leg.target - leg.position), (1.0 - s) * leg.velocity
 

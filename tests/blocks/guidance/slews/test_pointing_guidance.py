@@ -1,6 +1,6 @@
 """Attitude to follow on an orbit: nadir, Sun, a fixed one, and when the last one stays.
 
-Truth: a value made outside this package; an orbit with J2 flown by scipy's DOP853, whose attitudes are differenced;
+Truth: a value computed outside this package; an orbit with J2 flown by scipy's DOP853, whose attitudes are differenced;
 scipy's Rotation.align_vectors.
 """
 
@@ -52,7 +52,7 @@ def local_axes(t):
 
 
 def angular_velocity(t, half=0.5):
-    """Of the local axes, in themselves, by a central difference."""
+    """Return the angular velocity of the local axes, in themselves, by a central difference."""
     return local_axes(t).inv().apply((local_axes(t + half) * local_axes(t - half).inv()).as_rotvec()) / (2.0 * half)
 
 
@@ -152,7 +152,7 @@ def test_a_fixed_attitude():
 
 
 def change(guidance, **inputs):
-    """The reference after a cycle with these inputs and a new sample of the orbit."""
+    """Return the reference after a cycle with these inputs and a new sample of the orbit."""
     for name, setting in inputs.items():
         setattr(guidance, name, setting)
     guidance.orbit_count += 1

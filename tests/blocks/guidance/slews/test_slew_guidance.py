@@ -22,7 +22,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def guidance(kind, turn, start=(1.0, 0.0, 0.0, 0.0), **settings):
-    """A guidance at its start, for a turn (a rotation vector) from an attitude."""
+    """Return a guidance at its start, for a turn (a rotation vector) from an attitude."""
     first = Rotation.from_quat(start, scalar_first=True)
     settings = {"slew_start": 0.5, "rate_limit": 0.3, "acceleration_limit": 0.2} | settings
     block = kind(**settings)

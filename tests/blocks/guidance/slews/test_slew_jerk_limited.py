@@ -25,7 +25,7 @@ START = 5.0
 
 
 def guidance(kind=SlewJerkLimited, turn=(0.7, -0.4, 1.1), start=(1.0, 0.0, 0.0, 0.0), **settings):
-    """A guidance at its start, for a turn (a rotation vector) from an attitude."""
+    """Return a guidance at its start, for a turn (a rotation vector) from an attitude."""
     first = Rotation.from_quat(start, scalar_first=True)
     block = kind(**{"slew_start": START, "rate_limit": 0.3, "acceleration_limit": 0.2, **settings})
     block.estimated_quaternion = list(map(float, start))
@@ -35,7 +35,7 @@ def guidance(kind=SlewJerkLimited, turn=(0.7, -0.4, 1.1), start=(1.0, 0.0, 0.0, 
 
 
 def references(block, times, period):
-    """Attitudes, angular velocities and mean accelerations until a period later, at given times."""
+    """Return attitudes, angular velocities and mean accelerations until a period later, at these times."""
     rows = []
     for time in times:
         block.refer(time, period)
@@ -46,7 +46,8 @@ def references(block, times, period):
 
 
 def random_turn(random):
-    """A guidance with random attitudes and limits; boundary rates are 0, along the eigenaxis, or in any direction."""
+    """Draw a guidance with random attitudes and limits; boundary rates are 0, along the eigenaxis, or in any
+    direction."""
     rate, acceleration, jerk = 10.0 ** random.uniform(-2.0, 0.0, 3)
     axis, first, last = (v / np.linalg.norm(v) for v in random.normal(size=(3, 3)))
     size = rate * random.uniform(0.0, 1.0, 2)

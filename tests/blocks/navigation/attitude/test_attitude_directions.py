@@ -25,7 +25,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def navigation(star=None, **settings):
-    """A filter that knows the inertial directions, begun with a star sample or without an attitude."""
+    """Return a filter that knows the inertial directions, begun with a star sample or without an attitude."""
     block = AttitudeNavigationFilter(**{"gyro_random_walk": 1e-9, "bias_random_walk": 1e-12} | settings)
     block.sun_direction, block.magnetic_field = SUN.tolist(), FIELD.tolist()
     if star is not None:
@@ -35,7 +35,7 @@ def navigation(star=None, **settings):
 
 
 def tick(block, time=0.0, sun=None, field=None, star=None, gyros=(0.0, 0.0, 0.0)):
-    """A cycle with new samples of those that are not None."""
+    """Simulate a cycle with new samples of those that are not None."""
     block.measured_angular_velocity, block.gyro_count = list(gyros), block.gyro_count + 1
     if sun is not None:
         block.measured_sun, block.sun_count = list(sun), block.sun_count + 1
@@ -59,7 +59,7 @@ def body(direction, truth=TRUTH):
 
 @pytest.mark.parametrize("sensor", ["sun", "field"])
 def test_a_direction_corrects_across_itself(sensor):
-    """Of an isotropic prior: across P s/(P + s), along P."""
+    """An isotropic prior: across P s/(P + s), along P."""
     sigma = 0.03
     block = navigation(TRUTH, star_sigma=0.1, first_bias_sigma=0.0, **{f"{sensor}_sigma": sigma})
     direction = SUN if sensor == "sun" else FIELD / np.linalg.norm(FIELD)
@@ -121,7 +121,7 @@ def test_a_direction_that_is_not_finite_or_zero_is_left_out(name, wrong):
 
 
 def test_a_direction_without_a_reference_is_left_out():
-    """Where the inputs of the inertial directions are not connected."""
+    """Inputs of the inertial directions are not connected."""
     block = AttitudeNavigationFilter()
     block.initialize()
     assert tick(block, sun=body(SUN), field=body(FIELD)) == Status.NO_DIRECTION
@@ -160,7 +160,7 @@ def test_without_a_gate_nothing_is_rejected():
 
 
 def test_many_rejected_in_a_row_open_the_attitude():
-    """Those of one sensor; a good one starts the count afresh."""
+    """Rejections of one sensor; a good one restarts the count."""
     other = TRUTH * Rotation.from_rotvec([0.3, 0.2, -0.1])
     block = navigation(TRUTH, star_sigma=1e-4, gate=16.27, rejects_to_restart=4)
     for star in (other, other, other, TRUTH):

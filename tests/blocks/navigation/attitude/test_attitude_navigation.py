@@ -40,7 +40,7 @@ def tick(block, time, step, gyros=(0.0, 0.0, 0.0), star=None):
 
 
 def farrenkopf(sigma, walk, drift, period):
-    """Standard deviations of the angle before and after a sample."""
+    """Return standard deviations of the angle before and after a sample."""
     u, v = drift * period**1.5 / sigma, walk * math.sqrt(period) / sigma
     gamma = math.sqrt(1.0 + 0.25 * v * v + u * u / 48.0)
     zeta = gamma + 0.25 * u + 0.5 * math.sqrt(2.0 * gamma * u + v * v + u * u / 3.0)
@@ -78,7 +78,7 @@ def test_the_steady_state_is_farrenkopfs(drift):
 
 
 def predicted_sigma(block, step):
-    """Standard deviation of the angle a step ahead, by the walks."""
+    """Return the standard deviation of the angle a step ahead, by the walks."""
     p = np.array(block.covariance.rows)
     f = np.array(transition(vector(0.0, 0.0, 0.0), step).rows)
     q = np.array(random_walks(block.gyro_random_walk, block.bias_random_walk, step).rows)

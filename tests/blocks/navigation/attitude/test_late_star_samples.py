@@ -25,7 +25,8 @@ def error(block, time):
 
 
 def fly(delays, steps, start=True, **settings):
-    """A filter with perfect gyros and star samples that are ``delays[n]`` (s) late in cycle n; None: no sample."""
+    """Return a filter with perfect gyros and star samples that are ``delays[n]`` (s) late in cycle n; None: no
+    sample."""
     block = AttitudeNavigationFilter(**SETTINGS, **settings)
     block.measured_angular_velocity = RATE.tolist()
     block.gyro_count = 1

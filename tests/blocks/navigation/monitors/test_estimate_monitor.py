@@ -16,7 +16,7 @@ UPPER = np.triu_indices(6)
 
 
 def monitored(error, covariance):
-    """A monitor of an estimate with that error at (1e5, -2e3, 1e4) m, (-900, 3, 5) m/s."""
+    """Return a monitor of an estimate with that error at (1e5, -2e3, 1e4) m, (-900, 3, 5) m/s."""
     true = np.array([1e5, -2e3, 1e4, -900.0, 3.0, 5.0])
     block = EstimateMonitor(
         position=true[:3].tolist(),

@@ -1,4 +1,4 @@
-"""What a satellite's monitor says of boresight and estimate.
+"""A satellite's monitor on boresight and estimate.
 
 Truth: a turn about the boresight moves nothing of it; spherical geometry; scipy's rotation vectors.
 """

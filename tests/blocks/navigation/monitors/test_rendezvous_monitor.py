@@ -41,7 +41,7 @@ def test_robot_displaced_from_its_place_shows_its_own_error():
 
 
 def closing(robot, velocity, **parameters):
-    """A monitor of a robot at a position relative to an object with a velocity."""
+    """Return a monitor of a robot at a position relative to an object with a velocity."""
     block = RendezvousMonitor(**parameters)
     block.target_position = [10.0, -20.0, 5.0]
     block.robot_position = np.add(block.target_position, robot).tolist()

@@ -32,7 +32,7 @@ TRIALS = 55  # three shards, the last one of five trials
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory):
-    """Where campaigns of this file lie: a folder that is empty to the workers, where this machine can hide it."""
+    """Return the folder of this file's campaigns: it is empty to the workers, where this machine can hide it."""
     return tmp_path_factory.mktemp("campaigns")
 
 
@@ -45,7 +45,7 @@ def cluster(place, tmp_path_factory, fmus):
 
 @pytest.fixture(scope="module")
 def line(place):
-    """A campaign that keeps traces."""
+    """Return the command line of a campaign that keeps traces."""
     campaign = place / "c.toml"
     campaign.write_text(PAPER.read_text().replace("[record]", SAMPLED))
     return ["batch", SYSTEM, "--campaign", str(campaign), "--trials", str(TRIALS)]
@@ -193,7 +193,7 @@ def test_the_package_is_missing(line, capsys, monkeypatch):
 
 
 def other_perilune(folder, change):
-    """A copy of the package's sources with something changed, before ours in a worker's path."""
+    """Copy the package's sources with a change, before ours in a worker's path."""
     copy = shutil.copytree(PACKAGE, folder / "perilune", symlinks=False, ignore=shutil.ignore_patterns("*.fmu"))
     change(copy)
     return {"PYTHONPATH": str(folder)}

@@ -1,4 +1,4 @@
-"""What goes into a task: every trial once, some seconds of them.
+"""Content of a task: every trial once, some seconds of them.
 
 Truth: the list of all trials, and times that are known beforehand.
 """
@@ -13,7 +13,7 @@ VARIANTS = ("a", "b")
 
 
 def all_of(portions, threads, seconds):
-    """Tasks in turn, each measured as soon as it is given."""
+    """Return tasks in turn, each measured as soon as it is issued."""
     actual = []
     while task := portions.next(threads):
         actual.append(task)

@@ -22,7 +22,7 @@ def can_mount():
 
 
 def size_of(folder):
-    """What the files of a folder take of a file system with blocks of 4 kB, in kB."""
+    """Return the size of a folder's files in a file system with blocks of 4 kB, in kB."""
     return sum(4 * ceil(path.stat().st_size / 4096) for path in folder.rglob("*") if path.is_file())
 
 

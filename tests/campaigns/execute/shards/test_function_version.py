@@ -21,7 +21,7 @@ FIELD = "elementary_functions"
 
 @pytest.fixture
 def folder(tmp_path):
-    """A campaign with none of its shards."""
+    """Prepare a campaign with none of its shards."""
     assert main(["prepare", *CAMPAIGN, "--output", str(tmp_path / "out")]) == 0
     return tmp_path / "out"
 

@@ -34,7 +34,7 @@ def folder(whole, tmp_path):
 
 
 def rewrite(path, change):
-    """A shard with other columns, which says of itself what it said before."""
+    """Write a shard with other columns, whose metadata is as before."""
     table = pyarrow.parquet.read_table(path)
     groups = pyarrow.parquet.ParquetFile(path).metadata
     assert groups.num_row_groups == 1

@@ -164,7 +164,7 @@ def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
 
 
 class Made(TrialTable):
-    """Trials made as they are read, as a folder of shards gives them."""
+    """Trials created as they are read, as by a folder of shards."""
 
     def __init__(self, trials):
         super().__init__(TrialTable.of({"metric.miss": np.zeros(0), "draw.case": np.zeros(0)}).table)

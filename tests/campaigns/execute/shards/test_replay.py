@@ -1,7 +1,7 @@
 """`perilune replay FOLDER TRIAL`: a trial of a stored campaign again, of its folder alone.
 
 Truth: the metrics that the campaign's folder has of the trial, compared to the last bit; a flight of the same draws by
-`simulate`; the page's own commands. The folder is moved, and what it was made of is taken away.
+`simulate`; the page's own commands. The folder is moved, and its source files are removed.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ TRIALS = 6
 
 @pytest.fixture(scope="module")
 def folder(fmus, tmp_path_factory):
-    """A campaign of two variants with noise, a fault that differs from trial to trial, changed values and a set.
+    """Return a campaign of two variants with noise, a fault that varies by trial, changed values and a set.
 
     System, campaign and parameter set were in another folder, which is gone.
     """
@@ -124,7 +124,7 @@ def test_a_trial_that_is_no_longer_the_stored_one_is_named(folder, tmp_path, cap
 
 
 def test_a_replay_that_is_cut_off_says_nothing_of_the_rest(tmp_path, capsys, monkeypatch):
-    """Of a flight of 400 000 steps, which takes a tenth of a second or more: the limit is a hundredth of that.
+    """A simulation of 400 000 steps, which takes a tenth of a second or more: the limit is a hundredth of that.
 
     A busy machine may need longer than PATIENCE for its initialisation.
     """

@@ -25,7 +25,7 @@ CAMPAIGN = [SYSTEM, "--campaign", "paper", "--trials", str(TRIALS)]
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory, fmus):
-    """What the campaign leaves when nothing happens to it."""
+    """Return the files that the campaign writes without a disturbance."""
     folder = tmp_path_factory.mktemp("whole") / "out"
     assert main(["batch", *CAMPAIGN, "--output", str(folder), "--workers", "1"]) == 0
     return bytes_of(folder)

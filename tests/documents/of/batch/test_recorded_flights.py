@@ -20,7 +20,7 @@ NAMES = ("ship.position[1]", "ship.position[2]", "ship.position[3]", "ship.mass"
 
 
 def traced_batch(success, rows, *, missing=()):
-    """A batch of which each trial with ``rows`` recorded NAMES at so many samples; the variants are alike."""
+    """Return a batch of which each trial with ``rows`` recorded NAMES at that many samples; the variants are alike."""
     outcomes = {variant: [(each, 1.0, 2.0) for each in success] for variant in ("one", "other")}
     batch = batch_result(outcomes)
     traces = {

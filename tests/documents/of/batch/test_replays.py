@@ -1,7 +1,7 @@
 """Replay commands on the page of a batch.
 
-Truth: outcomes made by hand, whose worst trials are seen; and the command line itself, which must fly the trial that
-the batch flew.
+Truth: hand-written outcomes with known worst trials; and the command line itself, which must fly the trial that the
+batch flew.
 """
 
 import json

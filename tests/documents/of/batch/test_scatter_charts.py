@@ -22,7 +22,7 @@ from tests.support.pages.samples import DRAWS, batch_result, mixed_batch
 
 
 def chart_of(batch, variant, everything):
-    """The chart of a variant in the batch's only scatter plot."""
+    """Return the chart of a variant in the batch's only scatter plot."""
     campaign = batch.plan.campaign
     (scatter,) = campaign.scatters
     metrics = {metric.name: metric for metric in campaign.metrics}

@@ -1,6 +1,6 @@
-"""A metric over another on the page of a batch, and how many trials saw each status.
+"""A metric over another on the page of a batch, and the number of trials with each status.
 
-Truth: outcomes made by hand, whose marks are counted in the figure and whose ticks_at follow from its ticks.
+Truth: hand-written outcomes, whose marks are counted in the figure and whose ticks_at follow from its ticks.
 """
 
 import contextlib
@@ -42,7 +42,8 @@ CONTACTS = PLANE.format("m", "m", 'circle = 10\ntitle = "Contact points"')
 
 
 def paths(figure):
-    """The paths of the figure of each colour of marks: successes as strokes without length, failures as crosses."""
+    """Return the paths of the figure of each colour of marks: successes as strokes without length, failures as
+    crosses."""
     root = etree.fromstring(figure)
     return {
         colour: " ".join(root.xpath(f"//*[local-name()='path'][@stroke='{colour}']/@d"))

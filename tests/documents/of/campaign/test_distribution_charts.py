@@ -32,7 +32,7 @@ def metric(unit="m"):
 
 
 def step_at(curve, at):
-    """The ordinate of a curve of steps."""
+    """Return the ordinate of a curve of steps."""
     return curve.displayed[np.searchsorted(curve.x, at, side="right") - 1]
 
 

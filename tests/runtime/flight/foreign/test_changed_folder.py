@@ -34,7 +34,7 @@ traces = "all"
 
 @pytest.fixture
 def elsewhere(tmp_path, monkeypatch):
-    """The folder that the FMU goes to; the test is in another."""
+    """Return the folder that the FMU changes to; the test is in another."""
     here, there = tmp_path / "here", tmp_path / "there"
     here.mkdir()
     there.mkdir()

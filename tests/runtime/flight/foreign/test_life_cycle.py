@@ -36,7 +36,7 @@ BAD = (
 
 @pytest.fixture
 def calls(tmp_path, monkeypatch):
-    """The letters of all calls since the last time that they were asked for."""
+    """Return a reader of the letters of all calls since its last call."""
     log = tmp_path / "calls"
     monkeypatch.setenv("FOREIGN_LOG", str(log))
 

@@ -1,6 +1,6 @@
 """Strings over connections: they arrive as Reals would, whatever their FMU does with its memory afterwards.
 
-Truth: pencil and paper on FMUs in Python of which one says how many steps it has made, and one repeats what it is told.
+Truth: pencil and paper on FMUs in Python of which one counts its steps, and one repeats its input.
 """
 
 import re

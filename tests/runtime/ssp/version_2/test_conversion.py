@@ -47,7 +47,7 @@ SCALARS = {"one.y": (), "two.w": ()}
 
 
 def arrays_of(shapes):
-    """What the FMU of each source has as arrays."""
+    """Return the arrays of each source's FMU."""
     return lambda source: {
         name.partition(".")[2]: shape
         for name, shape in shapes.items()
@@ -56,7 +56,7 @@ def arrays_of(shapes):
 
 
 def written(connections="", binding="", shapes=SHAPES):
-    """A system of two components with an element each for all elements of their arrays."""
+    """Return a system of two components with an element each for all elements of their arrays."""
     components = []
     for part in ("one", "two"):
         declared = "; ".join(
@@ -117,7 +117,7 @@ ENDINGS = st.sampled_from(["", '<ssc:LinearTransformation factor="2" offset="0.5
 
 @st.composite
 def connected(draw):
-    """Connections of elements, an element driven once: whole arrays, parts of them, in any order."""
+    """Draw connections of elements, an element driven once: whole arrays, slices of them, in any order."""
     pairs = []
     for array in ("two.u", "two.v", "two.w"):
         ends = element_names(array, SHAPES[array])

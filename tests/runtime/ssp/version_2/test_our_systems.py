@@ -34,7 +34,7 @@ NAMES = system_names()
 
 
 def grouped(description: etree._Element) -> dict[str, tuple[int, ...]]:
-    """The arrays of an FMU by the names of its variables, as if it were one of FMI 3.0."""
+    """Return the arrays of an FMU by the names of its variables, as if it were one of FMI 3.0."""
     return array_shapes(each.get("name", "") for each in description.iterfind("ModelVariables/ScalarVariable"))
 
 

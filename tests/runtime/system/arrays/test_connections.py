@@ -18,13 +18,13 @@ STARTS = np.array([1.0, 2.0, 3.0])
 
 
 def flown(tmp_path, fmus, *elements, **options):
-    """The run of a system of these elements, as SSP 2.0."""
+    """Run a system of these elements, as SSP 2.0."""
     flight = {name: options.pop(name) for name in ("open_inputs",) if name in options}
     return fly(pack(tmp_path / "s.ssp", fmus, in_version_2(document(system(*elements, **options)))), **flight)
 
 
 def values(run, name, shape):
-    """An array of the run, first sample and last."""
+    """Return an array of the run, first sample and last."""
     elements = [f"{name}[{','.join(str(each + 1) for each in index)}]" for index in np.ndindex(*shape)]
     return [np.array([run[each][sample] for each in elements]).reshape(shape) for sample in (0, -1)]
 

@@ -15,7 +15,7 @@ from tests.support.builders import component, connection, document, system, writ
 
 
 def notes(tmp_path, tiny, pairs):
-    """Notes on a system in which output u[i] of one component is connected with input v[j] of another."""
+    """Return notes on a system in which output u[i] of one component is connected with input v[j] of another."""
     wires = "".join(connection(f"a.y[{i}]", f"b.u[{j}]") for i, j in pairs)
     outputs = "; ".join(f"output y[{i}] Real" for i in (1, 2, 3))
     inputs = "; ".join(f"input u[{j}] Real" for j in (1, 2, 3))
@@ -28,7 +28,7 @@ def notes(tmp_path, tiny, pairs):
 
 @pytest.fixture(scope="module")
 def three(tmp_path_factory):
-    """An FMU with an input and an output of three elements."""
+    """Build an FMU with an input and an output of three elements."""
     folder = tmp_path_factory.mktemp("three")
     (folder / "three.py").write_text(THREE)
     perilune.export(folder / "three.py", flavour="python", output=folder / "three.fmu")

@@ -28,7 +28,7 @@ def inputs(tmp_path, fmus, root, **options):
 
 
 def nested(inner="", outer="", declared=""):
-    """A system with an inner one, whose input has as many elements as its structural parameter says."""
+    """Return a system with an inner one, whose input has as many elements as its structural parameter says."""
     wires = connection("m", "inner.n") if declared else ""
     return system(
         system(GAIN, name="inner", declared=INNER, bindings=inner, connections=connection("in", "gain.u")),

@@ -48,7 +48,7 @@ def built(tmp_path_factory):
 
 @pytest.fixture
 def fmu(tmp_path, built):
-    """Makes FMUs in the folder of the test."""
+    """Return a builder of FMUs in the folder of the test."""
     return lambda name, version=2, **declared: passing_fmu(tmp_path, built, name, version, **declared)
 
 

@@ -1,4 +1,4 @@
-"""What the tests of refusals share: the command in this process, and one flavour of the tiny FMUs."""
+"""Fixtures of tests of refusals: the command in this process, and one flavour of the tiny FMUs."""
 
 import pytest
 
@@ -8,7 +8,7 @@ from tests.support.refused import ONE_LINE
 
 @pytest.fixture
 def refused(tmp_path, capfd, monkeypatch):
-    """Runs `perilune run PATH --output ...` in this process and checks the form of the refusal."""
+    """Run `perilune run PATH --output ...` in this process and check the form of the refusal."""
     monkeypatch.chdir(tmp_path)
 
     def check(path, *words, options=(), status=2, verb=("run",)):

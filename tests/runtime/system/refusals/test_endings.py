@@ -1,4 +1,4 @@
-"""How a command ends that cannot do its work: exit status 1 or 2, and one line that says why.
+"""End of a command that cannot do its work: exit status 1 or 2, and one line that says why.
 
 Truth: the table of refusals in docs/command_line.md. Most go through the command line's `main` in this process, a
 handful through the installed command.

@@ -81,7 +81,7 @@ def described(tiny, change):
 
 
 def of_another_platform(tiny, source):
-    """The FMU as one that runs without Python, with a file in sources and no binary for Linux."""
+    """Return the FMU as one that runs without Python, with a file in sources and no binary for Linux."""
     files = {path: content for path, content in fmu_files(tiny).items() if "linux" not in path}
     text = files["modelDescription.xml"].decode().replace('needsExecutionTool="true"', 'needsExecutionTool="false"')
     return zipped(files | {"modelDescription.xml": text.encode(), f"sources/{source}": b""})

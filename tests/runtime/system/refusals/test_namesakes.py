@@ -44,7 +44,7 @@ STEP = 0.25  # s
 
 @cache
 def template() -> dict[str, str | bytes]:
-    """The files of an FMU by pythonfmu, whose builder imports its scripts into this process."""
+    """Return the files of an FMU by pythonfmu, whose builder imports its scripts into this process."""
     with TemporaryDirectory() as folder:
         script, helper = Path(folder, "script_of_template.py"), Path(folder, "helper_of_template.py")
         helper.write_text("NUMBER = 0.0\n")
@@ -84,7 +84,7 @@ def c_fmu(folder: Path, name: str, number: float, shared_name: str) -> Path:
 
 
 def both(folder: Path, *names: str, kind: str = "output y Real") -> Path:
-    """A system of these FMUs."""
+    """Write a system of these FMUs."""
     components = (component(f"c{n}", name, kind) for n, name in enumerate(names))
     return pack(folder / "both.ssp", folder, document(system(*components), step=STEP))
 
@@ -189,7 +189,7 @@ perilune.simulate(two, in_process=True, stop_time=1.0, step=0.25)
 
 
 def test_in_this_process_fmus_are_compared_with_all_that_it_has_loaded(tmp_path):
-    """Modules outlive their FMU; a process of its own, since what is loaded stays."""
+    """Modules outlive their FMU; another process, since loaded modules stay."""
     files = [python_fmu(tmp_path, "one", 1.0), python_fmu(tmp_path, "two", 2.0)]
     ended = subprocess.run(
         [sys.executable, "-c", IN_PROCESS, *map(str, files)], capture_output=True, text=True, check=False
