@@ -91,7 +91,7 @@ def bundle(output: Path, *, check: bool) -> None:
     sources = f"{digest(paths)}  sources\n"
     if sums.is_file() and sources in sums.read_text():
         return
-    copied = BUILT / SOURCES.name  # beside node_modules, where both programs look for packages
+    copied = BUILT / SOURCES.name  # next to node_modules, where both programs look for packages
     for folder in (copied, output):
         shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(SOURCES, copied)

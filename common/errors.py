@@ -59,7 +59,7 @@ class InputError(ValueError):
         return " ".join(f"{ended}; {_shorten(self.remedy)}".split())
 
 
-LONGEST = 1000  # characters of each part of a line, whose names and values may be those of a file
+LONGEST = 1000  # characters of each piece of a line, whose names and values may be those of a file
 
 
 def _shorten(text: str) -> str:
@@ -117,7 +117,7 @@ def warn_in_one_line() -> None:
     warnings.formatwarning = lambda message, *_: f"perilune: {PARAMETER.sub(_flag, str(message))}\n"
 
 
-FEW, NEAREST, ALL = 6, 4, 12  # names: so many are all shown, so many nearest of more, so many where none is near
+FEW, NEAREST, ALL = 6, 4, 12  # names: up to FEW are all shown, NEAREST of more, ALL where none is near
 NEAR = 0.6  # of difflib's ratio, 1 for the same
 
 

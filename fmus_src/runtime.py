@@ -197,7 +197,7 @@ class Component:
             if isinstance(variable, State | Output):
                 setattr(self.block, name, variable.start)
         self.check_start_values()
-        self.block.drop_external()  # before others are made: two simulations at once would take twice the memory
+        self.block.drop_external()  # before new ones: two simulations at once would take twice the memory
         self.tick = 0
         if START_TIME in self.block.variables:
             self.block.start_time = self.start_time

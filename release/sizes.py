@@ -24,7 +24,7 @@ from perilune.common.paths import ROOT
 
 STORED = Path(__file__).with_suffix(".json")
 LARGEST = 12  # packages that are listed
-TOOLS = ("docs", "dev")  # extras of those who change Perilune
+TOOLS = ("docs", "dev")  # extras for developers of Perilune
 PIP = ("-m", "pip", "--disable-pip-version-check", "--python")
 
 

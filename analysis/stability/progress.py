@@ -11,7 +11,7 @@ from loky.backend import get_context
 
 from ...common.progress import progress_bar
 
-Tell = Callable[[int, int], None]  # so many more steps are to be done, so many more are done
+Tell = Callable[[int, int], None]  # numbers of added and of completed steps
 
 _pipe: Connection | None = None  # of a worker process
 

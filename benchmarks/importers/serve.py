@@ -18,7 +18,7 @@ from .contestant import Course, Fly, Unavailable
 from .contestants import CONTESTANTS
 from .worker import fly_batch
 
-# Flights are repeated until there are so many and so much time has passed: some take long to start, and unevenly.
+# Flights are repeated up to a count and a time: some take long to start, and unevenly.
 FLIGHTS = 3
 TURN = 0.1  # s
 
@@ -65,7 +65,7 @@ def main() -> None:
             _serve(answer, sys.argv[1], Path(sys.argv[2]))
         except (Unavailable, InputError) as reason:
             answer({"unavailable": str(reason)})
-        except Exception as error:  # a peer may raise anything; the benchmark goes on without it
+        except Exception as error:  # a peer may raise anything; the benchmark continues without it
             answer({"failed": f"{type(error).__name__}: {error}"})
             status = 1
     leave(status)

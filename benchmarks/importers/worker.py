@@ -34,7 +34,7 @@ class Worker:
         ending = f"from {end_with_parent.__module__} import end_with_parent; end_with_parent({os.getpid()})"
         start = f"{ending}; from {__package__}.serve import main; main()"
         command = [sys.executable, "-c", start, contestant, str(ssp)]
-        # it ends without clearing up: what it unpacks lies beside the .ssp and goes with it
+        # it ends without clearing up: unpacked files are next to the .ssp and go with it
         paths = os.pathsep.join(filter(None, sys.path))  # where this module is
         environment = {**os.environ, "TMPDIR": tempfile.mkdtemp(dir=ssp.parent), "PYTHONPATH": paths}
         self._process = subprocess.Popen(

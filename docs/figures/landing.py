@@ -32,7 +32,7 @@ SAMPLE = "#b9c9d6"
 TARGET = marker("o", 6.5, INK, fill="#ffffff", width=1.4)
 ARROW_TIMES = 20.0  # s between thrust arrows
 CROWDED = 6e3  # m from the site, nearer than which arrows would lie on each other
-THIN = 10  # of the samples of flights in the background, one in so many is drawn
+THIN = 10  # every n-th sample of flights in the background is drawn
 ARROW_SCALE = 7.0  # pt of arrow per m/s2
 
 

@@ -104,7 +104,7 @@ class AttitudeControl(Block):
         rate = planned + self.rate_error
         wanted = wanted + cross(planned, rate) - m
         momentum = self.inertia * rate + self.gyro_momentum
-        # half a period later: the momentum as seen from the turning body, and its angular velocity
+        # half a period later: the momentum in axes of the turning body, and its angular velocity
         momentum = momentum + half * (jets - cross(rate, momentum))
         rate = rate + half * wanted
         self.torque_command = cross(rate, momentum) + self.inertia * wanted - jets

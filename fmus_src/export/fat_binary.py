@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 FAT_MAGIC = 0xCAFEBABE  # everything in the header is big-endian
 MACH_O_64 = 0xFEEDFACF  # little-endian, as all processors that are joined here
-ALIGNMENT = 14  # power of 2: the pages of arm64, 16 KiB, of which those of x86_64 are a part
+ALIGNMENT = 14  # power of 2: the pages of arm64, 16 KiB, a multiple of those of x86_64
 
 
 def fat_binary(libraries: Sequence[bytes]) -> bytes:

@@ -26,7 +26,7 @@ def test_it_runs_to_its_end(path, tmp_path):
     book = nbformat.read(path, 4)
     nbformat.validate(book)
     code = [cell for cell in book.cells if cell.cell_type == "code"]
-    assert not any(cell.outputs or cell.execution_count for cell in code)  # results are made, not kept
+    assert not any(cell.outputs or cell.execution_count for cell in code)  # results are computed, not stored
     NotebookClient(book, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
     results = [output.data for cell in code for output in cell.outputs if output.output_type == "execute_result"]
     assert sum(any(kind in data for kind in SHOWN) for data in results) >= 3

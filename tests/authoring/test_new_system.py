@@ -79,7 +79,7 @@ def flown_here():
 def open_loop():
     """Minus the transfer around control.torque, sampled."""
     plant = control.ss([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0 / INERTIA]], np.eye(2), np.zeros((2, 1)))
-    # the sum takes the angle of its own instant: ki T z/(z - 1) = ki T (1 + 1/(z - 1))
+    # the sum takes the angle of the same instant: ki T z/(z - 1) = ki T (1 + 1/(z - 1))
     law = control.ss(1.0, [[1.0, 0.0]], KI * PERIOD, [[KP + KI * PERIOD, KD]], PERIOD)
     return law * control.c2d(plant, PERIOD, "zoh")
 

@@ -46,7 +46,7 @@ def test_a_tiny_run_has_every_contestant_and_all_agree(fmus: Path, monkeypatch: 
     monkeypatch.setattr(worker, "LEAST", 4)
     document = run_benchmark(steps=30, repeats=1, contestants=FLOWN)
 
-    # Who does not agree with our loop on the values at the end, `fused_limit` to the last bit, is listed here.
+    # A contestant whose final values differ from our loop's, `fused_limit` to the last bit, is listed here.
     assert document["unavailable"] == {}
     times = document["microseconds_per_step"]
     assert times.keys() >= PROMISED_TIMES

@@ -51,7 +51,7 @@ def test_parameters_sources_and_followers(tmp_path: Path, tiny_folder: Path, blo
         ),
     )
     ours, fused = prepare_loop(flown), fused_limit.prepare(flown, blocks)
-    for steps in (1, 2, 7, 1, 30):  # each flight starts anew
+    for steps in (1, 2, 7, 1, 30):  # each flight restarts
         assert bits(fused(steps)) == bits(ours(steps))
     # the ramp rises from 1 by 0.1 m/s and is read after 2 s
     assert fused(8)["second.y"] == pytest.approx(3.0 * -0.7 * (1.0 + 0.1 * 8 * 0.25))

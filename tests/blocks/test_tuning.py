@@ -172,7 +172,7 @@ def test_what_cannot_be_set_is_refused_by_name_and_nothing_is_set(name: str, num
     kind = "Integer" if name == "count" else "Real"
     assert native.log == [f"fmi2Set{kind}: {WRONG[name, number]}"]
     assert native.get(list(range(len(NAMES)))) == before
-    assert native.do_step(0.0, 0.1) == OK  # the instance goes on
+    assert native.do_step(0.0, 0.1) == OK  # the instance continues
     native.free()
 
 

@@ -88,7 +88,7 @@ def test_inputs_that_a_system_of_others_does_not_declare(own, capsys):
     lines = [line for line in file.read_text().splitlines() if 'name="rate" kind="input"' not in line]
     lines = [line for line in lines if 'startConnector="rate"' not in line]
     file.write_text("\n".join(lines), encoding="utf-8")
-    assert main(["run", "axis"]) == 1  # without the rate it does not come to rest
+    assert main(["run", "axis"]) == 1  # without the rate it does not settle
     out = capsys.readouterr().out
     assert "note: control.rate: input not declared in the description, keeps its start" in out.splitlines()
     assert main(["run", "lunar_descent_2d"]) == 0  # of this repository, as it was meant

@@ -23,7 +23,7 @@ def test_the_table_of_the_docs():
     assert "\n".join(rows) in bounds_page()
 
 
-# In a process of its own: other threads' memory is counted, too.
+# In another process: other threads' memory is counted, too.
 OPENED = """
 import sys, tracemalloc
 from perilune.common.errors import InputError

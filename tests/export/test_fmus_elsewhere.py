@@ -19,7 +19,7 @@ BLOCKS = list(catalogue().items())
 FIRST = {"python": 0, "native": either(0, 3)}
 EVERY = either(1, 6)
 STEPS = 20
-# In a process of its own, which leaves before pythonfmu's destructors.
+# In another process, which exits before pythonfmu's destructors.
 SCRIPT = """
 import json, os, sys
 import numpy as np

@@ -189,7 +189,7 @@ def test_a_state_is_not_saved_into_one_of_another_fmu_which_has_other_room(walk:
     assert walk.call("fmi2DeSerializeFMUstate", text, c_size_t(len(text)), byref(theirs)) == ERROR
     assert walk.log[-1].startswith("fmi2DeSerializeFMUstate: FMUstate is one of another FMU")
     assert other.serialised(theirs) == before
-    assert walk.call("fmi2GetFMUstate", byref(ours)) == OK  # into a state of its own
+    assert walk.call("fmi2GetFMUstate", byref(ours)) == OK  # into a separate state
     walk.free_state(ours)
     other.free_state(theirs)
     other.free()

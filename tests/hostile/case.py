@@ -24,7 +24,7 @@ class Case:
     accepted: bool = False
 
 
-Content = str | bytes | Callable[[], str | bytes]  # what is large is made when it is written
+Content = str | bytes | Callable[[], str | bytes]  # large content is computed when it is written
 
 
 def put(name: str, content: Content) -> Write:

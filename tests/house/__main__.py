@@ -9,7 +9,7 @@ from pathlib import Path
 from . import likeness, names, prose, size, structure
 from .sources import ROOT, Checkout
 
-# Measure, its function, and what is wanted of it.
+# Measure, its function, and its goal.
 MEASURES = (
     ("analysis and common", size.analysis, "a tenth less, about 350 files, about 40 packages"),
     ("pairs of places with six like lines", likeness.like_lines, "the top 45 gone, none an option list"),

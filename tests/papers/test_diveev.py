@@ -92,7 +92,7 @@ def test_table_1(table_1, start):
     assert row["success"]
     assert row["metric.final_time"] == pytest.approx(time, abs=0.25)
     assert row["metric.final_altitude"] == pytest.approx(altitude, abs=0.1)
-    assert 6.0 - 0.12 < row["metric.final_speed"] < 6.0  # braking at 10 m/s2, the hand-over is seen within a step
+    assert 6.0 - 0.12 < row["metric.final_speed"] < 6.0  # braking at 10 m/s2, the hand-over is noticed within a step
 
 
 @pytest.mark.parametrize("start", [NOMINAL, (16648.0, -1.65), (19648.0, -1.55)])

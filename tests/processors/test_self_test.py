@@ -38,7 +38,7 @@ FLUSHED = (
     "fmi2Instantiate: subnormal numbers are flushed to zero; compile and link this FMU, and what loads it, "
     "without -ffast-math"
 )
-# Instantiates unpacked FMUs by fmpy one after the other, in a process of its own: -ffast-math changes the modes of the
+# Instantiates unpacked FMUs by fmpy one after the other, in another process: -ffast-math changes the modes of the
 # processor in the process that loads the library.
 SCRIPT = """
 import json, sys

@@ -29,7 +29,7 @@ def test_page_renders_wide_and_narrow(browser, tmp_path, width, height):
         assert np.count_nonzero(np.all(np.abs(pixels - colour) < 2.0, axis=-1)) > 100
     inked = np.any(pixels < 250.0, axis=-1)
     assert not inked[:, -8:].any()  # what is wider scrolls in itself
-    assert not inked[-40:].any()  # the whole page was seen
+    assert not inked[-40:].any()  # the whole page is in the picture
 
 
 @pytest.mark.parametrize(("width", "height"), either([(1100, 5600), (400, 10000)], [(1100, 5600)]))
@@ -45,7 +45,7 @@ def test_a_flight_through_phases_renders_wide_and_narrow(browser, mission_page, 
         assert np.count_nonzero(np.all(np.abs(pixels - colour) < 2.0, axis=-1)) > 20
     inked = np.any(pixels < 250.0, axis=-1)
     assert not inked[:, -8:].any()  # what is wider scrolls in itself
-    assert not inked[-40:].any()  # the whole page was seen
+    assert not inked[-40:].any()  # the whole page is in the picture
 
 
 COUNT = """

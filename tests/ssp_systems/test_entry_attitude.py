@@ -17,7 +17,7 @@ IDEAL = ["ideal.ssv"]
 DEGREE = math.pi / 180.0
 pytestmark = pytest.mark.usefixtures("fmus")
 
-# Largest deviation (deg): attack, sideslip, bank in the upper part; mean jet-seconds. 24 cases without sensor errors.
+# Largest deviation (deg): attack, sideslip, bank at high altitude; mean jet-seconds. 24 cases without sensor errors.
 CASES_IDEAL = {
     "robust_control": (1.817, 1.793, 0.347, 12.863),
     "standard_control": (5.006, 6.877, 2.137, 31.625),

@@ -33,7 +33,7 @@ ROWS = {
     8: ((2.8, 2.2, 2.0), (0.25, 0.19, 0.18), 1.1, 1.8, 0.14),
 }
 REACHED = {"m": 0.1, "m/s": 0.03, "deg": 0.1}  # below which there is nothing to be won
-# 0.15, and what RMS of a few flights scatter beside it
+# 0.15, and the scatter of the RMS of a few flights
 MARGIN = either(1.15, 1.5)
 
 

@@ -28,7 +28,7 @@ def stems(folder):
     return {path.stem for path in (SYSTEMS / "lunar_terminal_guidance" / folder).iterdir() if path.is_file()}
 
 
-# A process of its own, which parts for each line: argcomplete ends the one that it answers in.
+# Another process, which forks for each line: argcomplete ends the one that it answers in.
 COMPLETE = """
 import os, sys
 from perilune.analysis.cli import run

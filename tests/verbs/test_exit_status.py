@@ -28,7 +28,7 @@ STUDY = f"{ONE} --samples 100"
 SEARCH = f"{ONE} --metric flight_time --flights 100"
 NO_CONTACT = "landing_mission --stop-time 1"
 
-# Arguments and the status that they end with; {folder} is made below.
+# Arguments and the status that they end with; {folder} is created below.
 ROWS = [
     ("list", 0),
     ("list --json {folder}", 2),

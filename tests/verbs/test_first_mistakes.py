@@ -153,7 +153,7 @@ def working(tmp_path, monkeypatch):
 
 
 def snapshot(folder):
-    # Python keeps what it compiles of a user's file beside it, as it does for any import
+    # Python stores a user's compiled file next to it, as for any import
     actual = [path for path in sorted(folder.rglob("*")) if "__pycache__" not in path.parts]
     return {path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else None for path in actual}
 

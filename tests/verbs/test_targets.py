@@ -51,7 +51,7 @@ def test_targets_that_cannot_be_written_are_refused_before_a_flight(tmp_path, ca
     assert (tmp_path / "file").read_text() == "mine"
 
 
-# What each verb is given besides; of what it would do nothing is reached.
+# Further arguments of each verb; none of its work is reached.
 ARGUMENTS = {
     "list": [],
     "describe": ["lunar_landing"],

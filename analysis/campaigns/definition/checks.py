@@ -26,7 +26,7 @@ OVER_TIME = ("output", "local", "calculatedParameter", "independent")  # causali
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
     """Prepare every variant once, so that wrong input is reported before anything flies; by variant."""
-    first = next(plan.draw_parts())  # what all trials draw is looked at part by part, once the rest is right
+    first = next(plan.draw_parts())  # samples of all trials are checked block by block, once the rest is right
     plan.values_from(first, range(first.trials))
     _ = plan.groups
     _refuse_conflicts(plan)

@@ -98,7 +98,7 @@ class LatinHypercube(_UniformDesign):
 
     @classmethod
     def _points(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> list[np.ndarray]:
-        # a Latin hypercube is one such column per dimension; made singly, a column does not depend on the others
+        # a Latin hypercube is one such column per dimension; drawn singly, a column does not depend on the others
         return [
             scipy.stats.qmc.LatinHypercube(1, rng=generator(seed, draw.name)).random(trials)[:, 0] for draw in draws
         ]

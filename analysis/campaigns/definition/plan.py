@@ -107,7 +107,7 @@ class BatchPlan:
     source: CampaignSource | None = None  # the campaign's file, with those that it extends
     until_decided: bool = False  # whether it ends as soon as the campaign's requirements are decided
     archive: SystemArchive | None = None  # flown instead of what `system` names, for which it stands
-    known_draws: Draws | None = field(default=None, compare=False, repr=False)  # of all trials, made before
+    known_draws: Draws | None = field(default=None, compare=False, repr=False)  # of all trials, drawn before
 
     @cached_property
     def draws(self) -> Draws:
@@ -149,7 +149,7 @@ class BatchPlan:
         1 on, those must be supplied."""
         given = None if self.given is None else self.given.of_part(trials)
         draws = None
-        if not self.is_counted:  # made anew for fewer trials they may differ
+        if not self.is_counted:  # drawn again for fewer trials they may differ
             draws = self.draws.of_part(trials) if trials.start else self.draws.of_first(trials.stop)
         campaign = replace(self.campaign, trials=len(trials))
         return replace(self, campaign=campaign, given=given, known_draws=draws)

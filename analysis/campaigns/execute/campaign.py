@@ -165,7 +165,7 @@ def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> PreparedCampaign:
     """Open the campaign whose manifest is in a folder; ``trust`` is what foreign FMUs may do. Raises InputError."""
     named, folder = folder, folder.absolute()
     manifest = read_manifest(folder)
-    plan = restore(folder, manifest, trust=trust)  # whose draws were looked at when the folder was made
+    plan = restore(folder, manifest, trust=trust)  # whose draws were checked when the folder was created
     return PreparedCampaign(plan, plan, prepare_variants(plan), manifest, folder, named)
 
 

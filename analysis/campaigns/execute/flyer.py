@@ -203,7 +203,7 @@ class Flyer:
                 if flight.status not in LOST:
                     self._warn_once(variant, f"trial {trial}: {first}; not so in a new process, which counts")
             return flight
-        except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
+        except StuckError as error:  # its instances are lost: the next trial has new ones
             del self._ready[variant]
             return nothing_flown(simulation, str(error))
 

@@ -186,7 +186,7 @@ def restore(
         plan = plan.of_samples(given).of_first(manifest.trials)
     elif not plan.is_counted:
         stored_table = read_draws((draws or folder).absolute(), manifest.trials, plan.campaign.input_names())
-        plan = replace(plan, known_draws=stored_table)  # made anew they could differ
+        plan = replace(plan, known_draws=stored_table)  # drawn again they could differ
     for digest, verdict in manifest.resets.items():
         store_verdict(digest, _restore_verdict(verdict))
     return plan

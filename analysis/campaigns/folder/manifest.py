@@ -19,7 +19,7 @@ from ....common.regular import check_folder, read_regular
 from ...runtime.instances.renewal import Renewal
 
 FILE = "manifest.json"
-CONTENTS = "files"  # the folder beside it
+CONTENTS = "files"  # the folder next to it
 SAME_VERSION = "resume with the version of perilune that wrote it"
 WRITE = "give a folder that perilune batch or prepare wrote"
 

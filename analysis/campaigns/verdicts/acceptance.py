@@ -17,7 +17,7 @@ import numpy as np
 import scipy
 
 ROUNDING = 1e-12  # of a risk, relative: 1 - 0.9 is less than 0.1
-FURTHER = (0, 1, 2)  # failures still to come for which the flights that are missing are told
+FURTHER = (0, 1, 2)  # numbers of further failures for which the required flights are reported
 
 
 class Verdict(StrEnum):

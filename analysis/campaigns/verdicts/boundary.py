@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-TAIL = 1e-18  # what is left off either end of a distribution: nothing beside any risk
+TAIL = 1e-18  # probability cut off at either end of a distribution: negligible against any risk
 SPENT = 1.0 - 1e-9  # of the risk that is permitted: the rest is for rounding and for those tails
 
 

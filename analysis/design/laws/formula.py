@@ -25,7 +25,7 @@ from .expression_tree import (
 )
 from .law import Law
 
-LONGEST_INLINE = 40  # characters of a part that is written where it is used
+LONGEST_INLINE = 40  # characters of a subexpression that is written where it is used
 SOURCE_LEVELS = {"pi + theta": SUM_LEVEL, "(hf - h)/h0": PRODUCT_LEVEL}
 
 

@@ -23,7 +23,7 @@ from .controllability import TOLERANCE
 from .results import PlacementError, Reason, StateFeedback
 from .spectrum import Spectrum
 
-_OUTSIDE = 1e-8  # relative; how far a basis that is given may miss what is driven
+_OUTSIDE = 1e-8  # relative; permitted distance of a user's basis from the driven space
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from scipy.optimize import linear_sum_assignment
 
 from ....common.errors import InputError
 
-_CONJUGATE = 1e-8  # relative; how well a pole and its conjugate agree as they are given
+_CONJUGATE = 1e-8  # relative; agreement of a pole with its conjugate in the input
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ HOVER = ("mass", "minimum_thrust", "start_altitude", "end_altitude")  # of one f
 ASIDE = "aside"  # the vector from site to site
 NUMBER = re.compile(r"-?\d+(\.\d+)?([eE][+-]?\d+)?")
 START = "start"  # the parameter set that braking starts from
-ACROSS = 1e-3  # m/s; more, and the flight leaves the plane that the bound is made in
+ACROSS = 1e-3  # m/s; more, and the flight leaves the plane of the bound
 
 Inputs = Mapping[str, float | tuple[float, ...]]
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ....common.errors import EndedError, ExitStatus
 
-OFF = 0.02  # of the way from least to full throttle: where an interval counts as part of a burn
+OFF = 0.02  # of the range from least to full throttle: above it an interval belongs to a burn
 ALL = 1.0 - 1e-6  # from where on it counts as all of it
 
 

@@ -120,7 +120,7 @@ def hover_study(
         raise InputError(f"`{name}`", "", problem, "give `distance` 1 m or more")
     others = optimum or curves or finite_switches or free_fall
     best = programme if duration is None or not others else find_programme(planned, transfer)
-    assert best is not None  # a programme of a given duration is found from it
+    assert best is not None  # a programme of prescribed duration is found from it
     maximum = vehicle.maximum_thrust
     with progress_bar(total=optimum + bound + 2 * curves, unit="part") as progress:
         optimal_path = find_true_optimum(best, intervals or OPTIMUM_INTERVALS, maximum) if optimum else None

@@ -48,7 +48,7 @@ class BaseSimulation(ABC):
     recorder: FlightRecorder
     layout: Layout
     signal_names: list[str]
-    flights = 0  # since its process began, of one that flies in a process of its own
+    flights = 0  # since its process began, of one in a separate process
 
     def __init__(self, prepared: PreparedSystem, **choices: Unpack[Choices]) -> None:
         self.prepared = prepared

@@ -20,8 +20,8 @@ from .orders.transfers import ComponentTransfers, TransferTable, whole
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}
 Key = tuple[str, str]  # (component, variable)
 
-# By the digests of FMUs, found out in flight: variables that they do not give back; who is asked for one at a time; who
-# refuses to be set in initialisation mode.
+# By the digests of FMUs, detected in flight: variables that they do not return; FMUs that are read one variable at a
+# time; FMUs that refuse settings in initialisation mode.
 _unreadable: dict[str, set[str]] = {}
 _one_by_one: set[str] = set()
 _set_once: set[str] = set()

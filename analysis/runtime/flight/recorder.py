@@ -19,7 +19,7 @@ class Phase(IntEnum):
     IDLE = 0
     INSTANTIATION = 1
     FLIGHT = 2
-    RENEWAL = 3  # terminated, then reset or instantiated anew
+    RENEWAL = 3  # terminated, then reset or instantiated again
     END = 4  # terminated, then freed
 
 

@@ -29,7 +29,7 @@ from ..system.passing.settings import Settings
 from ..system.prepared import PreparedSystem
 from .parameters import Parameters
 
-if TYPE_CHECKING:  # imported where a table is made
+if TYPE_CHECKING:  # imported where a table is written
     import pyarrow
 
 NONFINITE = "nonfinite"

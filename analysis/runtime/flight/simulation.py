@@ -96,7 +96,7 @@ class Simulation(BaseSimulation):
         """See `BaseSimulation.fuse`. Raises InputError where the compiler refuses the steps, or changes results."""
         if not self.fused_steps and can_fuse(self.prepared) and is_compilable(self.program):
             fused = replace(self.prepared, options=self.prepared.options.but(flavour=FUSED))
-            with self.loop.under_way:  # the instances are looked at: who closes this leaves them alone
+            with self.loop.under_way:  # the instances are read: `close` leaves them alone meanwhile
                 self.fused_steps = self._fuse(fused)
             self.prepared = fused
 
@@ -192,7 +192,7 @@ class Simulation(BaseSimulation):
         recorder.reserve(signals, rows * table.flights, prepared.step)
         recorder.enter(Phase.FLIGHT)
         for instance in self.instances.values():
-            instance.said.clear()  # what comes to its end says nothing
+            instance.said.clear()  # normal ends are not reported
         group = group_of(table, self._varied, self.layout.parameters, TIME_MARGIN * prepared.step)
         flown = self.loop.fly_group(self._run(-1, prepared.steps, 1, reset, NOTHING), group)
         ends = group.ends[:flown]

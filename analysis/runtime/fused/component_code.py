@@ -17,8 +17,8 @@ TOKEN = re.compile(
     re.DOTALL,
 )
 MACRO = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
-JOINED = re.compile(r"(\w+)##")  # the first part of a name that a macro joins
-USE = re.compile(r"^[A-Z_]+\((\w+)", re.MULTILINE)  # of a macro that defines something, its argument behind that part
+JOINED = re.compile(r"(\w+)##")  # the first half of a name that a macro joins
+USE = re.compile(r"^[A-Z_]+\((\w+)", re.MULTILINE)  # of a macro that defines something, its argument after that half
 RESERVED = re.compile(r"_[_A-Z]")
 WRAPPER = '#include "fmi2_wrapper.h"'
 INSTEAD = {"fmi2Functions.h": "fmi2FunctionTypes.h"}  # its types alone: the functions are not in the unit

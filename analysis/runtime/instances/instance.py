@@ -179,7 +179,7 @@ class _Heard(list[bytes]):
 
 # fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
 _logs: dict[str, _Heard] = {}
-_environments: dict[int, _Heard] = {}  # likewise of FMI 3.0, by what instances are given for it
+_environments: dict[int, _Heard] = {}  # likewise of FMI 3.0, by the pointer passed to instances
 _instances = itertools.count(1)
 _alone: set[str] = set()  # digests of FMUs that are instantiated, and may be only once in a process
 

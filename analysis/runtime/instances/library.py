@@ -44,7 +44,7 @@ FUNCTION_NAMES = (
 )
 
 # fmpy changes the process's working directory while it loads a library: whoever does so, or reads
-# files by relative path beside threads that do, holds this.
+# files by relative path next to threads that do, holds this.
 LOADING = threading.RLock()
 
 

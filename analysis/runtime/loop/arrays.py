@@ -15,7 +15,7 @@ class Program(NamedTuple):
 
     instructions: np.ndarray  # uint64 [i, codes.COLUMNS]
     reset_end: int  # instructions before this one end a flight and reset the FMUs; a fresh instance skips them
-    phases: np.ndarray  # int64 [m + 1]: instructions before the first initialise; step n works off part n modulo m
+    phases: np.ndarray  # int64 [m + 1]: instructions before the first initialise; step n executes section n modulo m
     reference: np.ndarray  # uint32 [s], value references
     initial: np.ndarray  # float64 [s], before anything is exchanged: starts of inputs, NaN for what is yet to come
     parameter_reference: np.ndarray  # uint32 [p]
@@ -50,7 +50,7 @@ class Span(NamedTuple):
     reset: bool  # whether the FMUs have flown before
     start: float
     step: float
-    stop: float  # the stop time that FMUs are given; inf: none
+    stop: float  # the stop time passed to FMUs; inf: none
     first: int  # communication point to go on from, with buffers and FMUs as they are; -1 initialises
     last: int  # communication point to fly to
 
@@ -99,7 +99,7 @@ class Transfers(NamedTuple):
 class StoredValues(NamedTuple):
     """Values of FMUs of FMI 3.0 in their own types."""
 
-    sent: np.ndarray  # uint64 [s], each transfer's values side by side from its first slot on, as given or taken last
+    sent: np.ndarray  # uint64 [s], each transfer's values contiguous from its first slot on, as last set or read
     exact: np.ndarray  # uint64 [s], whole numbers of 64 bits, of which the float64 of a slot may be rounded
     flags: np.ndarray  # uint8 [8], what calls return
     time: np.ndarray  # float64 [2], likewise (s): the last is when an FMU has ended the simulation, or began a step

@@ -13,7 +13,7 @@ from ..system.passing.settings import Settings
 from .component import FailedError, Sample, Samples
 from .exchange import arrays_of
 
-LOSS = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own
+LOSS = 1e-6  # of a Real: permitted loss in an FMU, by single precision or another unit
 
 
 @dataclass(frozen=True)

@@ -208,7 +208,7 @@ class SystemArchive:
 def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix: str) -> None:
     """Say, once, that a file of the working folder has the name of a system's own one, which is read instead of it."""
     if parent_process() is not None:
-        return  # a worker: who started it has said so
+        return  # a worker: its parent process has reported it
     for path in dict.fromkeys((Path(name), Path(f"{name}{suffix}"))):
         if names_file(path) and read_input(path, OTHER, bound_of(suffix)) != content:
             other = path if path.is_absolute() else f"./{path}"

@@ -105,7 +105,7 @@ def check_schema(element: etree._Element, kind: str, file: str) -> None:
     """Validate an element against the schema ``kind`` (ssd, ssv, ssm or ssb) of its version."""
     version = version_of(element, file)
     schema = _schema(kind, version)
-    # A copy: an inline parameter set is validated as a document of its own.
+    # A copy: an inline parameter set is validated as a separate document.
     if check_violations(schema, etree.tostring(element, with_tail=False), file) and not schema.validate(
         etree.ElementTree(element)
     ):

@@ -195,7 +195,7 @@ def _read_description(xml: bytes) -> tuple[ModelDescription | None, tuple[str, .
         return _completed(read_model_description(_open_zip(xml), validate=True), xml), ()
     except ValidationError as error:
         flaws = tuple(" ".join(problem.split()) for problem in error.problems)
-    except Exception as error:  # fmpy raises bare Exception and lxml's errors; others are not made to be read
+    except Exception as error:  # fmpy raises bare Exception and lxml's errors; others are not for readers
         kind = "" if type(error) is Exception or isinstance(error, etree.LxmlError) else f"{type(error).__name__}: "
         flaws = (f"FMPy cannot read it: {kind}{' '.join(str(error).split())}",)
     try:

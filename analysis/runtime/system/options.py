@@ -18,8 +18,8 @@ from ...options.values import complete_options
 STEP_ROUNDING = 1e-9  # of a step, by which a time, a period or a range may miss whole steps
 
 
-# Who may ask something of a system, from the lowest to the highest: what a later one says wins. Below all of them
-# stands what the system's own description binds. All parameter sets come before all single values.
+# Sources of options of a system, from the lowest to the highest: a later one wins. Below all of them are the
+# bindings of the system's own description. All parameter sets come before all single values.
 LAYERS = ("operating_point", "campaign", "draws", "command_line", "study")
 
 

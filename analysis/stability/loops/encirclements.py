@@ -87,7 +87,7 @@ def _poles_at_one(response: Response, difference: Response, low: float, given: i
         )
     if given is None and number == 0:
         size = np.asarray(response(pair))
-        # L still rises towards low frequency but is too small to be seen in 1 + L
+        # L still rises towards low frequency but is negligible in 1 + L
         if _slope(size if size.ndim == 1 else np.linalg.norm(size, axis=(1, 2))) < -1.0 + _NOT_A_SLOPE:
             raise ValueError(f"at {low:g} rad/s the gain of L is below 1 and still rises downwards; start lower")
     return number

@@ -97,7 +97,7 @@ class _Loop:
             return False  # at the very threshold of the element: nothing pushes
         h = 1e-6 * amplitude
         growth = (self.gain(amplitude + h) - self.gain(amplitude - h)) / (2.0 * h) / gain
-        if not (growth / self.slope(frequency)).imag < 0.0:  # the real part of ds/da
+        if not (growth / self.slope(frequency)).imag < 0.0:  # Re ds/da
             return False
         # How many pairs are unstable as a factor on N L grows from 0: one more at each crossing of the axis where the
         # phase falls, one less where it rises. The limit cycle's own pair crosses at factor 1.

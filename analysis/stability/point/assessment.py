@@ -64,7 +64,7 @@ def assess(
             crossings = classical(response, low, high, sample_period, unstable_open, undamped=undamped, include=include)
             if lowest or unstable_open is None or slower(low) == 0:
                 break
-        except ValueError as error:  # mostly slow poles that are not yet told from integrators
+        except ValueError as error:  # mostly slow poles that are not yet distinguished from integrators
             if unstable_open is None:
                 raise
             if lowest:

@@ -25,7 +25,7 @@ SHARE = 1e-7
 LOWEST, LOOKS = 1e-4, 24  # frequencies, over the Nyquist frequency, at which shares are looked at
 QUIET = 1e-6  # response below which nothing has a share
 UNIT_CIRCLE = 1e-5  # poles this near to the unit circle count as on it
-_BLOCK = 8  # rows of a triangle that are solved one by one before the others are told at once
+_BLOCK = 8  # rows of a triangle that are solved one by one before the others are updated at once
 _TOGETHER = 64  # frequencies: arrays stay in the cache and products below the size for which BLAS starts threads
 
 

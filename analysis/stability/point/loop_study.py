@@ -27,7 +27,7 @@ from .silence import silence_of
 
 SILENT = "nothing of what is added comes back: L is 0"
 RETURN_LIMIT = 1e-9  # gain below which nothing comes back
-FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, beside itself
+FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, in addition to 1
 FIRST_LOOK = 1e-3  # of the Nyquist frequency: where a measurement without a linearisation begins
 TEST_POINTS = 40  # frequencies at which a model is looked at
 LOOP_GAIN = 5.0  # a measurement begins low enough when the gain of its lowest line is at least this

@@ -115,7 +115,7 @@ def _select(description: Description, names: Sequence[str], at: Sequence[float],
         requested = {name for loop in wanted for name in loop.points}
         here = [point for point in declared.points if point.name in requested]
         points, sweeps = (*_shift(here, at), *cuts), ()
-        # points that differ by their time only are one when times are given: the first with the same settings
+        # points that differ by their time only are one under `at`: the first with the same settings
         same = {point.name: (_remaining(point.layer, options), point.until) for point in here}
         origins = {name: next(other for other in same if same[other] == same[name]) for name in same}
         for index, loop in enumerate(wanted):

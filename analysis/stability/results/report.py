@@ -34,7 +34,7 @@ class LoopReport:
     stable: bool | None  # of the whole system, all loops closed; None: not known
     largest: float | None  # multiplier of the loop's modes and of what grows outside of it; None: not known
     unstable_open: int | None  # poles of the open loop outside the unit circle
-    outside: tuple[str, ...] = ()  # memory that grows without any part in this loop, while all loops are closed
+    outside: tuple[str, ...] = ()  # memory that grows outside of this loop, while all loops are closed
     modes: tuple[Mode, ...] = ()
     poles_z: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=complex))
     structure: Structure | None = None

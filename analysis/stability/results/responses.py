@@ -36,7 +36,7 @@ class Structure:
     """Ranks of the controllability and observability Gramians' factors and their smallest kept singular values."""
 
     states: int  # of the complete memory
-    order: int  # of the part that the cut both moves and is moved by
+    order: int  # of the memory that the cut both moves and is moved by
     controllable: int
     observable: int
     least_controllable: float

@@ -31,7 +31,7 @@ FLIGHTS = 2000
 STUDIES = 500  # a margin costs more than a flight
 MARGIN = "disk"
 SIGMAS = 3.0
-RANDOM = 0.2  # of the flights are random trials, which the worst is told beside
+RANDOM = 0.2  # of the flights are random trials, with which the worst is compared
 
 
 class Flights(Protocol):

@@ -8,7 +8,7 @@ SPIN_INERTIA = 0.5  # kg m2, so that body and wheels act on each other strongly
 VISCOUS, COULOMB = 1e-3, 5e-3  # N m s, N m
 TORQUE = (2e-3, -1e-3, 3e-3)  # N m, external, body
 QUATERNION, ANGULAR_VELOCITY = (0.5, 0.5, -0.1, 0.7), (0.02, -0.03, 0.01)  # body to inertial; rad/s, body
-SPEEDS = (100.0, -80.0, 60.0, -120.0)  # rad/s, at the start: no wheel comes to rest, where friction jumps
+SPEEDS = (100.0, -80.0, 60.0, -120.0)  # rad/s, at the start: no wheel stops, where friction jumps
 COMMANDS = (  # s, N m: when motor torques begin
     (0.0, (0.2, -0.1, 0.15, 0.05)),
     (100.0, (-0.1, 0.2, 0.3, -0.2)),

@@ -24,7 +24,7 @@ from .kernel import (
 )
 from .vectors import is_variable
 
-UNUSED = "_"  # a target for what is not wanted of several values
+UNUSED = "_"  # a target for unused ones of several values
 ANY_VECTOR = Vector(0)  # declared as Vector, its size not known yet
 ANY_MATRIX = Matrix(0, 0)  # declared as Matrix
 

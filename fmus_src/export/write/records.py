@@ -9,7 +9,7 @@ from ..judge.subset import records_of
 from .layout import Lines
 from .names import c_type, declaration, identifier
 
-# name: arguments, what becomes of a float, and of a vector of the given size
+# name: arguments, expression of a float, and of a vector of a size
 OPERATIONS: dict[str, tuple[str, str, str]] = {
     "add": ("{type} a, {type} b", "a.{0} + b.{0}", "add{1}(a.{0}, b.{0})"),
     "subtract": ("{type} a, {type} b", "a.{0} - b.{0}", "subtract{1}(a.{0}, b.{0})"),

@@ -133,7 +133,7 @@ def test_the_answer_is_the_number_of_the_plan_flown():
     block.step(H, H)
     block.plan_number = 5
     block.step(2.0 * H, H)
-    assert block.answered_plan == 4  # idle, no plan is made
+    assert block.answered_plan == 4  # idle, without a plan
 
 
 def test_an_estimate_can_be_switched_off_and_follows_no_other_engine():

@@ -205,7 +205,7 @@ def test_first_estimates_scatter_as_declared():
 def test_samples_at_the_start_are_taken_in_at_the_start():
     for k, block in plain(KalmanNavigation, measurements(2)):
         if k == 0:
-            # weights of a fix of 29 m and an altitude of 92 m beside a first knowledge of 500 m
+            # weights of a fix of 29 m and an altitude of 92 m against an initial error of 500 m
             assert block.position_estimate_sigma == pytest.approx([29.2, 29.2, 27.9], abs=0.3)
             assert block.sample_count == 2
         elif k == 1:

@@ -64,7 +64,7 @@ def integrated(y, thrust, acceleration, limit, uniform, lag, seconds):
     return solve_ivp(slope, (0.0, seconds), y, method="DOP853", rtol=1e-12, atol=1e-12, max_step=0.1).y[:, -1]
 
 
-COMMANDS = [  # thrust, angular acceleration: beyond the limit, with a part along the axis, small; 4 s each
+COMMANDS = [  # thrust, angular acceleration: beyond the limit, with a component along the axis, small; 4 s each
     (4200.0, [0.02, -0.01, 0.01]),
     (900.0, [-0.004, 0.006, -0.002]),
     (2500.0, [-0.001, 0.0, 0.001]),

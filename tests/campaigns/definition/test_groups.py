@@ -38,7 +38,7 @@ def test_every_trial_is_in_the_group_of_its_value(values):
         ([2.0, 1.0, 1.0], ["1", "2"]),
         ([-0.0, 0.0], ["0"]),
         ([0.1 + 0.2, 16648.0, -1.65], ["-1.65", "0.3", "16648"]),
-        ([0.1 + 0.2, 0.3], ["0.3", "0.30000000000000004"]),  # told apart whatever digits it takes
+        ([0.1 + 0.2, 0.3], ["0.3", "0.30000000000000004"]),  # distinguished whatever digits it takes
         ([1e-7], ["1e-07"]),
     ],
 )

@@ -68,7 +68,7 @@ def test_verdicts_are_those_of_clopper_and_pearsons_bounds(flights, data, share,
     low = 0.0 if good == 0 else beta.ppf(1.0 - confidence, good, failures + 1)
     high = 1.0 if failures == 0 else beta.ppf(confidence, good + 1, failures)
     if min(abs(low - share), abs(high - share)) < 1e-9:
-        return  # too near to be told by another formula
+        return  # too near for another formula
     expected = Verdict.MET if low > share else Verdict.NOT_MET if high < share else Verdict.UNDECIDED
     assert decide_by_size(flights, failures, share, confidence) is expected
 

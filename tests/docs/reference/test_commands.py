@@ -129,7 +129,7 @@ FAILS = (  # exit status 1
     "--fault 'gyros.measured_angular_velocity[1]=bias:1e-4@100..200'",
     "perilune diff here.parquet there.parquet",  # of a fault
 )
-# What begins the work of a verb, once all that it was given has been looked at.
+# Functions that begin the work of a verb, once all its arguments have been checked.
 WORK = {
     "batch": ["verbs.batch.open_campaign"],
     "prepare": ["verbs.shard.open_campaign"],

@@ -14,7 +14,7 @@ from tests.support.kernels.comparison import Pair, fly, only_switches
 from tests.support.lengths import either
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
-STEPS = lengths.size(400)  # beside the 1000 of test_three_faces.py
+STEPS = lengths.size(400)  # in addition to the 1000 of test_three_faces.py
 
 
 @pytest.mark.parametrize("block", BLOCKS[:: either(1, 3)], ids=lambda block: block.fmu_name)

@@ -182,7 +182,7 @@ def test_rates_on_the_law_are_the_derivatives_of_its_angles():
 def test_law_is_refused_in_singular_states(angles):
     wanted = vector(0.1, 0.1, 0.1)
     assert not distribute_rates(vector(*angles), wanted, RHO, 0.2, 0.02)[0]
-    assert not distribute_rates(ISOTROPIC, wanted, RHO, 0.2, 0.0)[0]  # no margin given
+    assert not distribute_rates(ISOTROPIC, wanted, RHO, 0.2, 0.0)[0]  # without a margin
 
 
 @given(seeds)

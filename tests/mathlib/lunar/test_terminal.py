@@ -173,7 +173,7 @@ def test_cubic_time_is_the_root_that_newton_reaches_from_the_quadratic_one_all_o
     [
         ([0.0, 0.0, -500.0], ZERO),  # hovering above
         ([0.0, 0.0, 500.0], ZERO),  # below
-        ([-2000.0, 0.0, 0.0], ZERO),  # beside
+        ([-2000.0, 0.0, 0.0], ZERO),  # to the side
         ([0.0, 0.0, -500.0], [0.0, 0.0, 5.0]),  # receding upwards
         ([1000.0, 0.0, -500.0], [-300.0, 0.0, 0.0]),  # receding sideways
         (ZERO, ZERO),

@@ -64,6 +64,6 @@ def test_ends():
     assert harris_priester.harris_priester_density(5e4, 0.0) == harris_priester.harris_priester_density(1e5, 0.0)
     assert harris_priester.harris_priester_density(1e6, 1.0) == 0.0
     assert exponential_atmosphere.exponential_density(5e4) == exponential_atmosphere.DENSITY[0]
-    # Scale height of the row at 1000 km, which goes on.
+    # Scale height of the row at 1000 km, which is continued.
     ratio = exponential_atmosphere.exponential_density(1.268e6) / exponential_atmosphere.exponential_density(1e6)
     assert ratio == pytest.approx(np.exp(-1.0), rel=1e-12)

@@ -17,7 +17,7 @@ from perilune.fmus_src.mathlib.vectors import vector
 
 YEAR_2025, MIDDLE_OF_2027 = 788961600.0, 788961600.0 + (730 + 181) * 86400.0  # s TT since J2000.0
 
-# Sums of the same coefficients in 40 digits, made by another program: position (m), gravity (m/s2), planet-fixed.
+# Sums of the same coefficients in 40 digits, by another program: position (m), gravity (m/s2), planet-fixed.
 EARTH = [
     ((6878137.0, 0.0, 0.0), (-8.437340804265698, -3.377528161853072e-05, 2.27082766790855e-05)),
     ((-3.1e6, 4.2e6, 4.5e6), (3.7684430881768485, -5.105861715704508, -5.485781030930139)),

@@ -32,7 +32,7 @@ def test_page_renders_wide_and_narrow(browser, page, tmp_path, width, height):
         assert np.count_nonzero(np.all(np.abs(pixels - colour) < 3.0, axis=-1)) > 300
     inked = np.any(pixels < 250.0, axis=-1)
     assert not inked[:, -8:].any()  # nothing reaches the right edge: tables scroll in themselves
-    assert not inked[-40:].any()  # the whole page was seen
+    assert not inked[-40:].any()  # the whole page is in the picture
 
 
 def test_every_figure_is_laid_out(browser, page, tmp_path):

@@ -106,7 +106,7 @@ def test_an_fmu_has_a_page(tmp_path):
     page = tmp_path / "page.html"
     assert main(["describe", "kalman_navigation", "--report", str(page)]) == 0
     text = page.read_text(encoding="utf-8")
-    assert str(ROOT) not in text  # a page that is passed on does not say where it was made
+    assert str(ROOT) not in text  # a page that is passed on does not say where it was written
     labels = parse(text).xpath("//*[@class='block']/*[local-name()='text']/text()")
     assert {"measured_velocity[3]", "estimated_position[3]"} <= set(labels)
 

@@ -45,7 +45,7 @@ def test_a_run_keeps_what_was_flown(tmp_path, deed):
     flight = perilune.simulate(odd_fmu(tmp_path, DEED=Deed[deed], IN=Call.STEP), stop_time=1.0)
     assert flight.status == status
     assert flight.message.endswith(f": {how}")
-    if deed == "SCRIBBLE":  # which goes on flying until it is ended
+    if deed == "SCRIBBLE":  # which continues until it is ended
         return
     assert flight.message.startswith("odd: on the way to t = 0.75 s: ")
     assert flight.time.tolist() == [0.0, 0.25, 0.5]

@@ -128,7 +128,7 @@ def test_describe_loads_nothing(tmp_path):
     assert done.returncode == 0, done.stderr
 
 
-# Who may load FMUs: a child; this process through the door, where they are Perilune's own;
+# Processes that may load FMUs: a child; this process through the door, where they are Perilune's own;
 # the reference loop, which tests alone open.
 LOADERS = {
     "analysis/runtime/process/child.py",

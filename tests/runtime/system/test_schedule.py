@@ -132,7 +132,7 @@ def test_an_algebraic_loop_is_refused_with_its_cycle(tiny, tmp_path):
         InputError, match=r"gain\.u -> gain\.y -> second\.u -> second\.y -> third\.u|second\.y -> third\.u"
     ):
         prepare_system(longer)
-    # told that one of them does not answer at once, it runs
+    # with an option that one of them does not answer at once, it runs
     result = fly(path, no_feedthrough=("second",), set={"gain.factor": 2.0})
     assert result["gain.y"].tolist()[0] == 0.0
 

@@ -112,7 +112,7 @@ def test_what_is_held_is_said(tmp_path, capsys):
     line = ["rare", linear[0], "--campaign", linear[1], "--samples", "300", "--workers", "1"]
     assert main(line) == 2
     assert "a choice has single values, and this study goes between them; hold it" in capsys.readouterr().err
-    assert main([*line, "--hold", "a.count=1", "--failure", "total > 2.5"]) == 0  # count 1 is what total is made for
+    assert main([*line, "--hold", "a.count=1", "--failure", "total > 2.5"]) == 0  # total is defined for count 1
     text = capsys.readouterr().out
     for part in ("failure probability", "all numbers", "Levels"):
         line = next(line for line in text.splitlines() if part in line)

@@ -104,7 +104,7 @@ def random_loops(draw: strategies.DrawFn, channels: int = 1, integrators: bool =
         angle = random.uniform(0.05, 3.0)
         if kind == "one":
             blocks.append(np.array([[1.0]]))
-            integrators = False  # one per channel: two alike would not be seen
+            integrators = False  # one per channel: two alike would be missed
         elif kind == "real":
             blocks.append(np.array([[radius * random.uniform(0.8, 1.0) * random.choice([-1.0, 1.0])]]))
         else:

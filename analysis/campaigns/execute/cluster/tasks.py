@@ -10,7 +10,7 @@ from ...folder.numbering import Numbering
 
 MOST_DEATHS = 3  # of workers with one trial, before it is held to end them
 FIRST = 4  # trials of a task as long as nobody knows how long one takes
-LONGEST, SHORTEST = 3.0, 0.5  # s of a task: little to lose with a worker, and long beside the 10 ms that sending costs
+LONGEST, SHORTEST = 3.0, 0.5  # s of a task: little to lose with a worker, and long against the 10 ms that sending costs
 QUICKEST = 1e-6  # s of a trial, below which a clock says nothing
 ROUNDS = 2  # tasks that each thread is to get at least of what is left, so that all end together
 
@@ -74,7 +74,7 @@ def halves(pieces: Sequence[Piece]) -> list[tuple[Piece, ...]]:
     return [tuple(half) for half in parts if half]
 
 
-OWN = MOST_DEATHS - 1  # how often a part counts as given up at most before it has been by itself
+OWN = MOST_DEATHS - 1  # largest count of failures before a trial has been a task by itself
 Task = tuple[Piece, ...]
 
 

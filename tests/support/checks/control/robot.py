@@ -68,7 +68,7 @@ def translation_control():
     error, rate, plan = (size * random.normal(size=(ROWS, 3)) for size in (0.02, 0.001, 1e-3))
     tick = np.isin(np.arange(ROWS), [0, 4, 8, 12, 14, 16, 18, 20, 24, 28])
     period = np.where((np.arange(ROWS) >= 12) & (np.arange(ROWS) < 20), 0.25, 0.5)
-    period[8:10] = 0.6  # nearest to the slow design, but a law of its own
+    period[8:10] = 0.6  # nearest to the slow design, but another law
     forces, force, b, delayed, before = [], np.zeros(3), None, np.zeros(3), None
     for row in range(ROWS):
         if tick[row]:

@@ -124,7 +124,9 @@ def check_of(truth, flights, law, parameters, last_burn=None, tolerance=1e-12):
     """
     inputs, records, first, direction, clamped = [], [], 0, UP, 0
     for number, flight in enumerate(flights):
-        seen = [flight[0], *flight] if number == 0 else flight  # the first row is seen at the start, and a step later
+        seen = (
+            [flight[0], *flight] if number == 0 else flight
+        )  # the first row is sampled at the start, and a step later
         memory = {}
         solutions = [law(*state, memory) for state in seen]
         outputs = fly(STEP * (first + np.arange(len(seen))), solutions, direction, last_burn)

@@ -28,7 +28,7 @@ SIGMAS = {  # of position, velocity, bias, scale factors, rotation at the start
     "scale_factor_sigma": 0.01,
     "attitude_sigma": 0.005,
 }
-NOISE = {  # of a measurement: part of altitude, speed, altitude, and constant part
+NOISE = {  # of a measurement: fraction of altitude, speed, altitude, and constant
     "altitude": (5e-4, 1.0),
     "velocity": (2e-4, 0.05),
     "position": (1.5e-3, 2.0),

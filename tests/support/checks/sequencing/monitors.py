@@ -39,7 +39,7 @@ def command_switch():
         choices = np.stack([np.zeros_like(shape), *(commands[key][name] for key in ("own", "braking", "hover"))])
         outputs[name] = choices[source[in_force], in_force]
     timing = ("command_time", "burn_duration")
-    named = np.maximum.accumulate(np.where(source[in_force] > 0, in_force, 0))  # no source has no time of its own
+    named = np.maximum.accumulate(np.where(source[in_force] > 0, in_force, 0))  # no source has no time
     for name in timing:
         choices = np.stack([np.zeros(rows), *(commands[key][name] for key in ("own", "braking", "hover"))])
         outputs[name] = choices[source[named], named]

@@ -31,7 +31,7 @@ UNPOWERED = {
     "angular_rate": (0.0, 0.6, 0.0),
 }
 
-# Mode, plan number, samples, kind of programme, target, start; what else is seen at the start.
+# Mode, plan number, samples, kind of programme, target, start; further inputs at the start.
 PLANS = (
     (PROGRAMME, 1, 1, None, (0.0, 0.0, 0.0), (5.0, 6.0, 7.0), {"active": False}),
     (PROGRAMME, 1, 11, WITH_FIRST_BURN, (14.8, 6.4, 100.0), (-30.0, 40.0, 170.0), {}),
