@@ -103,7 +103,7 @@ def _collect(roots: Sequence[type]) -> list[type]:
         declared = pending.pop()
         if declared not in collected:
             collected.add(declared)
-            pending.extend(each for member in _members(declared) for each in _named(member.type))
+            pending.extend(each for member in _members(declared) for each in _iterate_declared(member.type))
     return sorted(collected, key=lambda each: (each.__module__, inspect.getsourcelines(each)[1]))
 
 
@@ -123,12 +123,12 @@ def _members(declared: type) -> Iterator[Member]:
             yield Member(name, hint, optional)
 
 
-def _named(hint: Any) -> Iterator[type]:
+def _iterate_declared(hint: Any) -> Iterator[type]:
     """Yield the declared classes in a type."""
     if _is_declared(hint):
         yield hint
     for each in get_args(hint):
-        yield from _named(each)
+        yield from _iterate_declared(each)
 
 
 def _is_declared(hint: Any) -> bool:
@@ -144,7 +144,7 @@ def _without_none(hint: Any) -> Any:
 def _write_file(module: str, classes: Sequence[type]) -> str:
     imported: dict[str, set[str]] = {}
     for declared in classes:
-        for each in (each for member in _members(declared) for each in _named(member.type)):
+        for each in (each for member in _members(declared) for each in _iterate_declared(member.type)):
             if each.__module__ != module:
                 imported.setdefault(_file_of(each.__module__), set()).add(each.__name__)
     lines = [_head(module).rstrip()] + [""] * bool(imported)

@@ -95,11 +95,11 @@ def requirement_verdict(
         decided_after=decision.flights if is_decided else None,
         flights_to_decide=dict.fromkeys(FURTHER) if is_decided else rule.flights_to_meet(flights, failures),
         bound=None if requirement.metric is None else _bound(requirement, requirement.metric, trials, flights, rule),
-        unevaluated=_unevaluated(requirement, trials) if failures == flights > 0 else None,
+        unevaluated=_find_unevaluated(requirement, trials) if failures == flights > 0 else None,
     )
 
 
-def _unevaluated(requirement: Requirement, trials: TrialTable) -> tuple[str, ...] | None:
+def _find_unevaluated(requirement: Requirement, trials: TrialTable) -> tuple[str, ...] | None:
     """Return the metrics of a requirement that are nan in every trial."""
     names = sorted(requirement.expression.names - {SUCCESS})
     read = list(trials.parts(*(f"metric.{name}" for name in names)))

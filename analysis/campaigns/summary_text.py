@@ -37,7 +37,7 @@ def metric_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str 
     same = {metric: number for metric in metrics if (number := _common_value(rows, metric)) is not None}
     varying = [metric for metric in metrics if metric not in same]
     notes = [f"the same in all successful trials: {', '.join(f'{each} {number:.4g}' for each, number in same.items())}"]
-    lines, left_out = _fitted(rows, varying, group) if varying else ([], [])
+    lines, left_out = _fit_lines(rows, varying, group) if varying else ([], [])
     return [
         *lines,
         *([f"columns left out: {', '.join(left_out)}; `json` has all"] if left_out else []),
@@ -66,7 +66,7 @@ def rate_lines(table: list[list[str]], first: int) -> list[str]:
     return [*lines(), *notes]
 
 
-def _fitted(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> tuple[list[str], list[str]]:
+def _fit_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> tuple[list[str], list[str]]:
     """Return lines, and the statistics that are left out of them."""
     for count in range(len(LEFT_OUT) + 1):
         left_out = LEFT_OUT[:count]

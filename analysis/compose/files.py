@@ -92,7 +92,7 @@ def write_source(source: SystemSource, archive: SystemArchive, path: Path, layer
     if source.annotations:
         contents[path.with_name(ANNOTATIONS_FILE)] = source.annotations
     if path.parent.resolve() != archive.path:
-        contents |= {path.parent / name: content for name, content in _named_files(source, archive, layers).items()}
+        contents |= {path.parent / name: content for name, content in _list_files(source, archive, layers).items()}
     write_new(contents, "`output`")
     return list(contents)
 
@@ -108,7 +108,7 @@ def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
         write_atomically(path, content)
 
 
-def _named_files(source: SystemSource, archive: SystemArchive, layers: Iterable[Layer]) -> dict[str, bytes]:
+def _list_files(source: SystemSource, archive: SystemArchive, layers: Iterable[Layer]) -> dict[str, bytes]:
     """Parameter sets and FMUs of a system's own folder or archive, by path."""
     layers = list(layers)
     fmus = [each.fmu for each in source.components.values()] + [fmu for each in layers for fmu in each.use.values()]

@@ -14,7 +14,7 @@ BYTES = "Annotations"  # whose comments and spaces count
 
 def canonical(element: etree._Element) -> bytes:
     """Return an element in canonical form: children of UNORDERED sorted, comments and space in BYTES alone."""
-    return etree.tostring(_ordered(element), method="c14n", with_comments=True)
+    return etree.tostring(_sort(element), method="c14n", with_comments=True)
 
 
 def find_difference(first: bytes, second: bytes) -> str | None:
@@ -23,11 +23,11 @@ def find_difference(first: bytes, second: bytes) -> str | None:
     return None if canonical(one) == canonical(other) else _difference(one, other)
 
 
-def _ordered(element: etree._Element) -> etree._Element:
+def _sort(element: etree._Element) -> etree._Element:
     copy = etree.Element(element.tag, dict(element.attrib), element.nsmap)
     if tag(element) == BYTES:
         return etree.fromstring(etree.tostring(element, with_tail=False))
-    children = [_ordered(each) for each in element if isinstance(each.tag, str)]
+    children = [_sort(each) for each in element if isinstance(each.tag, str)]
     if tag(element) in UNORDERED:
         children.sort(key=lambda each: etree.tostring(each, method="c14n"))
     copy.extend(children)

@@ -32,7 +32,7 @@ def write_values(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring) 
     problems: list[str] = []
     for name, setting in source.set.items():
         try:
-            values |= _typed(source, name, setting, _types(source, name, fmus, wiring))
+            values |= _convert(source, name, setting, _types(source, name, fmus, wiring))
         except InputError as error:
             problems.append(error.text)
     if problems:
@@ -61,7 +61,7 @@ def _types(source: SystemSource, name: str, fmus: Mapping[str, Fmu], wiring: Wir
     return {prefix + each: known[each] for each in names}
 
 
-def _typed(
+def _convert(
     source: SystemSource, name: str, setting: SetValue, types: Mapping[str, str]
 ) -> Iterator[tuple[str, float | int | bool]]:
     values = _flatten(source, name, setting, array_shapes(types))

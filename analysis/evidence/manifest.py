@@ -80,7 +80,7 @@ def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
             flaws.append(f"{line}: role {element.get('role')!r} is none of the standard")
         if element.get("checksumType", CHECKSUM) not in ALGORITHMS:
             flaws.append(f"{line}: checksumType {element.get('checksumType')!r} is none of the standard: not checked")
-        related.append(_related(element))
+        related.append(_read_related(element))
     return Manifest(root, tuple(related), tuple(dict.fromkeys(flaws)))
 
 
@@ -112,7 +112,7 @@ def check_listed(manifest: Manifest, files: Mapping[str, bytes]) -> dict[str, st
     return problems
 
 
-def _related(element: etree._Element) -> RelatedFile:
+def _read_related(element: etree._Element) -> RelatedFile:
     source = element.get("source", "")
     study = element.find(f"Annotations/Annotation[@type='{STUDY}']/Study")
     return RelatedFile(

@@ -57,7 +57,7 @@ def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes
     A system that cannot be simulated as it stands has no trajectory, which a warning says. Raises InputError.
     """
     files = read_zip(packed)
-    related = _listed(files)
+    related = _list_related(files)
     try:
         prepared = prepare_system(packed)
         with chdir(Path.cwd()), open_simulation(prepared) as simulation:
@@ -81,7 +81,7 @@ def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes
     return add_manifest(files, related)
 
 
-def _listed(files: dict[str, bytes]) -> list[Related]:
+def _list_related(files: dict[str, bytes]) -> list[Related]:
     """Return the kinds of the system's own files."""
     related = []
     for name in sorted(files):

@@ -28,7 +28,7 @@ def find_fmu(name: str, flavours: Iterable[str] = FLAVOURS, system: Path | None 
     ``system``. Elsewhere the repository's do, so that its systems are the same in every folder.
     """
     flavours = tuple(flavours)
-    users, shipped = _users_files(name, flavours, system), _shipped_files(name, flavours)
+    users, shipped = _users_files(name, flavours, system), _list_shipped(name, flavours)
     is_users = system is not None and not system.resolve().is_relative_to(SYSTEMS.resolve())
     first, second = (users, shipped) if is_users else (shipped, users)
     return next(first, None) or next(second, None)
@@ -44,7 +44,7 @@ def _users_files(name: str, flavours: Iterable[str], system: Path | None) -> Ite
         yield from filter(names_file, own_fmus(name, flavour, system))
 
 
-def _shipped_files(name: str, flavours: Iterable[str]) -> Iterator[Path]:
+def _list_shipped(name: str, flavours: Iterable[str]) -> Iterator[Path]:
     """Yield the repository's; a Python FMU of an installed package is built when it is asked for."""
     for flavour in flavours:
         shipped = shipped_fmu(name, flavour)

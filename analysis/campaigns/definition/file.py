@@ -72,13 +72,13 @@ def _lookup(name: str, table: Table, others: Iterable[str]) -> Lookup:
     origin = table.where("file")[0]
     label, content = table.attached.get((origin, file), (file, None))
     inputs = table.table("inputs")
-    formulas = {key: sequence(_formula)(inputs, key, _listed(entry)) for key, entry in inputs.content.items()}
+    formulas = {key: sequence(_formula)(inputs, key, _as_list(entry)) for key, entry in inputs.content.items()}
     if not formulas:
         raise table.error("inputs", "no input", "add what its numbers are made of: name = expression, or a list")
     return Lookup(name, table.get("column", text), formulas, origin, file, label, content)
 
 
-def _listed(entry: object) -> list[object]:
+def _as_list(entry: object) -> list[object]:
     return entry if isinstance(entry, list) else [entry]
 
 

@@ -25,12 +25,12 @@ def lock_folder(folder: Path | None, *, alone: bool = False) -> Iterator[None]:
     """
     with ExitStack() as entered:
         if folder is not None:
-            entered.enter_context(_locked(folder, alone))
+            entered.enter_context(_lock(folder, alone))
         yield
 
 
 @contextmanager
-def _locked(folder: Path, alone: bool) -> Iterator[None]:
+def _lock(folder: Path, alone: bool) -> Iterator[None]:
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / FILE
     if os.path.lexists(path):

@@ -84,7 +84,7 @@ def _files(
     description = system_description(
         name,
         about,
-        [_declared(each) for each in variables.declared],
+        [_as_system_variable(each) for each in variables.declared],
         dependencies,
         guid=guid,
         origin=origin(f"Perilune {version('perilune')}", is_ours=is_ours, is_final=guid != ""),
@@ -121,7 +121,7 @@ def _system_units(model: SystemModel) -> dict[str, UnitDefinition]:
     }
 
 
-def _declared(variable: FmuVariable) -> SystemVariable:
+def _as_system_variable(variable: FmuVariable) -> SystemVariable:
     start = variable.start
     assert start is None or isinstance(start, float | int)
     return SystemVariable(

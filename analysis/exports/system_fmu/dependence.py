@@ -22,7 +22,7 @@ def find_dependencies(
     direct: dict[str, list[str]] = {}
     for prepared in systems:
         for start, names in sources.items():
-            for output in _reached(prepared, start):
+            for output in _find_outputs(prepared, start):
                 direct[output] = list(dict.fromkeys([*direct.get(output, ()), *names]))
     return direct
 
@@ -32,7 +32,7 @@ def fault_inputs(connector: str) -> list[str]:
     return [f"fault.{connector}.kind", f"fault.{connector}.value"]
 
 
-def _followed(prepared: PreparedSystem, start: str) -> list[str]:
+def _follow(prepared: PreparedSystem, start: str) -> list[str]:
     """Return what carries a value at ``start`` on: of a parameter the outputs of a component that steps behind it."""
     component, variable = split_name(start, prepared.network.fmus)
     known = prepared.network.fmus[component].variables if component else {}
@@ -43,7 +43,7 @@ def _followed(prepared: PreparedSystem, start: str) -> list[str]:
     return [f"{component}.{name}" for name, each in known.items() if each.causality == "output"]
 
 
-def _reached(prepared: PreparedSystem, start: str) -> list[str]:
+def _find_outputs(prepared: PreparedSystem, start: str) -> list[str]:
     """Return the system's outputs that a value at ``start`` reaches in the same communication point."""
     network = prepared.network
     stepping = {} if prepared.algorithm == "jacobi" else prepared.schedule.feedthrough.stepping
@@ -51,7 +51,7 @@ def _reached(prepared: PreparedSystem, start: str) -> list[str]:
     for link in network.links():
         if not link.is_parameter:
             readers.setdefault(link.source.name, []).append(link.target.name)
-    queue = _followed(prepared, start)
+    queue = _follow(prepared, start)
     seen = set(queue)
     while queue:
         name = queue.pop()

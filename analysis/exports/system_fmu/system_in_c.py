@@ -92,7 +92,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     initialise = Lines()
     initialise.open(f"static void initialize{program.choice.name}(Block *self, Fault *fault)\n{{")
     initialise.add(SIGNALS if model.signals else "(void)self;")
-    passed = _passed_signals(program, variables)
+    passed = _find_passed_signals(program, variables)
     for name, start in program.starts.items():
         if name not in passed and name not in model.inputs:
             initialise.add(f"s[{model.signals[name]}] = {literal(start)};")
@@ -159,7 +159,7 @@ def _renewal(statements: Statements, phase: int) -> list[str]:
     return [line for component, each in rows.items() for line in statements.renewal(component, each)]
 
 
-def _passed_signals(program: ChoiceProgram, variables: Variables) -> dict[str, list[str]]:
+def _find_passed_signals(program: ChoiceProgram, variables: Variables) -> dict[str, list[str]]:
     """Return the parameters of systems that signals come from, each with the chain of connectors to its value."""
     network, values = program.prepared.network, program.prepared.settings.nodes
     nodes = (network.nodes[name] for name in program.layout.slots if name in network.nodes)

@@ -23,7 +23,7 @@ class Row:
     range: tuple[float, float] | None = None
 
 
-def _declared(each: FmuVariable) -> Row:
+def _row_of(each: FmuVariable) -> Row:
     """Return the row of a variable that modelDescription.xml declares."""
     within = None
     if each.causality == "parameter":
@@ -40,7 +40,7 @@ def _range(kind: str, minimum: str | None, maximum: str | None) -> tuple[float, 
     return (-LARGEST if minimum is None else float(minimum), LARGEST if maximum is None else float(maximum))
 
 
-def _hidden(model: SystemModel, variables: Variables) -> list[Row]:
+def _list_hidden(model: SystemModel, variables: Variables) -> list[Row]:
     """Return the rows of what the state has and modelDescription.xml does not declare."""
     declared = {each.path for each in variables.declared}
     faulty = {each.candidate.path_of(each.variable.name) for each in variables.tuned}  # steps compare these
@@ -73,7 +73,7 @@ def _hidden(model: SystemModel, variables: Variables) -> list[Row]:
 
 def write_tables(guid: str, model: SystemModel, variables: Variables) -> str:
     """Facts for the wrapper: GUID, and tables by value reference, of what is not declared last."""
-    rows = [*map(_declared, variables.declared), *_hidden(model, variables)]
+    rows = [*map(_row_of, variables.declared), *_list_hidden(model, variables)]
     lines = Lines()
     lines.add(f'#define MODEL_GUID "{guid}"')
     lines.text.append("")

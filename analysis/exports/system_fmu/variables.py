@@ -106,7 +106,7 @@ class Variables:
         system = [*self._inputs(), *self._outputs(), *self._system_parameters()]
         self.slots = {name: self._slot(name, slots[name], default) for name, default in defaults.items()}
         inside = [each for program in _by_candidate(model) for each in self._component_parameters(*program)]
-        exposed = [self._exposed(name) for name in model.exposed]
+        exposed = [self._expose(name) for name in model.exposed]
         system = [replace(each, tunable=self._are_readers_tunable(each)) for each in system]
         self.declared = [*system, *self.slots.values(), *inside, *exposed, *self._faults()]
         self.effective |= {each.name: each.start for each in [*system, *inside] if each.start is not None}
@@ -114,7 +114,7 @@ class Variables:
     def _inputs(self) -> Iterator[FmuVariable]:
         for name in self.model.inputs:
             node = self._nodes[name]
-            start = _typed(node, self._values.get(name, 0.0))
+            start = _convert(node, self._values.get(name, 0.0))
             yield self._of_node(node, "input", "input", "input of the system", start)
 
     def _outputs(self) -> Iterator[FmuVariable]:
@@ -128,7 +128,9 @@ class Variables:
                 check_type(self.model.network, node)
                 if parameter_chain(self.model.network, self._values, name):
                     continue  # an outer one has a value
-                variable = self._of_node(node, "parameter", "parameter", "parameter of the system", _typed(node, value))
+                variable = self._of_node(
+                    node, "parameter", "parameter", "parameter of the system", _convert(node, value)
+                )
                 self.parameter_paths[name] = variable.path
                 yield variable
 
@@ -158,7 +160,7 @@ class Variables:
         unit = node.unit.name if node.unit and _type_of(node) == "Real" else None
         path = self.model.members.new(f"{prefix}_{node.name}")
         enumeration = self._enumerations.of(node.name)
-        type_name = _declared_type(_type_of(node), enumeration)
+        type_name = _find_type(_type_of(node), enumeration)
         return FmuVariable(node.name, causality, type_name, path, description, start, unit, enumeration=enumeration)
 
     def _slot(self, name: str, candidates: Sequence[str], default: int) -> FmuVariable:
@@ -201,7 +203,7 @@ class Variables:
             yield FmuVariable(
                 f"{candidate.label}.{variable.name}",
                 "parameter",
-                _declared_type(variable.type, enumeration),
+                _find_type(variable.type, enumeration),
                 path,
                 variable.description or "",
                 given if given is not None else _start(variable, candidate),
@@ -212,9 +214,9 @@ class Variables:
                 tunable=_is_tunable(variable),
             )
 
-    def _exposed(self, name: str) -> FmuVariable:
+    def _expose(self, name: str) -> FmuVariable:
         enumeration = self._enumerations.of(name)
-        type_name = _declared_type(self.model.types[name], enumeration)
+        type_name = _find_type(self.model.types[name], enumeration)
         unit = self.model.units[name] if type_name == "Real" else None
         path = self.model.members.new(f"local_{name}")
         return FmuVariable(name, "local", type_name, path, self._describe(name), unit=unit, enumeration=enumeration)
@@ -271,7 +273,7 @@ def _in_a_system(type_name: str) -> str:
     return "Integer" if type_name == "Enumeration" else type_name
 
 
-def _typed(node: Node, value: float | str) -> ParameterValue:
+def _convert(node: Node, value: float | str) -> ParameterValue:
     return {"Real": float, "Integer": int, "Boolean": bool}[_type_of(node)](value)
 
 
@@ -279,6 +281,6 @@ def _start(variable: Variable, candidate: Candidate) -> ParameterValue:
     return parse_value(variable.start_text, _in_a_system(variable.type), candidate.fmu.label, variable.name)
 
 
-def _declared_type(type_name: str, enumeration: EnumerationType | None) -> str:
+def _find_type(type_name: str, enumeration: EnumerationType | None) -> str:
     """Return the type that modelDescription.xml states: an Integer where candidates differ in their members."""
     return "Enumeration" if enumeration is not None else _in_a_system(type_name)

@@ -79,7 +79,7 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
         lines.add(f"double value = (double)self->{variables.parameter_paths[passed.chain[0]]};")
         for line in pass_along(passed.network, passed.chain):
             lines.add(line)
-        lines.add(f"self->{passed.path} = {_converted(passed)};")
+        lines.add(f"self->{passed.path} = {_cast(passed)};")
         lines.close("}")
     lines.close("}")
     return "\n".join([*lines.text, ""])
@@ -120,5 +120,5 @@ def _pass_on(network: Network, link: Link, number: int) -> list[str]:
     return [f"value = value * {literal(transformation.factor)} + {literal(transformation.offset)};"]
 
 
-def _converted(passed: Passed) -> str:
+def _cast(passed: Passed) -> str:
     return {"KIND_REAL": "value", "KIND_INTEGER": "(int64_t)value", "KIND_BOOLEAN": "value != 0.0"}[passed.kind]

@@ -85,7 +85,7 @@ class Memory(BaseMemory[Snapshot]):
         for component, instance in instances.items():
             encoding, frozen = _layout(instance.fmu, component)
             self._write[component] = ENCODINGS[encoding]
-            mine = _remembered(instance.fmu, frozen)
+            mine = _find_cells(instance.fmu, frozen)
             self.cells += [
                 Cell(f"{component}.{item.name}", item.unit, component, index) for index, item in mine.items()
             ]
@@ -145,7 +145,7 @@ class Memory(BaseMemory[Snapshot]):
             self._instances[component].free_state(state)
 
 
-def _remembered(fmu: Fmu, frozen: set[int]) -> dict[int, Variable]:
+def _find_cells(fmu: Fmu, frozen: set[int]) -> dict[int, Variable]:
     """Return the variables that are cells, by their index in the serialised state.
 
     That is the value reference; the elements of an array follow on that of their array.

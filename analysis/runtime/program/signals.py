@@ -83,7 +83,7 @@ class Signals:
         name = f"{component}.{variable.name}"
         link = self._network.driver.get(name)
         if name in self._network.driven:
-            sample = self._driven(name)
+            sample = self._sample(name)
         elif link is not None and not link.is_parameter and self._all_known((link, *link.added), known):
             sample = carry(self._network, link, self._source)
         else:
@@ -105,9 +105,9 @@ class Signals:
             return self.values[node.name]
         if link is not None and node.kind not in PARAMETERS:
             return carry(self._network, link, self._source)
-        return self._driven(node.name) if node.name in self._network.driven else self._system.settings.nodes[node.name]
+        return self._sample(node.name) if node.name in self._network.driven else self._system.settings.nodes[node.name]
 
-    def _driven(self, name: str) -> Sample:
+    def _sample(self, name: str) -> Sample:
         drive = self._system.drive
         assert drive is not None
         row = min(self._drive_row, len(drive.table) - 1)

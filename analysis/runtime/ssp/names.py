@@ -28,17 +28,17 @@ def vectors(names: Iterable[str]) -> list[str]:
 def elements(name: str, known: Container[str]) -> list[str]:
     """Return the known names that one stands for: its own, or name[1], name[2] ... of a vector, name[1,1], name[1,2]
     ... of a matrix, row by row; none where it is unknown."""
-    return [name] if name in known else _indexed(f"{name}[", known, MOST_DIMENSIONS)
+    return [name] if name in known else _list_indexed(f"{name}[", known, MOST_DIMENSIONS)
 
 
-def _indexed(start: str, known: Container[str], dimensions: int) -> list[str]:
+def _list_indexed(start: str, known: Container[str], dimensions: int) -> list[str]:
     """Return the known names that begin so and continue with as many indices, counted from 1, the last one first."""
     names: list[str] = []
     for index in itertools.count(1):
         if f"{start}{index}]" in known:
             names.append(f"{start}{index}]")
             continue
-        row = _indexed(f"{start}{index},", known, dimensions - 1) if dimensions > 1 else []
+        row = _list_indexed(f"{start}{index},", known, dimensions - 1) if dimensions > 1 else []
         if not row:
             return names
         names += row

@@ -229,7 +229,7 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
             transformation = transformation.after_units(assignment.unit.conversion_to(node.unit))
         return float(value) * transformation.factor + transformation.offset
     if transformation.table:
-        value = _mapped(assignment, transformation, type_name, node)
+        value = _map_value(assignment, transformation, type_name, node)
     if type_name == "Enumeration":
         by_value = {str(number): number for number in node.enumeration.values()}  # as OMSimulator writes items
         items = by_value | node.enumeration
@@ -244,7 +244,7 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
     return value
 
 
-def _mapped(assignment: Assignment, transformation: Transformation, type_name: str, node: Node) -> ParameterValue:
+def _map_value(assignment: Assignment, transformation: Transformation, type_name: str, node: Node) -> ParameterValue:
     """Return the assignment's value after a mapping; of an enumeration by its items' numbers
     where the mapping has these."""
     given, where = assignment.value, (assignment.file, assignment.where)

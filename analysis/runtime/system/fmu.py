@@ -192,19 +192,19 @@ def _read_description(xml: bytes) -> tuple[ModelDescription | None, tuple[str, .
     It is the most of loading an FMU, and nobody changes what it gives: a system that is prepared again shares it.
     """
     try:
-        return _completed(read_model_description(_open_zip(xml), validate=True), xml), ()
+        return _complete(read_model_description(_open_zip(xml), validate=True), xml), ()
     except ValidationError as error:
         flaws = tuple(" ".join(problem.split()) for problem in error.problems)
     except Exception as error:  # fmpy raises bare Exception and lxml's errors; others are not for readers
         kind = "" if type(error) is Exception or isinstance(error, etree.LxmlError) else f"{type(error).__name__}: "
         flaws = (f"FMPy cannot read it: {kind}{' '.join(str(error).split())}",)
     try:
-        return _completed(read_model_description(_open_zip(_with_fixed_parameters(xml)), validate=False), xml), flaws
+        return _complete(read_model_description(_open_zip(_with_fixed_parameters(xml)), validate=False), xml), flaws
     except Exception:
         return None, flaws
 
 
-def _completed(description: ModelDescription, xml: bytes) -> ModelDescription:
+def _complete(description: ModelDescription, xml: bytes) -> ModelDescription:
     root = parse_xml(xml, DESCRIPTION)
     complete_quantities(description, root)
     if description.fmiMajorVersion == 3:

@@ -245,7 +245,7 @@ class LoopStudy:
             structure=structure(model.model, model.port, model.facts.states) if model else None,
             open_loop=open_loop(model.model, (model.port,)) if model and "linearisation" not in self.notes else None,
             linearised=self.model.facts if self.model else None,
-            measured_response=self._measured_response(),
+            measured_response=self._refine_measurement(),
             not_applicable={**self.notes, **assessment.notes},
             step=self._step(assessment) if model and stable else None,
         )
@@ -257,7 +257,7 @@ class LoopStudy:
                 report.not_applicable["agreement"] = disagreement(compared, self.model.facts, self.measured)
         return report
 
-    def _measured_response(self) -> Measured | None:
+    def _refine_measurement(self) -> Measured | None:
         """Return the measurement with the lines at its crossings."""
         if self.measured is None or self.refined is None:
             return self.measured

@@ -45,7 +45,7 @@ class TransferPlacing:
         for is_discrete, target in ((False, transfers.inputs), (True, transfers.discrete)):
             mine = (each for each in inputs if (each.variability == "discrete") == is_discrete)
             target += [self._add(component, group, is_given=True) for group in groups(mine)]
-        tuned = whole((each for each in numbers if each.is_tunable), self._tuned(component, numbers))
+        tuned = whole((each for each in numbers if each.is_tunable), self._select_tuned(component, numbers))
         for group in groups(tuned):
             first = len(self._slots.references)
             (transfers.discrete if transfers.uses_events else transfers.inputs).append(
@@ -58,12 +58,12 @@ class TransferPlacing:
         named = {short for short, name in names.items() if name in exchanged.named and name not in self._slots.numbers}
         recorded = whole((each for each in numbers if each.name in named), named)
         transfers.recorded += [self._add(component, group) for group in groups(recorded)]
-        unfed = {each.name for each in inputs} - driven | {each.name for each in tuned} - self._tuned(
+        unfed = {each.name for each in inputs} - driven | {each.name for each in tuned} - self._select_tuned(
             component, numbers
         )
         self._slots.unfed |= {names[each] for each in unfed}
 
-    def _tuned(self, component: str, variables: Sequence[Variable]) -> set[str]:
+    def _select_tuned(self, component: str, variables: Sequence[Variable]) -> set[str]:
         return {each.name for each in variables if self._exchanged.is_tuned(component, each)}
 
     def _add_texts(self, texts: Sequence[tuple[Sequence[Variable], int]]) -> list[int]:

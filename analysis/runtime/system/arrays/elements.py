@@ -22,7 +22,7 @@ def expand_arrays(description: Description, sizes: Sizes) -> Description:
     if not any(_has_arrays(system) for _, system in walk(description.system)):
         return description
     shapes = Shapes(description, sizes)
-    return replace(description, system=_expanded(description, shapes, "", description.system))
+    return replace(description, system=_expand(description, shapes, "", description.system))
 
 
 def _has_arrays(system: System) -> bool:
@@ -34,12 +34,12 @@ def _has_arrays(system: System) -> bool:
     )
 
 
-def _expanded(description: Description, shapes: Shapes, path: str, system: System) -> System:
+def _expand(description: Description, shapes: Shapes, path: str, system: System) -> System:
     elements: dict[str, Element] = {}
     for name, element in system.elements.items():
         inner = f"{path}{name}."
         if isinstance(element, System):
-            elements[name] = _expanded(description, shapes, inner, element)
+            elements[name] = _expand(description, shapes, inner, element)
         else:
             elements[name] = replace(element, connectors=_connectors(shapes, inner, element.connectors))
     return replace(

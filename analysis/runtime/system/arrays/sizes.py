@@ -73,8 +73,8 @@ class Sizes:
             raise InputError(self.description.file, where, problem, "correct it, or write size")
         full = path + name
         chain = self._chain(full)
-        given = self._brought(chain) if connector.kind == "structuralParameter" else None
-        return self._check(self._declared(full) if given is None else given, full, where)
+        given = self._find_assigned(chain) if connector.kind == "structuralParameter" else None
+        return self._check(self._find_start(full) if given is None else given, full, where)
 
     def connected(self, component: str, names: Collection[str]) -> dict[str, int]:
         """Return the values that connections bring the structural parameters ``names`` of a
@@ -83,7 +83,7 @@ class Sizes:
         for name in names:
             full = f"{component}.{name}"
             chain = self._chain(full)[1:]
-            given = self._brought(chain)
+            given = self._find_assigned(chain)
             if given is not None:
                 sizes[name] = self._check(given, chain[-1], full)
         return sizes
@@ -95,7 +95,7 @@ class Sizes:
             chain.append(self.sources[chain[-1]])
         return chain
 
-    def _brought(self, chain: Sequence[str]) -> object:
+    def _find_assigned(self, chain: Sequence[str]) -> object:
         """Return the outermost value assigned along a chain, or that of the constant at its end."""
         if not chain:
             return None
@@ -106,9 +106,9 @@ class Sizes:
         component, _, short = name.rpartition(".")
         owner = self.components.get(component)
         declared = owner.connectors.get(short) if owner is not None else None
-        return self._declared(name) if declared is not None and declared.kind == "constant" else None
+        return self._find_start(name) if declared is not None and declared.kind == "constant" else None
 
-    def _declared(self, name: str) -> object:
+    def _find_start(self, name: str) -> object:
         """Return a variable's start as the FMU of a component declares it."""
         component, _, short = name.rpartition(".")
         if component not in self.components:

@@ -32,11 +32,11 @@ class Bundled:
 
 def bundled_by(fmu: Fmu) -> tuple[Bundled, ...]:
     """Return what an FMU brings for the process that loads it."""
-    return _bundled(fmu.digest, fmu.folder, fmu.binary)
+    return _list_bundled(fmu.digest, fmu.folder, fmu.binary)
 
 
 @lru_cache(MOST_FMUS)
-def _bundled(_digest: str, folder: Path, binary: str) -> tuple[Bundled, ...]:
+def _list_bundled(_digest: str, folder: Path, binary: str) -> tuple[Bundled, ...]:
     main, resources = folder / binary, folder / "resources"
     beside_main = _libraries(main.parent)
     modules: list[Bundled] = []
@@ -89,12 +89,12 @@ def _names(path: Path, folder: Path, *, is_main: bool) -> Iterator[Bundled]:
     """
     file, digest = path.relative_to(folder).as_posix(), module_digest(path)
     is_module = _suffix(path) not in ("", ".so") or any(path.parent.glob("*.py"))
-    names = {"" if is_module else path.name, _shared_object_name(path)} - {""}
+    names = {"" if is_module else path.name, _read_soname(path)} - {""}
     for name in sorted(names):
         yield Bundled(LIBRARY, name, file, digest, is_main)
 
 
-def _shared_object_name(path: Path) -> str:
+def _read_soname(path: Path) -> str:
     """Return the DT_SONAME of an ELF file; empty where it has none, or is none."""
     from elftools.common.exceptions import ELFError  # which own FMUs do not need
     from elftools.elf.dynamic import DynamicSegment

@@ -14,7 +14,7 @@ def pass_parameters(network: Network, settings: Settings) -> None:
     """Carry values of system parameter connectors, and of constants, along their connections."""
     for node in network.nodes.values():
         if node.kind in PARAMETERS and node.component is not None and node.name in network.driver:
-            brought = _passed_value(network, settings, node)
+            brought = _find_passed_value(network, settings, node)
             if brought is not None:
                 outermost, passed = brought
                 kind: type[ParameterValue] = {"Real": float, "Boolean": bool, "String": str}.get(
@@ -29,7 +29,7 @@ def pass_parameters(network: Network, settings: Settings) -> None:
     for link in network.links():  # into an input, or out of the system: there a parameter is a signal that stays
         source = link.source
         if source.kind in PARAMETERS and source.component is None and not link.is_parameter:
-            brought = _passed_value(network, settings, source)
+            brought = _find_passed_value(network, settings, source)
             if brought is not None:
                 settings.nodes[source.name] = brought[1]
             elif source.name not in settings.nodes:
@@ -37,7 +37,7 @@ def pass_parameters(network: Network, settings: Settings) -> None:
                 raise network.refuse(link.where, f"{source.name} has no value", remedy)
 
 
-def _passed_value(network: Network, settings: Settings, node: Node) -> tuple[str, float | str] | None:
+def _find_passed_value(network: Network, settings: Settings, node: Node) -> tuple[str, float | str] | None:
     """Return the value and source that connections bring a parameter: the outermost value wins; None without one."""
     chain = [network.driver[node.name]] if node.name in network.driver else []
     while chain and chain[-1].source.name in network.driver:
