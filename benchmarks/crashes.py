@@ -45,7 +45,7 @@ def main() -> None:
 
 
 def costs(fmu: Path, workers: int, *, in_process: bool) -> tuple[float, float]:
-    """Time (s) of a trial, and what a batch takes apart from its trials."""
+    """Return the time (s) of a trial, and of a batch apart from its trials."""
     few, many = (batch(fmu, workers, trials, in_process=in_process) for trials in (FEW, MANY))
     trial = (many - few) / (MANY - FEW)
     return trial, few - FEW * trial
@@ -65,7 +65,7 @@ def batch(fmu: Path, workers: int, trials: int, *, in_process: bool = False) -> 
 
 
 def run(fmu: Path, options: list[str]) -> float:
-    """Time (s) of the command."""
+    """Return the time (s) of the command."""
     begin = time.perf_counter()
     command = [sys.executable, "-m", "perilune", "run", str(fmu), "--stop-time", "1", *options]
     subprocess.run(command, check=True, capture_output=True)

@@ -50,7 +50,7 @@ def library() -> ctypes.CDLL:
 
 
 def shortest(call: Callable[[], object]) -> float:
-    """Seconds of the quickest of some calls."""
+    """Return seconds of the quickest of some calls."""
     times = []
     for _ in range(REPEATS):
         before = time.perf_counter()
@@ -66,7 +66,7 @@ def call_each(function: Callable[..., float], rows: list[tuple[float, ...]]) -> 
 
 
 def row(dll: ctypes.CDLL, name: str, random: Random) -> str:
-    """One function's times: C and arrays in ns, Python in us."""
+    """Return one function's times: C and arrays in ns, Python in us."""
     draw = [[random.uniform(*RANGES.get(name, USUAL)) for _ in range(COUNT)] for _ in range(2)]
     x, y, z = np.array(draw[0]), np.array(draw[1]), np.empty(COUNT)
     pointers = [ctypes.c_void_p(array.ctypes.data) for array in (x, y, z)]

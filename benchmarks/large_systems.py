@@ -69,7 +69,7 @@ def main(sizes: list[int], foreign_sizes: list[int]) -> None:
 
 
 def _print_steps(folder: Path) -> None:
-    """Time of a step (us), and of compiling it (s)."""
+    """Print the time of a step (us), and of compiling it (s)."""
     print("| components | native, us a step | fused, us a step | compiled in, s |")
     print("|---|---|---|---|")
     for count in STEPPED_SIZES:
@@ -115,7 +115,7 @@ def _print_wide(folder: Path) -> None:
 
 
 def _time(verb: str, path: Path) -> float:
-    """Seconds of a command of `perilune` on a system or an FMU."""
+    """Return seconds of a command of `perilune` on a system or an FMU."""
     command = [Path(sys.executable).with_name("perilune"), verb, str(path), "--step", "0.1", "--stop-time", "0.1"]
     begin = time.perf_counter()
     subprocess.run(command, capture_output=True, check=True)

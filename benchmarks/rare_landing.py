@@ -16,7 +16,7 @@ SAMPLES = 4500
 
 
 def counts() -> tuple[int, dict[float, int]]:
-    """Trials, and how many of them exceed each limit."""
+    """Return the number of trials, and of those that exceed each limit."""
     if len(sys.argv) < 2:
         return TRIALS, MISSES
     results = perilune.open_results(sys.argv[1])

@@ -116,7 +116,7 @@ def _brush(driver: Any, canvas: Any, by: int) -> float:
 
 
 def _selected(driver: Any) -> list[int]:
-    """Successes and failures that the page shows."""
+    """Return successes and failures that the page shows."""
     texts = [each.text for each in driver.find_elements(By.CSS_SELECTOR, ".summary tbody td.n")]
     return [int(text) for text in texts[1:3]]
 

@@ -42,7 +42,8 @@ class ProgressLines(text_bar):
 
 
 def progress_bar(**options: Any) -> text_bar:
-    """tqdm's bar with its ``options``, which goes when the work is done; lines where nobody sees a bar."""
+    """Return tqdm's bar with its ``options``, which goes when the work is done; lines where
+    standard error is no terminal."""
     # tqdm asks whether its file is a terminal, which that of a notebook's cell is not
     if IN_NOTEBOOK or sys.stderr.isatty():
         return tqdm(**options, disable=False, leave=False)

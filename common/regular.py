@@ -61,7 +61,7 @@ def read_regular(path: Path, remedy: str, limit: float) -> bytes:
 
 
 def _size(path: Path, remedy: str, *, follow_links: bool) -> int:
-    """Bytes of a regular file; raises InputError for anything else."""
+    """Return bytes of a regular file; raises InputError for anything else."""
     try:
         state = path.stat(follow_symlinks=follow_links)
     except (OSError, ValueError) as error:

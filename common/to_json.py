@@ -19,7 +19,7 @@ def optional(default: Any = None) -> Any:
 
 
 def to_json(value: Any) -> Any:
-    """Dataclasses, mappings and sequences as JSON has them; infinite numbers, which it lacks, as "inf" and "-inf"."""
+    """Convert dataclasses, mappings and sequences to JSON; infinite numbers, which it lacks, to "inf" and "-inf"."""
     if is_dataclass(value):
         entries = {each: getattr(value, each.name) for each in fields(value)}
         return {

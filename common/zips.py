@@ -59,7 +59,7 @@ def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
 
 
 def read_entry(archive: zipfile.ZipFile, name: str, label: str) -> bytes:
-    """One file of an archive; raises InputError where it is too large or damaged."""
+    """Read one file of an archive; raises InputError where it is too large or damaged."""
     bound_of(name).check(archive.getinfo(name).file_size, label, name)
     try:
         return archive.read(name)

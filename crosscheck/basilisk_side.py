@@ -44,13 +44,13 @@ class Flight:
         self.craft.gravField.gravBodies = spacecraft.GravBodyVector([body])
 
     def set_inertia(self, rows: list[list[float]], mass: float = 1000.0) -> None:
-        """Inertia (kg m2) about the centre of mass, and mass (kg)."""
+        """Set inertia (kg m2) about the centre of mass, and mass (kg)."""
         self.craft.hub.mHub, self.craft.hub.IHubPntBc_B = mass, rows
 
     def start(
         self, position: object, velocity: object, mrp: object = (0.0, 0.0, 0.0), rate: object = (0.0, 0.0, 0.0)
     ) -> None:
-        """Position (m), velocity (m/s), inertial; attitude (MRP, inertial to body), rate (rad/s, body)."""
+        """Set position (m), velocity (m/s), inertial; attitude (MRP, inertial to body), rate (rad/s, body)."""
         hub = self.craft.hub
         hub.r_CN_NInit, hub.v_CN_NInit = column(position), column(velocity)
         hub.sigma_BNInit, hub.omega_BN_BInit = column(mrp), column(rate)
@@ -65,7 +65,7 @@ class Flight:
         self.simulation.ExecuteSimulation()
 
     def table(self) -> Table:
-        """Time (s), position, velocity (inertial), quaternion from body to inertial, rate (body)."""
+        """Return time (s), position, velocity (inertial), quaternion from body to inertial, rate (body)."""
         states = self.states
         return {
             "time": np.array(states.times()) * 1e-9,
@@ -86,7 +86,7 @@ def elements(name: str, rows: object) -> Table:
 
 
 def quaternions(mrp: np.ndarray) -> np.ndarray:
-    """From MRPs (inertial to body axes) to quaternions of the same turn, body to inertial, scalar first, [n, 4]."""
+    """Convert MRPs (inertial to body axes) to quaternions of the same turn, body to inertial, scalar first, [n, 4]."""
     square = np.sum(mrp**2, axis=1, keepdims=True)
     return np.hstack([1.0 - square, 2.0 * mrp]) / (1.0 + square)
 

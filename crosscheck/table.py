@@ -50,7 +50,7 @@ def differences(case: Case, ours: Table, other: Table) -> dict[str, np.ndarray]:
 
 
 def angles_between(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Angles (rad) of the turns between attitudes, quaternions [4, n] of any length and sign."""
+    """Return angles (rad) of the turns between attitudes, quaternions [4, n] of any length and sign."""
     a, b = (quaternion / np.linalg.norm(quaternion, axis=0) for quaternion in (first, second))
     vector = a[0] * b[1:] - b[0] * a[1:] - np.cross(a[1:], b[1:], axis=0)
     return 2.0 * np.arcsin(np.minimum(np.linalg.norm(vector, axis=0), 1.0))

@@ -47,7 +47,7 @@ class Lander:
         self.propellant = self.craft.dynManager.getStateObject(self.tank.getNameOfMassState())
 
     def advance(self, force: Vector3, flow: float) -> None:
-        """One step under a constant force (N) and flow of propellant (kg/s)."""
+        """Step once under a constant force (N) and flow of propellant (kg/s)."""
         self.engine.extForce_N = column(force)
         self.tank.setFuelLeakRate(flow)
         self.steps += 1
@@ -130,7 +130,7 @@ class BasiliskMoonLander(Block):
         self.coast_time = max(0.0, t + h - self.command_time - self.burn_duration)
 
     def fly(self, t: float, h: float) -> None:
-        """One step of Basilisk, with the mean thrust and the mean direction of it."""
+        """Step Basilisk once, with the mean thrust and its mean direction."""
         burning = min(max(self.command_time + self.burn_duration - t, 0.0), h)
         exhaust_velocity = STANDARD_GRAVITY * self.specific_impulse
         impulse = self.run_engine(max(self.thrust, 0.0), burning) + self.run_engine(0.0, h - burning)

@@ -89,7 +89,7 @@ def _join_elements(before: str | None, now: str | None) -> str | None:
 
 
 def describe_system(prepared: PreparedSystem) -> dict[str, Any]:
-    """Components, connections, connectors of the system itself, and its files' names. Times in s."""
+    """Return components, connections, connectors of the system itself, and its files' names. Times in s."""
     files = prepared.archive.files
     return {
         "system": prepared.archive.name,

@@ -16,7 +16,7 @@ Demand = tuple[str, str, str]  # variable, causality, type
 
 
 def connectors_of(block: type[Block]) -> set[Demand]:
-    """All variables that a connector can stand for."""
+    """Return all variables that a connector can stand for."""
     return {
         (name, variable.causality, variable.fmi_type)
         for variable in block.variables.values()

@@ -28,7 +28,7 @@ class MetricLimits:
         return (self.low > -math.inf) - (self.high < math.inf)
 
     def excess(self, values: np.ndarray) -> np.ndarray:
-        """Distances beyond the nearer limit, negative within both."""
+        """Return distances beyond the nearer limit, negative within both."""
         return np.maximum(self.low - values, values - self.high)
 
 

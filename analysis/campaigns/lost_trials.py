@@ -10,7 +10,7 @@ from .summary import Summary
 
 
 def lost_status(status: str) -> str:
-    """``crashed``, ``hung`` or ``out_of_memory`` if that is what a trial's status begins with, else nothing."""
+    """Return ``crashed``, ``hung`` or ``out_of_memory`` if a trial's status begins so, else nothing."""
     beginning = status.partition(" (")[0]
     return beginning if beginning in LOST else ""
 
@@ -25,7 +25,7 @@ def count_lost(statuses: Mapping[str, int]) -> Counter[str]:
 
 
 def lost_words(counts: Mapping[str, int]) -> str:
-    """Such counts in words: "2 crashed, 1 out of memory"; empty where there are none."""
+    """Return such counts in words: "2 crashed, 1 out of memory"; empty where there are none."""
     return ", ".join(f"{counts[status]} {status.replace('_', ' ')}" for status in LOST if counts.get(status))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 
 def align_columns(rows: list[list[str]]) -> list[str]:
-    """Rows of cells as lines, the first column to the left, the others to the right."""
+    """Return rows of cells as lines, the first column to the left, the others to the right."""
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     return [
         "  ".join(
@@ -32,6 +32,6 @@ def short(value: float | None) -> str:
 
 
 def ordinal(number: int) -> str:
-    """1st, 2nd, 3rd, 4th, 11th."""
+    """Return the ordinal of a number: 1st, 2nd, 3rd, 4th, 11th."""
     teen = number // 10 % 10 == 1
     return f"{number}{'th' if teen else ('th', 'st', 'nd', 'rd', *['th'] * 6)[number % 10]}"

@@ -123,7 +123,7 @@ def _bound(
 
 
 def trials_to_decision(requirements: Sequence[Requirement], trials: Mapping[str, Sequence[np.ndarray]]) -> int | None:
-    """After how many trials every requirement of every variant is decided; None while one is not.
+    """Return the number of trials after which every requirement of every variant is decided; None while one is not.
 
     ``trials`` are by variant, for each requirement, which of the first trials satisfy it, in order and without a gap.
     The answer does not depend on how many more there are: it is the last interim analysis that any of them needed.

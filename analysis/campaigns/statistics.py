@@ -43,7 +43,7 @@ class MetricStatistics:
 
 
 def statistics(column: Blocks, unit: str) -> MetricStatistics:
-    """Statistics of a column over trials; memory does not grow with their number, sums are rounded once."""
+    """Return statistics of a column over trials; memory does not grow with their number, sums are rounded once."""
     column = _read_once(column)
     count, known, minimum, maximum = 0, 0, math.inf, -math.inf
     for values in column():

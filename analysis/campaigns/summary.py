@@ -59,11 +59,12 @@ Summary = Mapping[str, VariantSummary]  # by variant
 
 
 def success_interval(successes: int, trials: int, confidence: float = 0.95) -> Interval:
-    """Interval (low, high) of the probability of success after ``successes`` in ``trials`` independent trials.
+    """Return the interval (low, high) of the probability of success after ``successes`` in ``trials`` independent
+    trials.
 
-    Clopper and Pearson's exact interval: it covers the true rate with at least ``confidence``
-    whatever that rate is. Wilson's is shorter but covers less than it says near 0 and 1, and
-    rates near 1 are what guidance is measured by. Raises ValueError unless 0 <= successes <= trials, trials >= 1.
+    Clopper and Pearson's exact interval: it covers the true rate with at least ``confidence`` whatever that rate is.
+    Wilson's is shorter but covers less than it says near 0 and 1, and rates near 1 are what guidance is measured by.
+    Raises ValueError unless 0 <= successes <= trials, trials >= 1.
     """
     if not (trials >= 1 and 0 <= successes <= trials):
         raise ValueError(f"{successes} successes of {trials} trials")
@@ -143,7 +144,7 @@ class SummaryRow(NamedTuple):
 
 
 def summary_rows(summary: Summary) -> list[SummaryRow]:
-    """Every variant, each followed by its groups."""
+    """Return every variant, each followed by its groups."""
     rows = []
     for name, variant in summary.items():
         rows.append(SummaryRow(name, None, variant))
@@ -152,11 +153,10 @@ def summary_rows(summary: Summary) -> list[SummaryRow]:
 
 
 def requirement_values(summary: Summary) -> dict[str, float]:
-    """Every number of a summary under a dotted name, for requirements as expressions.
+    """Return every number of a summary under a dotted name, for requirements as expressions.
 
-    ``variant.success_rate``, ``variant.success_interval[1]`` (low) and ``[2]`` (high),
-    ``variant.metrics.NAME.mean``, ``variant.groups["LABEL"].success_rate`` and so on; numbers that do not exist are
-    nan.
+    ``variant.success_rate``, ``variant.success_interval[1]`` (low) and ``[2]`` (high), ``variant.metrics.NAME.mean``,
+    ``variant.groups["LABEL"].success_rate`` and so on; numbers that do not exist are nan.
     """
     values: dict[str, float] = {}
 

@@ -46,7 +46,7 @@ def metric_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str 
 
 
 def rate_lines(table: list[list[str]], first: int) -> list[str]:
-    """Rows of rates as lines: column ``first`` has the trials, the next one success.
+    """Return rows of rates as lines: column ``first`` has the trials, the next one success.
 
     Where lines would be longer than `WIDTH`, columns that are the same in all rows become a line, and after them the
     last column a line for each row; never success.

@@ -10,7 +10,7 @@ from .verdicts.acceptance import Verdict
 
 
 def who_heads(group: str | None) -> list[str]:
-    """Headings of `who_cells`; ``group`` is what trials are grouped by, if they are."""
+    """Return headings of `who_cells`; ``group`` is the draw by which trials are grouped, if any."""
     return ["variant"] if group is None else ["variant", group]
 
 
@@ -39,7 +39,7 @@ def requirement_lines(summary: Summary) -> list[str]:
 
 
 def requirement_rows(summary: Summary) -> list[tuple[str, str, RequirementVerdict]]:
-    """Variant, name and verdict of every requirement of every variant, those of one requirement together."""
+    """Return variant, name and verdict of every requirement of every variant, those of one requirement together."""
     names = dict.fromkeys(name for variant in summary.values() for name in variant.requirements)
     return [(variant, name, entry.requirements[name]) for name in names for variant, entry in summary.items()]
 

@@ -214,7 +214,7 @@ class TrialTable:
 
 
 def join_trials(parts: Iterable[TrialTable]) -> TrialTable:
-    """Parts of one variant, in any order, as one in order of trial."""
+    """Join the tables of one variant, in any order, into one in order of trial."""
     ordered = sorted(parts, key=lambda part: int(part.trial[0]))
     traces = {trial: trace for part in ordered for trial, trace in part.traces.items()}
     if len(ordered) == 1:

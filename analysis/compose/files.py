@@ -109,7 +109,7 @@ def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
 
 
 def _list_files(source: SystemSource, archive: SystemArchive, layers: Iterable[Layer]) -> dict[str, bytes]:
-    """Parameter sets and FMUs of a system's own folder or archive, by path."""
+    """Return parameter sets and FMUs of a system's own folder or archive, by path."""
     layers = list(layers)
     fmus = [each.fmu for each in source.components.values()] + [fmu for each in layers for fmu in each.use.values()]
     sources = {path: path for path in map(fmu_source, fmus) if archive.is_own_file(path)}

@@ -143,7 +143,7 @@ def _base(name: str, shapes: Mapping[Point, Shape]) -> str:
 
 
 def _whole(points: list[Point], shapes: Mapping[Point, Shape]) -> list[str]:
-    """Names of points, the elements of an array that are all there as the array."""
+    """Return names of points, the elements of an array that are all there as the array."""
     present, names = set(points), []
     for component, name in points:
         array = INDEX.sub("", name)

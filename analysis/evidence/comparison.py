@@ -94,7 +94,7 @@ def compare(
     tolerances: Tolerances | None,
     relative: float,
 ) -> tuple[list[SignalCheck], bool]:
-    """All signals, the worst first, and whether the flight was interpolated at times between its samples."""
+    """Compare all signals, the worst first; return, too, if the flight was interpolated between its samples."""
     is_last = np.append(np.diff(reference_time) > 0.0, True)  # of samples at one time, the last one counts
     reference_time = reference_time[is_last]
     rows = match_rows(flown_time, reference_time)

@@ -83,7 +83,7 @@ def _margins(system: Path, options: SystemOptions) -> dict[str, object]:
 
 
 def _leaves(entry: object, path: str) -> Iterator[tuple[str, object]]:
-    """Every number and text of a JSON document under its path."""
+    """Yield every number and text of a JSON document under its path."""
     if isinstance(entry, Mapping):
         for key, inner in entry.items():
             yield from _leaves(inner, f"{path}.{key}")

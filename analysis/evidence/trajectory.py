@@ -28,7 +28,8 @@ class Trajectory:
     texts: tuple[str, ...]
 
     def series(self, without: set[str]) -> InputSeries:
-        """Its columns but those ``without`` as inputs over time; samples that are not finite are as good as others.
+        """Return its columns but those ``without`` as inputs over time; samples that are not finite are as good as
+        others.
 
         Raises InputError for a column of texts among them.
         """

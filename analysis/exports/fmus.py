@@ -17,10 +17,11 @@ from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
 
 
 def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[str], fmi: int) -> None:
-    """One FMU of the repository: an installed package has its native ones of FMI 2.0 with all their libraries inside.
+    """Build one FMU of the repository: an installed package has its native ones of FMI 2.0 with all their libraries
+    inside.
 
-    Those of FMI 3.0 are compiled on request, as few users want them: they would double the package.
-    Raises InputError where it cannot be built here.
+    Those of FMI 3.0 are compiled on request, as few users need them: they would double the package. Raises InputError
+    where it cannot be built here.
     """
     if flavour == "python":
         build_python_fmu(block, path)

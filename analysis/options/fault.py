@@ -78,7 +78,7 @@ def parse_fault(text: str, option: str = "`faults`") -> Fault:
 
 
 def faults_of(given: Iterable[Fault | str]) -> list[Fault]:
-    """Faults, or texts of them. Raises InputError."""
+    """Return faults from faults or their texts. Raises InputError."""
     return [parse_fault(item) if isinstance(item, str) else item for item in given]
 
 

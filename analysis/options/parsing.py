@@ -94,7 +94,7 @@ def _complete(action: argparse.Action, completer: str, find_completer: FindCompl
 
 
 def read_parsed(verb: Verb, parsed: argparse.Namespace) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
-    """Arguments, options of the function and files that a command line gives, by name; defaults are left out.
+    """Return arguments, options of the function and files of a command line, by name; defaults are left out.
 
     Raises InputError, with the parameter's name.
     """

@@ -56,7 +56,8 @@ def _of_unit(declared: Declared) -> str:
 
 
 def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, object]:
-    """``NAME=VALUE`` of a repeated option by name, ``NAME=A,B`` as a list where it takes several; no name twice."""
+    """Read ``NAME=VALUE`` of a repeated option by name, ``NAME=A,B`` as a list where it takes several; no name
+    twice."""
     pairs: dict[str, object] = {}
     for text in texts:
         name, equals, argument = text.partition("=")

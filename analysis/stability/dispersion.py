@@ -29,9 +29,9 @@ def disperse(
     replay: Callable[[str, int], str],
     tell: Callable[[int, int], None],
 ) -> dict[str, Dispersion]:
-    """Margins of every channel over the trials of a campaign, each linearised on its own flight.
+    """Compute margins of every channel over the trials of a campaign, each linearised on its own flight.
 
-    The campaign's draws, seeds and streams are flown at the point. ``cells`` is the memory that matters there;
+    The campaign's draws, seeds and streams are simulated at the point. ``cells`` is the memory that matters there;
     ``replay`` gives the command that studies one trial of one loop again. Raises InputError, StudyError.
     """
     tell(plan.campaign.trials, 0)

@@ -98,7 +98,7 @@ def _study(request: Request, replay: Replay, count: int, tell: Tell) -> Stabilit
 
 
 def study_point(request: Request, replay: Replay, point: Point, tell: Tell) -> PointResult:
-    """One point with all its loops: a step each, one for the linear model. Raises InputError, StudyError."""
+    """Study one point with all its loops: a step each, one for the linear model. Raises InputError, StudyError."""
     subject = Subject(request.system, request.options)
     loops, limits = request.loops_at(point), request.declaration.limits
     with PointStudy(subject, point, loops) as work:
@@ -140,7 +140,7 @@ def study_point(request: Request, replay: Replay, point: Point, tell: Tell) -> P
 
 
 def _loop(request: Request, subject: Subject, point: PointStudy, channel: Channel) -> LoopReport:
-    """One channel by linearisation and frequency-response test, with its amplitudes and elements."""
+    """Study one channel by linearisation and frequency-response test, with its amplitudes and elements."""
     work = point.loop_study(channel, request.declaration.limits)
     work.measure()
     work.refuse_what_is_no_loop()

@@ -36,7 +36,7 @@ def run_sweep(
     cells: Sequence[int],
     tell: Callable[[int, int], None],
 ) -> SweepReport:
-    """Margins of a loop's first channel, at values in geometric order where they are positive.
+    """Compute margins of a loop's first channel, at values in geometric order where they are positive.
 
     ``cells`` is the memory that matters at the point. Raises StudyError where a flight breaks off.
     """
@@ -100,7 +100,7 @@ def _crossings(at: At, low: float, high: float, wanted: dict[Quantity, float]) -
 
 
 def _bisect(is_low: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
-    """Neighbouring values between which a condition that holds at ``low`` and not at ``high`` changes."""
+    """Return neighbouring values between which a condition that holds at ``low`` and not at ``high`` changes."""
     while high - low > CROSSING * max(abs(low), abs(high)):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if is_low(middle) else (low, middle)
@@ -116,7 +116,7 @@ def vary_step(
     names: Sequence[str],
     tell: Callable[[int, int], None],
 ) -> dict[str, tuple[Sampled, ...]]:
-    """Margins of the channels ``names`` with half, the same and twice the communication step ``step`` (s).
+    """Compute margins of the channels ``names`` with half, the same and twice the communication step ``step`` (s).
 
     ``cells`` is the memory that matters at this point. Where there are no margins the note says why.
     """

@@ -55,7 +55,7 @@ class DrawSpace:
         return [name for names, _ in self._varied for name in names]
 
     def from_normals(self, u: np.ndarray) -> Columns:
-        """Draws (a column by name) of independent standard normal values ``u`` (points, size)."""
+        """Return draws (a column by name) of independent standard normal values ``u`` (points, size)."""
         return self._columns(len(u), [distribution.from_normals(block) for distribution, block in self._blocks(u)])
 
     def to_normals(self, columns: Mapping[str, np.ndarray]) -> np.ndarray:
@@ -65,7 +65,8 @@ class DrawSpace:
         )
 
     def from_box(self, points: np.ndarray, sigmas: float) -> Columns:
-        """Draws at ``points`` (points, size) in the unit cube, which spans intervals and normals within ``sigmas``.
+        """Return draws at ``points`` (points, size) in the unit cube, which spans intervals and normals within
+        ``sigmas``.
 
         For jointly normal values these are standard deviations along the axes of their covariance.
         """
@@ -79,7 +80,7 @@ class DrawSpace:
         )
 
     def ranges(self, sigmas: float) -> dict[str, tuple[float, float]]:
-        """Minimum and maximum of each draw that varies in the box of `from_box`.
+        """Return minimum and maximum of each draw that varies in the box of `from_box`.
 
         Jointly normal values reach them one at a time: the box is along the axes of their covariance.
         """

@@ -63,7 +63,8 @@ class Flown:
         return self
 
     def fact(self, row: int, number: Callable[[float], float | str | None] = strict) -> FlightDocument:
-        """Draws and metrics of one flight as strict JSON: what is not finite is null, unless by ``number``."""
+        """Return draws and metrics of one flight as strict JSON: values that are not finite are
+        null, unless by ``number``."""
         return {
             "draws": {name: float(column[row]) for name, column in self.draws.items() if not _is_stream(name)},
             "metrics": {name: number(column[row]) for name, column in self.metrics.items()},

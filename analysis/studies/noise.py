@@ -33,11 +33,11 @@ class Noise:
         return self.trial is not None and bool(self.components)
 
     def of(self, streams: np.ndarray) -> Streams:
-        """Random streams by component, of numbers of trials (flights, sources)."""
+        """Return random streams by component, of numbers of trials (flights, sources)."""
         return dict(zip(self.sources, streams.T, strict=True))
 
     def same(self, streams: np.ndarray) -> Streams:
-        """Random streams where all sources have the noise of the same trial (flights,)."""
+        """Return random streams where all sources have the noise of the same trial (flights,)."""
         return dict.fromkeys(self.sources, streams)
 
     def document(self) -> dict[str, object]:
@@ -56,7 +56,7 @@ def noise_of(prepared: PreparedSystem, trial: int | None, seed: int) -> Noise:
 
 
 def make_samples(columns: Columns, streams: Streams, noise: Noise) -> GivenDraws:
-    """Draws with the random streams of all sources, or those of the one trial where the noise is not random."""
+    """Return draws with the random streams of all sources, or those of the one trial where the noise is not random."""
     if noise.sources:
         return GivenDraws(columns, streams)
     return GivenDraws(columns, {ALL: np.full(len(next(iter(columns.values()))), noise.trial or 0)})

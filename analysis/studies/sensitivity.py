@@ -84,7 +84,7 @@ def sensitivity(
 
 
 def _untold(metrics: Mapping[str, np.ndarray], told: list[str]) -> dict[str, str]:
-    """Why numbers have no indices."""
+    """Return the reasons of numbers without indices."""
     reasons = {}
     for name, values in metrics.items():
         if name not in told:

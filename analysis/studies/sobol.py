@@ -30,7 +30,7 @@ class Indices:
 
 
 def saltelli_points(base: int, dimensions: int, random: np.random.Generator) -> np.ndarray:
-    """Points of the unit cube (base * (dimensions + 2), dimensions): A, B, and A with each column of B in turn.
+    """Return points of the unit cube (base * (dimensions + 2), dimensions): A, B, and A with each column of B in turn.
 
     ``base`` is a power of two, that of the scrambled Sobol' sequence in twice as many dimensions.
     """
@@ -43,7 +43,7 @@ def saltelli_points(base: int, dimensions: int, random: np.random.Generator) -> 
 
 
 def with_noise(points: np.ndarray, base: int) -> tuple[np.ndarray, np.ndarray]:
-    """Points and streams where the noise is one input more: `saltelli_points`, and A with the streams of B.
+    """Return points and streams where the noise is one input more: `saltelli_points`, and A with the streams of B.
 
     Points are (base * (dimensions + 3), dimensions), streams (base * (dimensions + 3),) a number for each noise
     realisation: row i of A has i, row i of B base + i, and every mix has those of A but for the last, which has B's.
@@ -91,7 +91,7 @@ FEWEST = 3  # trials with a finite value
 def rank_correlations(
     draws: Mapping[str, np.ndarray], metrics: Mapping[str, np.ndarray]
 ) -> dict[str, dict[str, float | None]]:
-    """Spearman's rho of every metric with every draw, by metric and draw; all columns are (trials,).
+    """Return Spearman's rho of every metric with every draw, by metric and draw; all columns are (trials,).
 
     Over the trials in which the metric is not nan: infinite values are the largest ranks. None where either has one
     value only, or fewer than `FEWEST` trials have one. Chance alone gives about 1 / sqrt(trials).

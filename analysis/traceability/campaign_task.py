@@ -69,7 +69,7 @@ def write_task(made: BatchResult, path: Path) -> None:
 
 
 def _sources(campaign: CampaignDocument | SourceDocument) -> Iterator[tuple[str, str]]:
-    """Label and content of a campaign's file and of those that it extends."""
+    """Yield label and content of a campaign's file and of those that it extends."""
     yield campaign["label"].rpartition("/")[2], campaign["content"]
     for extended in campaign.get("extends", ()):
         yield from _sources(extended)

@@ -83,7 +83,7 @@ class Step:
         etree.SubElement(resource, tag("stc", "Content")).text = text
 
     def classify(self, name: str, entries: Mapping[str, str]) -> None:
-        """Keywords with their texts; nothing without any."""
+        """Add keywords with their texts; nothing without any."""
         if not entries:
             return
         classification = etree.SubElement(self._element, tag("stc", "Classification"), type=name)

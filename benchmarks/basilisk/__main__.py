@@ -38,7 +38,8 @@ MOON_RADIUS = 1.7374e6  # m
 
 
 def fly_here(folder: Path, plant: str, trials: int, workers: int) -> tuple[float, list[list[float]]]:
-    """Time (s) of a batch, and the last position and velocity of each trial, frame of the landing site."""
+    """Simulate a batch here; return its time (s), and the last position and velocity of each trial, landing-site
+    frame."""
     use, given = PLANTS[plant]
     start = time.perf_counter()
     flown = perilune.batch(
@@ -59,7 +60,7 @@ def fly_here(folder: Path, plant: str, trials: int, workers: int) -> tuple[float
 
 
 def fly_there(folder: Path, python: str, trials: int, workers: int, *options: str) -> tuple[float, list[list[float]]]:
-    """Likewise in Basilisk."""
+    """Simulate likewise in Basilisk."""
     command = [python, "-W", "ignore", "-m", "benchmarks.basilisk.monte_carlo", str(folder), str(trials), str(workers)]
     done = subprocess.run([*command, *options], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
     document = json.loads(done.stdout.splitlines()[-1])

@@ -64,12 +64,12 @@ class Landing(Flight):
         return guidance
 
     def mass(self) -> float:
-        """Mass (kg), of the integrated state: the tank's message is one step late."""
+        """Return the mass (kg), of the integrated state: the tank's message is one step late."""
         propellant = self.craft.dynManager.getStateObject(self.tank.getNameOfMassState())
         return DRY_MASS + propellant.getState()[0][0]
 
     def run_to_end(self, guidance: "Guidance") -> None:
-        """Until the guidance has finished, or the longest time."""
+        """Run until the guidance has finished, or the longest time."""
         self.simulation.createNewEvent(
             "landed", macros.sec2nano(STEP), True, conditionFunction=lambda _: guidance.is_finished, terminal=True
         )

@@ -52,7 +52,8 @@ def execute_unguided(simulation: object) -> None:
 
 
 def run(folder: str, trials: int, workers: int, *, guided: bool) -> tuple[float, list[list[float]]]:
-    """Time (s) that the controller takes, and the last position (from the Moon's centre) and velocity of each trial."""
+    """Return the time (s) that the controller takes, and the last position (from the Moon's
+    centre) and velocity of trials."""
     controller = Controller()
     controller.setSimulationFunction(create if guided else create_unguided)
     controller.setExecutionFunction(execute if guided else execute_unguided)

@@ -49,7 +49,7 @@ class Course:
         return list(dict.fromkeys(link.source.name for link in self.links))
 
     def settings(self) -> dict[tuple[str, str], ParameterValue]:
-        """Parameter values by component and variable."""
+        """Return parameter values by component and variable."""
         return dict(self.prepared.settings.variables)
 
 
@@ -96,6 +96,6 @@ class Contestant:
 
 
 def both_flavours(*ways: Contestant) -> tuple[Contestant, ...]:
-    """Ways of simulating Python FMUs, then the same of native ones."""
+    """Return ways of simulating Python FMUs, then the same of native ones."""
     native = [replace(way, name=f"{way.name.removesuffix('_python')}_native", flavour="native") for way in ways]
     return (*ways, *native)

@@ -143,12 +143,12 @@ PACKAGES = ("perilune", "fmpy", "pythonfmu", "libcosimpy", "fmu-manipulation-too
 
 
 def machine() -> dict[str, str | int]:
-    """Processor, how many of them this process may use, operating system."""
+    """Return processor, number of them available to this process, operating system."""
     return {"processor": _processor(), "processors": cpu_count(), "system": platform.platform()}
 
 
 def versions() -> dict[str, str]:
-    """Versions of Python, of this package and of the peers; "not installed" for those that are not."""
+    """Return versions of Python, of this package and of the peers; "not installed" for those that are not."""
     by_package = {"python": platform.python_version()}
     for package in PACKAGES:
         try:

@@ -30,15 +30,15 @@ class Times:
         self.long.append(long)
 
     def step(self) -> float:
-        """Time per step (s), from the fastest flight of either length."""
+        """Return time per step (s), from the fastest flight of either length."""
         return (min(self.long) - min(self.short)) / (self.steps - 1)
 
     def middle(self) -> float:
-        """Time per step (s), median over the repeats."""
+        """Return time per step (s), median over the repeats."""
         return median(self._each())
 
     def start(self) -> float:
-        """Time from the files or instances at hand to the first step (s)."""
+        """Return time from the files or instances at hand to the first step (s)."""
         return max(0.0, min(self.short) - self.step())
 
     def ratio(self, other: Times) -> float:
@@ -50,7 +50,7 @@ class Times:
 
 
 def compute_promised_ratios(times: Mapping[str, Times], trials: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
-    """Ratios by ``first/second``, of those that flew; for the workers trials per second, by flavour."""
+    """Compute ratios by ``first/second``, of available ones; for the workers trials per second, by flavour."""
     ratios = {
         f"{slow}/{fast}": times[slow].ratio(times[fast]) for slow, fast in PROMISED if slow in times and fast in times
     }
@@ -63,7 +63,7 @@ TOLERANCE = 1e-9
 
 
 def difference(values: Values, reference: Values) -> float:
-    """Largest difference, relative to the reference or to 1 where that is larger."""
+    """Return largest difference, relative to the reference or to 1 where that is larger."""
     return max(abs(values[name] - expected) / max(1.0, abs(expected)) for name, expected in reference.items())
 
 
@@ -73,7 +73,7 @@ def differ(values: Values, reference: Values) -> int:
 
 
 def disagreements(contestants: Iterable[Contestant], final: Mapping[str, Values]) -> dict[str, str]:
-    """Contestants that flew elsewhere than ours by the same algorithm, with the reason.
+    """Return contestants that disagree with ours by the same algorithm, with the reason.
 
     One that is exact must have been compared with ours.
     """

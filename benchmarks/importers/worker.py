@@ -84,10 +84,11 @@ LEAST = 20  # trials beyond the warm-up, however long they take
 
 
 def trials_per_second(ssp: Path, flight: float, rounds: int = ROUNDS) -> dict[str, float]:
-    """Trials of the campaign per second by number of workers; ``flight`` is about how long one takes (s).
+    """Measure trials of the campaign per second by number of workers; ``flight`` is the approximate duration of one
+    (s).
 
-    A short batch and a long one are timed, each ``rounds`` times: the difference of the fastest ones
-    leaves out the start of the workers. Raises `Unavailable` and `WorkerError`.
+    A short batch and a long one are timed, each ``rounds`` times: the difference of the fastest ones leaves out the
+    start of the workers. Raises `Unavailable` and `WorkerError`.
     """
     sizes = {workers: (4 * workers, 4 * workers + max(LEAST, round(workers * SECONDS / flight))) for workers in WORKERS}
     best: dict[tuple[int, int], float] = {}

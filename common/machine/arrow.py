@@ -12,7 +12,8 @@ import pyarrow
 
 
 def numbers_of(values: np.ndarray) -> pyarrow.Array:
-    """Numbers or truths (n,), none of which is missing; NaN is a number. The memory is shared where it can be."""
+    """Return numbers or truths (n,), none of which is missing; NaN is a number. The memory is shared where it can
+    be."""
     if values.dtype == np.bool_:
         memory = np.packbits(values, bitorder="little")
     else:
@@ -22,7 +23,7 @@ def numbers_of(values: np.ndarray) -> pyarrow.Array:
 
 
 def texts_of(values: Iterable[str]) -> pyarrow.Array:
-    """Texts, in UTF-8, none of which is missing."""
+    """Return texts, in UTF-8, none of which is missing."""
     encoded = [value.encode() for value in values]
     ends = np.cumsum([0, *map(len, encoded)], dtype=np.int32)
     return pyarrow.StringArray.from_buffers(
@@ -37,7 +38,7 @@ def table_of(columns: Mapping[str, np.ndarray | pyarrow.Array | pyarrow.ChunkedA
 
 
 def numpy_of(column: pyarrow.ChunkedArray) -> np.ndarray:
-    """Numbers, truths or texts (n,), none of which is missing; texts as objects.
+    """Return numbers, truths or texts (n,), none of which is missing; texts as objects.
 
     Numbers that are one chunk in Arrow are shared, and not to be written.
     """

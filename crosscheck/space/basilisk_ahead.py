@@ -18,7 +18,7 @@ class Ahead(sysModel.SysModel):
         self.states = messaging.SCStatesMsg()
 
     def UpdateState(self, now: int) -> None:  # noqa: N802
-        """Position half a step after this time (ns)."""
+        """Write the position half a step after this time (ns)."""
         state = self.craft.scStateOutMsg.read()
         position, half = np.array(state.r_BN_N), 0.5 * self.length
         fall = -self.mu / np.linalg.norm(position) ** 3 * position

@@ -16,7 +16,7 @@ Point = tuple[float, float]
 
 
 def concept_figure() -> Figure:
-    """Block, FMU, system with its closed loop, campaign, and what comes out of each."""
+    """Draw block, FMU, system with its closed loop, campaign, and the output of each."""
     figure = new_figure(3.1)
     axes = figure.subplots()
     axes.set(xlim=(0.0, 100.0), ylim=(0.0, 38.0))
@@ -49,7 +49,7 @@ def _stage(axes: Axes, corner: Point, width: float, title: str, text: str) -> No
 
 
 def _loop(axes: Axes) -> None:
-    """Sensors, navigation, guidance, allocation, plant: guidance is the slot."""
+    """Draw sensors, navigation, guidance, allocation, plant: guidance is the slot."""
     boxes = {
         "sensors": (48.0, 24.5),
         "navigation": (58.5, 24.5),

@@ -44,7 +44,8 @@ DIFFERENCE = 1e-5  # rad and rad/s, of the central differences; 1e-4 and 1e-6 gi
 
 
 def sideslip_moments() -> tuple[float, float]:
-    """Moments about x and y (N m) of the air over pressure (Pa) and sideslip (rad), at trim, by central differences.
+    """Return moments about x and y (N m) of the air over pressure (Pa) and sideslip (rad), at trim, by central
+    differences.
 
     Rounded as the model of the docs is, to four and three decimals.
     """
@@ -69,18 +70,18 @@ def plant(pressure: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def direct(pressure: float, upper: np.ndarray, lower: list[complex]) -> np.ndarray:
-    """F with ``upper`` on (bank, sideslip)."""
+    """Return F with ``upper`` on (bank, sideslip)."""
     return output_feedback_levels(*plant(pressure), upper, lower, basis=np.eye(4)[:, :2]).gain
 
 
 def dual(pressure: float, upper: float, lower: list[complex]) -> np.ndarray:
-    """F by the dual plant, one real pole on its upper level."""
+    """Return F by the dual plant, one real pole on its upper level."""
     a, b, c = plant(pressure)
     return output_feedback_levels(a.T, c.T, b.T, [[upper]], lower).gain.T
 
 
 def sideslip_block(pressure: float) -> np.ndarray:
-    """[x -y; y x] of the roots x +- iy of p^2 + min(1.4 w, 1) p + w^2, w that of the sideslip's own swing."""
+    """Return [x -y; y x] of the roots x +- iy of p^2 + min(1.4 w, 1) p + w^2, w that of the sideslip's own swing."""
     a, _, _ = plant(pressure)
     square = -float(np.array([math.sin(TRIM), math.cos(TRIM)]) @ a[2:, 1])
     damping = 0.5 * min(1.4 * math.sqrt(square), 1.0)
@@ -89,7 +90,7 @@ def sideslip_block(pressure: float) -> np.ndarray:
 
 
 def entry_gains() -> dict[str, np.ndarray]:
-    """Gains F (SI, rows of torques x, y over bank, wx, wy) by name; the scheduled ones below each other."""
+    """Return gains F (SI, rows of torques x, y over bank, wx, wy) by name; the scheduled ones below each other."""
     pair = [complex(*PAIR), complex(PAIR[0], -PAIR[1])]
     slow, fast = REAL
     return {
@@ -111,7 +112,8 @@ DESCRIPTIONS = {
 
 
 def gain_parameters(name: str, gain: np.ndarray) -> dict[str, float]:
-    """Values of a block output_feedback in the component ``regulator`` of entry_attitude, gains to four decimals."""
+    """Return values of a block output_feedback in the component ``regulator`` of
+    entry_attitude, gains to four decimals."""
     pressures = SCHEDULE if name == "scheduled" else (DESIGN_PRESSURE,) * 3
     values = {f"regulator.pressures[{k}]": pressure for k, pressure in enumerate(pressures, 1)}
     for row, entries in enumerate(np.resize(gain, (6, 3)).tolist(), 1):
@@ -161,7 +163,7 @@ def whole_model() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def whole_gain() -> np.ndarray:
-    """F (3, 4) of torques (N m) over bank (rad) and rates (rad/s) that puts the six poles on UPPER and LOWER."""
+    """Return F (3, 4) of torques (N m) over bank (rad) and rates (rad/s) that puts the six poles on UPPER and LOWER."""
     return output_feedback_levels(*whole_model(), UPPER, LOWER).gain
 
 

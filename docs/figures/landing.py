@@ -56,7 +56,7 @@ def _copy(result: Result) -> Result:
 
 
 def vector(result: Result, name: str) -> np.ndarray:
-    """Elements 1 to 3 of a signal, elements by rows."""
+    """Return elements 1 to 3 of a signal, elements by rows."""
     return np.stack([result[f"{name}[{index}]"] for index in (1, 2, 3)])
 
 
@@ -118,7 +118,7 @@ def _speed(result: Result) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _acceleration(result: Result) -> tuple[np.ndarray, np.ndarray]:
-    """Commanded while thrusting; the last row has no command any more."""
+    """Return the command while thrusting; the last row has no command any more."""
     return result.time[:-1], result["guidance.thrust_acceleration"][:-1]
 
 
@@ -135,7 +135,7 @@ HISTORIES = {
 
 
 def _side(result: Result) -> np.ndarray:
-    """Downrange from the site and altitude (m), [2, rows]."""
+    """Return downrange from the site and altitude (m), [2, rows]."""
     x, y, z = vector(result, "plant.position")
     return np.stack([-np.hypot(x, y), z])
 

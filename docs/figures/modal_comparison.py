@@ -45,7 +45,7 @@ def draws(
 
 
 def state_feedback(states: int, inputs: int) -> np.ndarray:
-    """Kappa and |K| (systems, ways, 2)."""
+    """Return kappa and |K| (systems, ways, 2)."""
     numbers = []
     for a, b, _, poles in tqdm(list(draws(states, inputs)), desc=f"n, m = {states}, {inputs}", disable=None):
         with warnings.catch_warnings():
@@ -58,7 +58,8 @@ def state_feedback(states: int, inputs: int) -> np.ndarray:
 
 
 def spreads() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """|F| of every real spread, direct (systems, 20) and dual (systems, 15), and of choice smallest (systems, 1)."""
+    """Return |F| of every real spread, direct (systems, 20) and dual (systems, 15), and of
+    choice smallest (systems, 1)."""
     states, inputs, outputs = OUTPUT
     numbers: tuple[list, list, list] = ([], [], [])
     for a, b, c, poles in tqdm(list(draws(*OUTPUT)), desc="n, m, p = {}, {}, {}".format(*OUTPUT), disable=None):

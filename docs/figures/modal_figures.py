@@ -16,7 +16,7 @@ PLANTS = (0.05, 0.5, 2.0, 8.0)
 
 
 def choices_figure(kappa: dict[str, np.ndarray], norm: dict[str, np.ndarray]) -> Figure:
-    """Kappa and |K| of our choices over those of place_poles (systems,) for several sizes, systems in order."""
+    """Draw kappa and |K| of our choices over those of place_poles (systems,) for several sizes, systems in order."""
     figure = new_figure(3.6)
     panels = figure.subplots(1, 2)
     for axes, sizes, label in (
@@ -42,7 +42,7 @@ def choices_figure(kappa: dict[str, np.ndarray], norm: dict[str, np.ndarray]) ->
 
 
 def spreads_figure(direct: np.ndarray, dual: np.ndarray, smallest: np.ndarray) -> Figure:
-    """|F| of every spread for every system, and where it comes down to; systems in the order of the least."""
+    """Draw |F| of every spread for every system, and its minimum; systems in the order of the least."""
     figure = new_figure(3.6)
     axes = figure.subplots()
     order = np.argsort(np.minimum(direct.min(axis=1), dual.min(axis=1)))
@@ -77,7 +77,7 @@ def turned_plant(q: float) -> np.ndarray:
 
 
 def free_figure() -> Figure:
-    """e and b after the same start under one regulator, for springs that differ by a factor of 160."""
+    """Draw e and b after the same start under one regulator, for springs that differ by a factor of 160."""
     c, s = np.cos(TURN), np.sin(TURN)
     b = np.vstack([np.zeros((2, 2)), [[c, s], [-s, c]]])
     wanted = np.array([[[0.25, 0.0], [0.0, np.nan]], np.eye(2)])

@@ -54,7 +54,7 @@ def draw_rendezvous_figures(flight: Result, folder: Path) -> list[Path]:
 
 
 def scene_figure(flight: Result) -> Figure:
-    """Paths of robot and object in the inertial frame, camera axes and the spin axis at the changes of phase."""
+    """Draw paths of robot and object in the inertial frame, camera axes and the spin axis at the changes of phase."""
     figure = new_figure(6.2, 7.2)
     axes: Any = figure.add_subplot(projection="3d", computed_zorder=False)
     rows, marks = _rows_at(flight, INTERVAL), np.searchsorted(flight.time, MOMENTS)
@@ -82,7 +82,7 @@ def scene_figure(flight: Result) -> Figure:
 
 
 def range_figure(flight: Result) -> Figure:
-    """Range, its error and the position error over time."""
+    """Draw range, its error and the position error over time."""
     figure = new_figure(6.0)
     panels = figure.subplots(3, 1, sharex=True, height_ratios=[1.0, 1.3, 1.3])
     time = flight.time[rows := _rows_at(flight, INTERVAL)]
@@ -111,7 +111,7 @@ def thrust_figure(flight: Result) -> Figure:
 
 
 def gyros_figure(flight: Result) -> Figure:
-    """Gimbal angles over the whole flight and around the turn, not wrapped."""
+    """Draw gimbal angles over the whole flight and around the turn, not wrapped."""
     figure = new_figure(4.2)
     whole, turn = figure.subplots(1, 2, sharey=True)
     angles = np.degrees(np.unwrap(np.stack([flight[f"robot.gimbal_angles[{i}]"] for i in (1, 2, 3, 4)])))
@@ -126,7 +126,7 @@ def gyros_figure(flight: Result) -> Figure:
 
 
 def momentum_figure(flight: Result) -> Figure:
-    """Region of the gyros' momentum in three dimensions and its projections, with the path of the flight."""
+    """Draw the region of the gyros' momentum in three dimensions and its projections, with the path of the flight."""
     figure = new_figure(6.2)
     solid: Any = figure.add_subplot(2, 2, 1, projection="3d")
     path = np.stack([flight[f"robot.gyro_momentum[{i}]"] for i in (1, 2, 3)])[:, _rows_at(flight, 1.0, TURN)]
@@ -158,7 +158,8 @@ def momentum_figure(flight: Result) -> Figure:
 
 
 def turn_figure(flight: Result) -> Figure:
-    """Planned attitude, angular velocity and acceleration of the turn: components, sizes, and that of least time."""
+    """Draw planned attitude, angular velocity and acceleration of the turn: components, sizes, and that of least
+    time."""
     figure = new_figure(6.0)
     panels = figure.subplots(3, 1, sharex=True)
     rows = _rows_at(flight, 0.5, TURN)
@@ -179,7 +180,7 @@ def turn_figure(flight: Result) -> Figure:
 
 
 def plan_figure(flight: Result) -> Figure:
-    """Planned position and velocity of the object relative to the robot, and the robot's acceleration."""
+    """Draw planned position and velocity of the object relative to the robot, and the robot's acceleration."""
     figure = new_figure(6.0)
     panels = figure.subplots(3, 1, sharex=True)
     rows = _rows_at(flight, INTERVAL)
@@ -197,7 +198,8 @@ def plan_figure(flight: Result) -> Figure:
 
 
 def _quickest_turn(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Sizes of Rodrigues parameters, angular velocity (deg/s) and acceleration (deg/s2) of the turn of least time."""
+    """Return sizes of Rodrigues parameters, angular velocity (deg/s) and acceleration (deg/s2)
+    of the turn of least time."""
     guidance: Any = RendezvousGuidanceJerkLimited(attitude_period=0.0)
     guidance.initialize()
     motions = [guidance.turn_motion(float(time) - MOMENTS[1]) for time in times]
@@ -210,7 +212,7 @@ def _rows_at(flight: Result, interval: float, span: tuple[float, float] = WHOLE)
 
 
 def _attitude(flight: Result, component: str, rows: np.ndarray) -> Rotation:
-    """From body to inertial axes."""
+    """Return the rotation from body to inertial axes."""
     elements = [flight[f"{component}.quaternion[{index}]"][rows] for index in (1, 2, 3, 4)]
     return Rotation.from_quat(np.stack(elements, axis=1), scalar_first=True)
 

@@ -61,7 +61,8 @@ def course(rule: Rule, rate: float) -> Course:
 
 
 def _by_evidence(name: str, looks: Sequence[int], good: Callable, bad: Callable) -> Rule:
-    """Verdicts where a likelihood ratio to the limit reaches 1 / risk, which it ever does with that risk (Ville)."""
+    """Return verdicts where a likelihood ratio to the limit reaches 1 / risk, which it ever
+    does with that risk (Ville)."""
     permitted: list[int] = []
     refused: list[int] = []
     for flights in looks:
@@ -79,7 +80,7 @@ def _point(rate: float) -> Callable:
 
 
 def _mixture(above: bool) -> Callable:
-    """Robbins' mixture of all rates below or above the limit, a beta distribution with the limit as its mean."""
+    """Return Robbins' mixture of all rates below or above the limit, a beta distribution with the limit as its mean."""
     a, b = 0.5, 0.5 / RATE
 
     def inside(first: np.ndarray | float, second: np.ndarray | float) -> np.ndarray:
@@ -90,7 +91,7 @@ def _mixture(above: bool) -> Callable:
 
 
 def _spent(name: str, looks: Sequence[int], spend: Callable[[int], float]) -> Rule:
-    """Risk spent exactly, to be gone at the last look."""
+    """Spend the risk exactly, to be gone at the last look."""
     met, refused = Boundary(RATE, spend), Boundary(SHARE, spend)
     return Rule(
         name, looks, [met.add(n).most for n in looks], [flights - refused.add(flights).most for flights in looks]

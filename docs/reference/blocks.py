@@ -16,7 +16,7 @@ from .variables import declared, inputs, outputs, parameters, states
 
 
 def block_page(block: type[Block]) -> str:
-    """Markdown of one block, to lie in reference/blocks."""
+    """Return Markdown of one block, to lie in reference/blocks."""
     parts = [
         f"# {block.fmu_name}",
         prose(block.__doc__, "../../"),
@@ -44,7 +44,7 @@ def source_of(block: type[Block]) -> str:
 
 
 def fitting(block: type[Block]) -> list[str]:
-    """Other blocks of the catalogue that have all its inputs and outputs."""
+    """Return other blocks of the catalogue that have all its inputs and outputs."""
     wanted = _connectors(block)
     return [name for name, other in catalogue().items() if other is not block and wanted <= _connectors(other)]
 

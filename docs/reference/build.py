@@ -71,7 +71,7 @@ def build_site(output: Path, sources: Path) -> None:
 
 
 def site_settings() -> dict[str, Any]:
-    """docs/site/site.toml with the reference in its navigation, and what depends on where things lie."""
+    """Return docs/site/site.toml with the reference in its navigation, and entries that depend on paths."""
     settings = tomllib.loads(SETTINGS.read_text(encoding="utf-8"))
     doors = [entries for door in settings["nav"] for entries in door.values()]
     (reference,) = [entry for entries in doors for entry in entries if "Reference" in entry]

@@ -18,7 +18,7 @@ WRITING = [name for names in HOMES.values() for name in names]  # what one write
 
 
 def interface_pages() -> dict[str, str]:
-    """Markdown by file name, to lie in reference/python: flying, writing blocks, modal synthesis."""
+    """Return Markdown by file name, to lie in reference/python: running, writing blocks, modal synthesis."""
     public = _names_of("perilune")
     flying = [name for name in public if name not in WRITING and name != "modal"]
     modal = import_module("perilune.modal")

@@ -44,7 +44,7 @@ FREE = ("{", "}")  # of words that a message fills in
 
 
 def kernel_page() -> str:
-    """Markdown of the page, to lie in reference."""
+    """Return Markdown of the page, to lie in reference."""
     operators = " ".join(f"`{SYMBOLS[kind]}`" for kind in (*OPERATORS, *COMPARISONS))
     constants = ", ".join(f"`math.{name}`" for name in MATH_CONSTANTS)
     parts = [

@@ -10,7 +10,7 @@ from lxml import html
 
 
 def broken_links(site: Path) -> Iterator[tuple[str, str]]:
-    """(page, target) for each local reference of a site's pages to a file or an anchor that is not there.
+    """Yield (page, target) for each local reference of a site's pages to a missing file or anchor.
 
     Whatever a page would fetch from elsewhere is broken, too: the site is read without a network.
     """

@@ -17,7 +17,7 @@ def kind_of(block: type[Block]) -> str:
 
 
 def catalogue_page() -> str:
-    """Markdown of all blocks by kind, to lie in reference/blocks."""
+    """Return Markdown of all blocks by kind, to lie in reference/blocks."""
     sections = [
         "# Blocks",
         f"All {len(catalogue())} blocks of the repository; each is an FMU of the same name. `perilune describe NAME` "
@@ -34,7 +34,7 @@ def catalogue_page() -> str:
 
 
 def slots_page() -> str:
-    """Markdown of all interfaces, to lie in reference."""
+    """Return Markdown of all interfaces, to lie in reference."""
     sections = [
         "# Slots",
         "A slot is an interface: what all blocks in it have in common, so that one is put in another's place by "

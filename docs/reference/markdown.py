@@ -18,7 +18,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def escaped(text: str) -> str:
-    """Words as they are, in a table too: no tag, no link, no end of a cell, no emphasis but that of two asterisks."""
+    """Escape words for a table too: no tag, no link, no end of a cell, no emphasis but that of two asterisks."""
     parts = CODE.split(text)
     return "".join(
         part if index % 2 else re.sub(r"((?<!\*)\*(?!\*)|[_\[\]|\\])", r"\\\1", part).replace("<", "&lt;")
@@ -44,7 +44,7 @@ def prose(docstring: str | None, root: str) -> str:
 
 
 def linked(text: str, root: str) -> str:
-    """Names of pages, such as docs/stability.md, as links; underscores may have been escaped."""
+    """Return the text with names of pages, such as docs/stability.md, as links; underscores may have been escaped."""
 
     def link(match: re.Match[str]) -> str:
         name = match.group(1).replace("\\", "")

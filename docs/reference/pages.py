@@ -22,7 +22,7 @@ LINK = re.compile(r"(\]\()([\w./-]+)((?:#[\w-]*)?\))")
 
 
 def derived_pages() -> dict[str, str]:
-    """Markdown by path in the site: the repository's front pages, and the reference."""
+    """Return Markdown by path in the site: the repository's front pages, and the reference."""
     pages = {target: _front(TOP / source) for source, target in FRONT.items()}
     pages["reference/verbs.md"] = verbs_page()
     pages["reference/slots.md"] = slots_page()

@@ -12,7 +12,7 @@ from .markdown import escaped, table
 
 
 def declared(block: type[Block], kind: type[Variable]) -> list[Variable]:
-    """Its variables of one kind, in order of declaration."""
+    """Return its variables of one kind, in order of declaration."""
     return [variable for variable in block.variables.values() if isinstance(variable, kind)]
 
 

@@ -15,7 +15,7 @@ from .markdown import escaped, table
 
 
 def verbs_page() -> str:
-    """Markdown of all verbs, to be stored in reference."""
+    """Return Markdown of all verbs, to be stored in reference."""
     rows = [[f"[{name}](#{name.replace(' ', '-')})", escaped(verb.text)] for name, verb in VERBS.items()]
     parts = [
         "# Verbs",

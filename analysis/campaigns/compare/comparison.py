@@ -239,7 +239,7 @@ class Comparison:
         return "\n".join([*table, *self._fault_lines(), *self.notes])
 
     def _fault_lines(self) -> list[str]:
-        """With which faults every batch flew; nothing where none did."""
+        """Return the faults of every batch; nothing where none has any."""
         lines = {name: faults_line(batch.faults) if batch.faults else NO_FAULTS for name, batch in self.batches.items()}
         if not self.has_faults:
             return []

@@ -40,7 +40,7 @@ def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
 
 
 def prepare_variants(plan: BatchPlan) -> dict[str, PreparedSystem]:
-    """Every variant prepared, by variant. Raises InputError."""
+    """Prepare every variant, by variant. Raises InputError."""
     return {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
 
 
@@ -179,7 +179,7 @@ class VariantNames:
 
 
 def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
-    """Names that a variant's simulation needs. Raises InputError for one that does not exist."""
+    """Return names that a variant's simulation needs. Raises InputError for one that does not exist."""
     campaign = plan.campaign
     needed = names_needed(campaign.metrics, campaign.input_names())
     recorded = {*campaign.record.final, *campaign.record.signals}

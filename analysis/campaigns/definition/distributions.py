@@ -31,7 +31,7 @@ class _Interval(Continuous):
 
     @classmethod
     def read(cls, table: Table) -> Self:
-        """From its table of a campaign. Raises InputError."""
+        """Read it from its table of a campaign. Raises InputError."""
         table.only(["distribution", *cls.keys])
         return cls(*read_ends(table))
 
@@ -87,7 +87,7 @@ class _UniformDesign(_Interval, Design):
 
     @classmethod
     def _points(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> list[np.ndarray]:
-        """Numbers in [0, 1), an array (trials,) for each draw."""
+        """Return numbers in [0, 1), an array (trials,) for each draw."""
         raise NotImplementedError
 
 
@@ -171,7 +171,8 @@ class Grid(Discrete, Design):
 
     @classmethod
     def read(cls, table: Table) -> Self:
-        """From its table of a campaign: its values, or ``count`` of them from low to high. Raises InputError."""
+        """Read it from its table of a campaign: its values, or ``count`` of them from low to high. Raises
+        InputError."""
         table.only(["distribution", *cls.keys])
         if "values" in table.content:
             table.only(["distribution", "values"])

@@ -66,7 +66,7 @@ COMPARISONS: dict[type[ast.cmpop], Callable] = {
 
 
 def _truth(value: np.ndarray) -> np.ndarray:
-    """Booleans as doubles: numpy would add two of them to True instead of 2, and refuses to subtract them."""
+    """Return Booleans as doubles: numpy would add two of them to True instead of 2, and refuses to subtract them."""
     return np.multiply(value, 1.0)
 
 

@@ -41,7 +41,7 @@ class CampaignFault:
         return [part for part in (self.value, self.start, self.end, self.when) if isinstance(part, Expression)]
 
     def where(self, key: str) -> tuple[str, str]:
-        """File and element of one of its keys, for errors."""
+        """Return file and element of one of its keys, for errors."""
         return self.file, f"fault.{self.name}.{key}"
 
     def __str__(self) -> str:

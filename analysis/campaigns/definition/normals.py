@@ -128,7 +128,7 @@ class CorrelatedNormal(_Jointly):
 
 @cache
 def principal_axes(covariance: tuple[tuple[float, ...], ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Eigenvalues, the smallest first, and eigenvectors as columns of a symmetric matrix.
+    """Return eigenvalues, the smallest first, and eigenvectors as columns of a symmetric matrix.
 
     In 30 digits: LAPACK's last bits depend on the processor, and so would the draws.
     """

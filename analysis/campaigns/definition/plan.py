@@ -41,7 +41,7 @@ class TrialSamples:
     faults: Sequence[DrawnFault]
 
     def columns_of(self, trials: range) -> dict[str, np.ndarray]:
-        """All drawn and derived values of some of them, by name."""
+        """Return all drawn and derived values of some of them, by name."""
         rows = self._rows(trials)
         return {name: column[rows] for name, column in self.table.columns.items()}
 
@@ -132,7 +132,7 @@ class BatchPlan:
             yield self.draws.of_part(part)
 
     def values_of(self, trials: range) -> TrialSamples:
-        """All that is drawn for trials in a row. Raises InputError."""
+        """Return all samples of consecutive trials. Raises InputError."""
         return self.values_from(self.draws.of_part(trials), trials)
 
     def values_from(self, table: DrawTable, trials: range) -> TrialSamples:
@@ -171,7 +171,7 @@ class BatchPlan:
         return groups_of(parts, (self.campaign.file, "group.by"))
 
     def list_faults(self) -> list[Fault]:
-        """All faults, the campaign's first, with their connectors and kinds; value and times are a trial's."""
+        """Return all faults, the campaign's first, with their connectors and kinds; value and times are a trial's."""
         return [*(Fault(fault.connector, fault.kind) for fault in self.campaign.faults), *self.faults]
 
     def faults_of(self, trial: int) -> list[Fault | None]:

@@ -211,7 +211,7 @@ def _merge(content: dict[str, object], later: Mapping[str, object], label: str) 
 
 
 def _join(earlier: Mapping[str, object], later: Mapping[str, object], deep: bool) -> dict[str, object]:
-    """Two tables as one, where ``deep`` also those of one name in both."""
+    """Join two tables, where ``deep`` also those of one name in both."""
     both = {
         name: _join(earlier[name], table, deep)  # type: ignore[arg-type]
         for name, table in later.items()

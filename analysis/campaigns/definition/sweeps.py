@@ -16,7 +16,7 @@ from .distributions import Grid
 
 
 def part_sweeps(options: SystemOptions) -> tuple[SystemOptions, dict[str, str]]:
-    """System options without their sweeps, and these as texts by parameter.
+    """Return system options without their sweeps, and these as texts by parameter.
 
     A sweep is a text of three numbers with colons between. Others are left to what sets single values, which knows
     whether a parameter takes such a text.

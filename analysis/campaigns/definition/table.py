@@ -40,7 +40,7 @@ class Table:
         return f"{self.element}.{key}" if self.element else key
 
     def where(self, key: str) -> tuple[str, str]:
-        """File and place of a key, as errors name them."""
+        """Return file and position of a key, as errors name them."""
         place = self.place(key) if key else self.element
         return self.origin(place)[0], place
 

@@ -32,7 +32,7 @@ class Distribution(ABC):
         return {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
 
     def describe(self) -> str:
-        """Its arguments as a text, long lists shortened."""
+        """Return its arguments as a text, long lists shortened."""
         return ", ".join(f"{key} {_number_text(value)}" for key, value in self.arguments.items())
 
 
@@ -72,7 +72,7 @@ class Continuous(Distribution):
 
     @abstractmethod
     def from_normals(self, u: np.ndarray) -> list[np.ndarray]:
-        """Columns at standard normal values ``u``: the isoprobabilistic transformation."""
+        """Return columns at standard normal values ``u``: the isoprobabilistic transformation."""
 
     @abstractmethod
     def to_normals(self, columns: Sequence[np.ndarray]) -> np.ndarray:
@@ -80,7 +80,7 @@ class Continuous(Distribution):
 
     @abstractmethod
     def from_box(self, points: np.ndarray, sigmas: float) -> list[np.ndarray]:
-        """Columns at ``points`` of the unit cube."""
+        """Return columns at ``points`` of the unit cube."""
 
     @abstractmethod
     def to_box(self, columns: Sequence[np.ndarray], sigmas: float) -> np.ndarray:
@@ -88,7 +88,7 @@ class Continuous(Distribution):
 
     @abstractmethod
     def ranges(self, sigmas: float) -> list[tuple[float, float]]:
-        """Minimum and maximum of each column in the box, reached one at a time where columns are correlated."""
+        """Return minimum and maximum of each column in the box, reached one at a time where columns are correlated."""
 
 
 @dataclass(frozen=True)

@@ -80,7 +80,7 @@ def stream_component(column: str) -> str | None:
 
 
 def part_streams(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Columns of a file parted into draws, and streams by component as whole numbers."""
+    """Split columns of a file into draws, and streams by component as whole numbers."""
     components = {name: stream_component(name) for name in columns}
     draws = {name: values for name, values in columns.items() if components[name] is None}
     streams = {

@@ -63,7 +63,7 @@ class DrawTable:
 
 
 def split_trials(trials: int, size: int) -> Iterator[range]:
-    """All trials, ``size`` of them at a time."""
+    """Yield all trials, ``size`` of them at a time."""
     return (range(first, min(first + size, trials)) for first in range(0, trials, size))
 
 
@@ -90,7 +90,7 @@ def draw_parts(campaign: CampaignDraws, size: int) -> Iterator[DrawTable]:
 
 
 def draw_table(campaign: CampaignDraws) -> DrawTable:
-    """All of `draw_parts` in one. Raises InputError."""
+    """Return all blocks of `draw_parts` in one. Raises InputError."""
     return next(draw_parts(campaign, campaign.trials))
 
 

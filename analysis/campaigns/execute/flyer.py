@@ -136,7 +136,7 @@ class Flyer:
         return evaluator.trials()
 
     def _fly_next(self, variant: str, trial: int, trials: range) -> FlightGroup:
-        """One of ``trials``, and the one behind it announced."""
+        """Return one of ``trials``, with the next one announced."""
         if trial == trials.start:
             self._announce(variant, trial)
         if trial + 1 in trials:
@@ -234,7 +234,7 @@ class Flyer:
 
 
 def result_of(trials: TrialTable, row: int) -> TrialResult:
-    """One of some trials in memory, by its row."""
+    """Return one of some trials in memory, by its row."""
     entries = trials.table.slice(row, 1).to_pylist()[0]
     return TrialResult(
         status=entries["status"],

@@ -124,7 +124,7 @@ def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]
 
 
 def _targets(prepared: PreparedSystem) -> dict[str, float]:
-    """Parameters called target_position and target_velocity, as one variant's flights begin with them."""
+    """Return parameters called target_position and target_velocity, as one variant's flights begin with them."""
     targets = {}
     for component, fmu in prepared.network.fmus.items():
         for variable in fmu.variables.values():

@@ -112,7 +112,8 @@ class Manifest:
     identities: Mapping[str, str] | None = None
 
     def document(self) -> dict[str, object]:
-        """As JSON has it; without what a manifest of an earlier version lacks, so that its key remains."""
+        """Return it as JSON has it; without keys that a manifest of an earlier version lacks, so that its key
+        remains."""
         content: dict[str, object] = json.loads(json.dumps(asdict(self)))
         for name in ("elementary_functions", "identities"):
             if content[name] is None:

@@ -35,7 +35,7 @@ def shard_size(trials: int) -> int:
 
 
 def spans(shards: Sequence[int]) -> str:
-    """Rising numbers of shards as `perilune shard` takes them: 0-3 7."""
+    """Return rising numbers of shards as `perilune shard` takes them: 0-3 7."""
     starts = [shard for index, shard in enumerate(shards) if index == 0 or shards[index - 1] != shard - 1]
     ends = [shard for index, shard in enumerate(shards) if index == len(shards) - 1 or shards[index + 1] != shard + 1]
     pairs = zip(starts, ends, strict=True)

@@ -145,7 +145,7 @@ class OpenedResults:
 
     @contextmanager
     def _describe(self) -> Iterator[None]:
-        """Arrow's errors as ours: a column that ``where`` names and there is not, a shard that is damaged."""
+        """Translate Arrow's errors: a missing column that ``where`` names, a shard that is damaged."""
         try:
             yield
         except (OSError, pyarrow.ArrowException) as error:

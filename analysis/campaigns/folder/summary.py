@@ -30,7 +30,7 @@ FACTS = (
 
 
 def without_summary(document: SummaryDocument) -> Provenance:
-    """summary.json without the summary: what the batch's numbers depend on."""
+    """Return summary.json without the summary: the inputs of the batch's numbers."""
     entries = document.copy()
     del entries["variants"]
     return entries

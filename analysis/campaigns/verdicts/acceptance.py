@@ -78,7 +78,7 @@ def decide_by_size(flights: int, failures: int, share: float, confidence: float)
 
 
 def acceptance_number(flights: int, share: float, confidence: float) -> int:
-    """With how many failures at most the requirement is met; -1 where none are few enough."""
+    """Return the largest number of failures with which the requirement is met; -1 where none is small enough."""
     risk = risk_limit(confidence)
     # the fewest that are no longer few enough, or exactly so
     failures = int(scipy.stats.binom.ppf(risk, flights, 1.0 - share))

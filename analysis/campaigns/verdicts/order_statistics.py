@@ -66,7 +66,7 @@ def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
 
 
 def _order_bits(values: np.ndarray) -> np.ndarray:
-    """Doubles as unsigned integers in the same order; both zeros are one number."""
+    """Return doubles as unsigned integers in the same order; both zeros are one number."""
     bits = (values + 0.0).view(np.uint64)
     return np.where(bits & SIGN, ~bits, bits ^ SIGN)
 
@@ -84,7 +84,7 @@ def quantile_rank(fraction: float, count: int) -> int:
 
 
 def quantiles(values: np.ndarray, fractions: Sequence[float]) -> np.ndarray:
-    """Quantiles over the first axis of an array, fractions by rows; nan where all values are nan.
+    """Return quantiles over the first axis of an array, fractions by rows; nan where all values are nan.
 
     Shape: that of ``values`` with ``len(fractions)`` in place of its first length. Raises as `quantile_rank`.
     """
@@ -97,7 +97,8 @@ def quantiles(values: np.ndarray, fractions: Sequence[float]) -> np.ndarray:
 
 
 def column_quantiles(column: Blocks, known: int, fractions: Sequence[float]) -> list[float]:
-    """Quantiles of a column that is read in blocks, ``known`` of whose values are not nan; nan where there is none.
+    """Return quantiles of a column that is read in blocks, ``known`` of whose values are not nan; nan where there is
+    none.
 
     Memory does not grow with the column. Raises as `quantile_rank`.
     """

@@ -50,13 +50,13 @@ class StoppingRule:
         return [flights for flights in self._places if flights <= most]
 
     def acceptance_number(self, flights: int) -> int:
-        """With how many failures at most a look meets the requirement, -1 where none are few enough; ValueError
-        where there is no look."""
+        """Return the largest number of failures with which a look meets the requirement, -1 where none is small enough;
+        ValueError where there is no look."""
         return self._look(self._met, flights).most
 
     def rejection_number(self, flights: int) -> int:
-        """With how many failures at least a look finds the requirement not met; more than ``flights`` where no number
-        is enough. ValueError where there is no look."""
+        """Return the least number of failures with which a look finds the requirement not met; more than ``flights``
+        where no number is enough. ValueError where there is no look."""
         return flights - self._look(self._not_met, flights).most
 
     def decide(self, flights: int, failures: int) -> Verdict:
@@ -123,7 +123,7 @@ class StoppingRule:
 
 
 def _round_look(flights: int) -> int:
-    """1, 2 or 5 times a power of ten, at most a sixteenth of ``flights`` where that is more than one."""
+    """Return 1, 2 or 5 times a power of ten, at most a sixteenth of ``flights`` where that is more than one."""
     sizes = [digit * 10**power for power in range(len(str(flights))) for digit in (1, 2, 5)]
     return max((size for size in sizes if size * FIRST_LOOKS <= flights), default=1)
 

@@ -38,7 +38,7 @@ def expression_tree(matrix: Sequence[Sequence[int]]) -> tuple[Node, ...]:
 
 
 def nodes_of(outputs: Sequence[Node]) -> list[Node]:
-    """Every node that the outputs depend on, themselves included, in order of number."""
+    """Return every node that the outputs depend on, themselves included, in order of number."""
     nodes: dict[int, Node] = {}
 
     def walk(node: Node) -> Iterator[Node]:

@@ -47,7 +47,7 @@ class Text(NamedTuple):
 
 
 def formula(law: Law) -> dict[str, str]:
-    """Right sides by left side, in the order in which they can be computed; the outputs are z15 and z16."""
+    """Return right sides by left side, in the order in which they can be computed; the outputs are z15 and z16."""
     outputs = expression_tree(law.matrix)
     nodes = nodes_of(outputs)
     uses = Counter(other.number for node in nodes for _, other in node.terms)

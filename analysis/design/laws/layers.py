@@ -24,7 +24,7 @@ class Layout:
     """Positions for drawing: ``nodes`` (x, y) by number; ``paths`` by edge, points from one node to the other."""
 
     def __init__(self, nodes: Sequence[int], edges: Sequence[Edge]) -> None:
-        """``nodes`` in an order in which every edge leads forward."""
+        """Arrange ``nodes``, in an order in which every edge leads forward."""
         layer = longest_paths(nodes, edges)
         self.layers: Layers = [[] for _ in range(max(layer.values()) + 1)]
         for node in nodes:
@@ -53,7 +53,7 @@ class Layout:
                 self.before[right].append(left)
 
     def _order(self) -> None:
-        """Sweeps to and fro, each layer sorted by the mean place of its neighbours; the best order stays."""
+        """Sweep to and fro, each layer sorted by the mean position of its neighbours; keep the best order."""
         best = [list(places) for places in self.layers]
         fewest = self.crossings()
         for sweep in range(SWEEPS):
@@ -84,7 +84,7 @@ class Layout:
         return total
 
     def _heights(self) -> dict[Place, float]:
-        """Heights near the neighbours' mean that keep order and gaps within each layer."""
+        """Return heights near the neighbours' mean that keep order and gaps within each layer."""
         offsets = [self._offsets(places) for places in self.layers]
         heights = {
             place: float(offset - row[-1] / 2.0)
@@ -100,7 +100,7 @@ class Layout:
         return heights
 
     def _offsets(self, places: Sequence[Place]) -> np.ndarray:
-        """Least height of every place above the first one of its layer."""
+        """Return least height of every place above the first one of its layer."""
         joint = [isinstance(place, tuple) for place in places]
         gaps = [JOINT_GAP if a or b else NODE_GAP for a, b in itertools.pairwise(joint)]
         return np.cumsum([0.0, *gaps])

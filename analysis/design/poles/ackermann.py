@@ -54,7 +54,8 @@ def coefficients_of(a: np.ndarray, b: np.ndarray, gain: np.ndarray) -> np.ndarra
 
 
 def last_rows(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.ndarray, float]:
-    """T (m, n), and cond(U). Raises PlacementError in the name of ``formula``: n no multiple of m, or U singular."""
+    """Return T (m, n), and cond(U). Raises PlacementError in the name of ``formula``: n no
+    multiple of m, or U singular."""
     states, inputs = b.shape
     if states % inputs:
         problem = f"n/m = {states}/{inputs} = {states / inputs:.3g} is not whole"
@@ -69,7 +70,7 @@ def last_rows(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.
 
 
 def row_stack(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.ndarray, np.ndarray, float]:
-    """V = [T; T A; ..; T A^(p-1)] (n, n), T A^p (m, n), and cond(U). Raises PlacementError as `last_rows`."""
+    """Return V = [T; T A; ..; T A^(p-1)] (n, n), T A^p (m, n), and cond(U). Raises PlacementError as `last_rows`."""
     rows, condition = last_rows(a, b, formula)
     stacked = [rows]
     for _ in range(len(a) // len(rows)):
@@ -78,7 +79,7 @@ def row_stack(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.
 
 
 def split(side_by_side: np.ndarray, inputs: int) -> np.ndarray:
-    """[N_0 .. N_(p-1)] (m, n) as (p, m, m)."""
+    """Return [N_0 .. N_(p-1)] (m, n) as (p, m, m)."""
     return np.stack(np.hsplit(side_by_side, side_by_side.shape[1] // inputs))
 
 

@@ -19,7 +19,7 @@ TOLERANCE = 1e-9  # relative, below which a direction or a singular value counts
 
 
 def controllability_matrix(a: np.ndarray, b: np.ndarray, blocks: int) -> np.ndarray:
-    """U = [B AB .. A^(blocks - 1) B], (n, blocks m)."""
+    """Return U = [B AB .. A^(blocks - 1) B], (n, blocks m)."""
     columns = [b]
     for _ in range(blocks - 1):
         columns.append(a @ columns[-1])
@@ -27,7 +27,7 @@ def controllability_matrix(a: np.ndarray, b: np.ndarray, blocks: int) -> np.ndar
 
 
 def controllability_indices(a: np.ndarray, b: np.ndarray, tolerance: float = TOLERANCE) -> tuple[int, ...]:
-    """k_i (m): how many of b_i, A b_i, .. are independent of those before in the order b_1 .. b_m, A b_1 ..
+    """Return k_i (m): how many of b_i, A b_i, .. are independent of those before in the order b_1 .. b_m, A b_1 ..
 
     A column counts when more than ``tolerance`` of |B|, or of |A|, is new in it. Each is A times the last new direction
     of its chain, which leaves what is new and does not grow with the power. Raises PlacementError.

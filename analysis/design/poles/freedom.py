@@ -56,14 +56,14 @@ class Eigenvectors:
         self.matrix[first, second] = np.diag(np.imag(spectrum.pairs))
 
     def at(self, free: np.ndarray) -> np.ndarray:
-        """Y (n, n) for parameters of any sizes; only directions matter."""
+        """Return Y (n, n) for parameters of any sizes; only directions matter."""
         directions = self._directions(free)[0]
         vectors = (self._spaces @ directions[:, :, None])[:, :, 0]
         pairs = np.sqrt(2.0) * vectors[self.reals :]
         return np.vstack([vectors[: self.reals].real, pairs.real, pairs.imag]).T
 
     def gain(self, vectors: np.ndarray) -> np.ndarray:
-        """K of u = K x that makes Y the eigenvectors: K Y = B^+ (Y M - A Y)."""
+        """Return K of u = K x with the eigenvectors Y: K Y = B^+ (Y M - A Y)."""
         driven = self.inverse @ (vectors @ self.matrix - self.a @ vectors)
         return np.linalg.solve(vectors.T, driven.T).T
 
@@ -81,7 +81,7 @@ class Eigenvectors:
         return np.concatenate([real.real.ravel(), pair.real.ravel(), pair.imag.ravel()])
 
     def as_complex(self, real: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """All unit eigenvectors (n, n) as columns and their poles (n,), from Y."""
+        """Return all unit eigenvectors (n, n) as columns and their poles (n,), from Y."""
         middle = self.reals + self.pairs
         pairs = np.sqrt(0.5) * (real[:, self.reals : middle] + 1j * real[:, middle:])
         poles = np.array([*self.spectrum.real, *self.spectrum.pairs, *np.conj(self.spectrum.pairs)])
@@ -121,7 +121,7 @@ def least_norm(
 
 
 def condition(vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
-    """log |Y|_q |Y^-1|_q in Schatten norms of order q, and its gradient in Y."""
+    """Return log |Y|_q |Y^-1|_q in Schatten norms of order q, and its gradient in Y."""
     left, sizes, right = np.linalg.svd(vectors)
     size, fraction = _norm(sizes, order)
     inverse_size, inverse_share = _norm(1.0 / sizes, order)
@@ -129,7 +129,7 @@ def condition(vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
 
 
 def gain_norm(family: Eigenvectors, vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
-    """log |K|_q in the Schatten norm of order q, and its gradient in Y."""
+    """Return log |K|_q in the Schatten norm of order q, and its gradient in Y."""
     gain = family.gain(vectors)
     left, sizes, right = np.linalg.svd(gain, full_matrices=False)
     size, fraction = _norm(sizes, order)

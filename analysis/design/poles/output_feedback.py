@@ -91,7 +91,7 @@ def _placements(
     seed: int,
     refusals: list[PlacementError],
 ) -> Iterator[OutputFeedback]:
-    """One after the other, direct before dual; what does not apply goes to ``refusals``."""
+    """Yield placements, direct before dual; reasons of inapplicable ones go to ``refusals``."""
     for route, plant in ((Route.DIRECT, (a, b, c)), (Route.DUAL, (a.T, c.T, b.T))):
         if method not in (None, route):
             continue

@@ -48,11 +48,11 @@ class OutputFeedbackSet:
         return len(self.directions)
 
     def coefficients(self, z: ArrayLike) -> np.ndarray:
-        """N (p, m, m) at z (free,). Raises InputError."""
+        """Return N (p, m, m) at z (free,). Raises InputError."""
         return self.particular + np.tensordot(real_matrix("z", z, (self.free,)), self.directions, axes=1)
 
     def at(self, z: ArrayLike) -> OutputFeedback:
-        """u = F y at z (free,); its poles are those of N(z). Raises InputError."""
+        """Return u = F y at z (free,); its poles are those of N(z). Raises InputError."""
         coefficients = self.coefficients(z)
         stack, power, _ = row_stack(self.a, self.b)
         gain = -(power + np.hstack(list(coefficients)) @ stack) @ np.linalg.pinv(self.c)
@@ -74,7 +74,8 @@ class OutputFeedbackSet:
 
 
 def output_feedback_set(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> OutputFeedbackSet:
-    """Every u = F y of x' = A x + B u, y = C x with n = p_u m states, U = [B AB ..] nonsingular, C of full row rank.
+    """Return every u = F y of x' = A x + B u, y = C x with n = p_u m states, U = [B AB ..] nonsingular, C of full row
+    rank.
 
     ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n). Raises InputError and PlacementError.
     """

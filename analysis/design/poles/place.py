@@ -94,7 +94,7 @@ def place(
 
 
 def make_placement(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE) -> StateFeedback:
-    """By the method that applies. Raises PlacementError for a pair that is not controllable."""
+    """Place poles by the method that applies. Raises PlacementError for a pair that is not controllable."""
     try:
         return multilevel(a, b, spectrum, tolerance)
     except PlacementError as error:

@@ -19,7 +19,7 @@ def state_matrix(value: ArrayLike) -> np.ndarray:
 
 
 def input_matrix(value: ArrayLike, states: int) -> np.ndarray:
-    """B (n, m). Raises InputError."""
+    """Return B (n, m). Raises InputError."""
     matrix = real_matrix("B", value)
     if matrix.shape[0] != states or not matrix.size:
         raise InputError("modal", "B", f"it is {_size(matrix)}, and A has {states} states", "give a row for each")
@@ -27,7 +27,7 @@ def input_matrix(value: ArrayLike, states: int) -> np.ndarray:
 
 
 def output_matrix(value: ArrayLike, states: int) -> np.ndarray:
-    """C (p, n). Raises InputError."""
+    """Return C (p, n). Raises InputError."""
     matrix = real_matrix("C", value)
     if matrix.shape[1] != states or not matrix.size:
         raise InputError(

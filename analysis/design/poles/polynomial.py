@@ -40,7 +40,7 @@ def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
 
 
 def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
-    """N (p, m, m) of Phi(s) = (s I - S_p) .. (s I - S_1) for ``solvents`` S_1 .. S_p, real (m, m) each.
+    """Return N (p, m, m) of Phi(s) = (s I - S_p) .. (s I - S_1) for ``solvents`` S_1 .. S_p, real (m, m) each.
 
     Its spectrum is the union of theirs. Raises InputError.
     """

@@ -46,7 +46,8 @@ class PulsedPlant:
         return expm(self.a * self.period)
 
     def after(self, state: ArrayLike, lengths: ArrayLike, values: ArrayLike) -> np.ndarray:
-        """x (n,) a tick later, for pulses of ``lengths`` tau (m,) in s and ``values`` U (m,). Raises InputError."""
+        """Return x (n,) a tick later, for pulses of ``lengths`` tau (m,) in s and ``values`` U (m,). Raises
+        InputError."""
         lengths, values = self._pulses(lengths, values)
         propagated = self.transition @ real_matrix("state", state, (len(self.a),))
         for column, length, value in zip(self.b.T, lengths, values, strict=True):
@@ -54,7 +55,7 @@ class PulsedPlant:
         return propagated
 
     def by_lengths(self, lengths: ArrayLike, values: ArrayLike) -> np.ndarray:
-        """dx+/dtau (n, m). Raises InputError."""
+        """Return dx+/dtau (n, m). Raises InputError."""
         lengths, values = self._pulses(lengths, values)
         columns = [
             expm(self.a * (self.period - length)) @ column for column, length in zip(self.b.T, lengths, strict=True)
@@ -62,7 +63,7 @@ class PulsedPlant:
         return np.column_stack(columns) * values
 
     def _integral(self, column: np.ndarray, length: float) -> np.ndarray:
-        """Psi(tau) b."""
+        """Return Psi(tau) b."""
         size = len(column)
         joint = np.zeros((size + 1, size + 1))
         joint[:size, :size], joint[:size, size] = self.a, column
@@ -82,7 +83,7 @@ def pulsed_step(
     *,
     longest: float = np.inf,
 ) -> np.ndarray:
-    """x (n,) of x' = ``rate`` (x, u) a tick of ``period`` (s) later, for pulses as those of `PulsedPlant`.
+    """Return x (n,) of x' = ``rate`` (x, u) a tick of ``period`` (s) later, for pulses as those of `PulsedPlant`.
 
     Runge and Kutta's fourth order over the intervals between switch-offs, in equal steps of at most ``longest`` (s).
     Raises InputError.

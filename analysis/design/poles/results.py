@@ -95,7 +95,7 @@ class Placement:
         return float(np.linalg.norm(self.gain, 2))
 
     def text(self) -> str:
-        """One line: method, |K|, kappa, error, and what the method inverted."""
+        """Return one line: method, |K|, kappa, error, and the condition of the inverted matrix."""
         parts = [f"{self.method}: |K| {self.norm:.4g}", f"kappa {self.kappa:.4g}", f"error {self.error:.1e}"]
         if self.condition_u is not None:
             parts.append(f"cond(U) {self.condition_u:.4g}")

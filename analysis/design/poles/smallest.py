@@ -61,7 +61,8 @@ def smallest(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, 
 
 
 def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients of det(s I - M) below the leading one, highest first (n,), and adj(s I - M) (n, n, n) likewise."""
+    """Return coefficients of det(s I - M) below the leading one, highest first (n,), and adj(s
+    I - M) (n, n, n) likewise."""
     adjugate, coefficients = [np.eye(len(matrix))], []
     for k in range(1, len(matrix) + 1):
         product = matrix @ adjugate[-1]

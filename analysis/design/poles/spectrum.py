@@ -89,9 +89,10 @@ class Spectrum:
         return Spectrum(tuple(real), tuple(pairs))
 
     def deal(self, sizes: Sequence[int]) -> list[Spectrum] | None:
-        """Parts of the ``sizes``, neighbours in different ones where it can be; None where the pairs do not fit.
+        """Deal the poles to groups of the ``sizes``, neighbours in different ones where possible; None where the pairs
+        do not fit.
 
-        Pairs go first. The parts take turns, those with most room first.
+        Pairs go first. The groups take turns, those with most room first.
         """
         room, real, pairs = list(sizes), _lists(sizes), _lists(sizes)
         if not self._fits(room):

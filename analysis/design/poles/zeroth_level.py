@@ -65,14 +65,14 @@ class ZerothLevel:
         return self.b.shape[1] + len(self.c) == len(self.a)
 
     def lower_matrices(self, upper_gain: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """B^-, X and Y for K_1 of u = K_1 x."""
+        """Return B^-, X and Y for K_1 of u = K_1 x."""
         inverse = self.inverse - upper_gain @ self.down
         return inverse, inverse @ self.hidden, inverse @ self.a @ self.hidden
 
     def feedback(
         self, inverse: np.ndarray, phi: np.ndarray, upper: Spectrum, lower: Spectrum, condition: float
     ) -> OutputFeedback:
-        """F from B^- and Phi_0; ``condition`` is cond X."""
+        """Return F from B^- and Phi_0; ``condition`` is cond X."""
         gain = (phi @ inverse - inverse @ self.a) @ self.seen
         return OutputFeedback(
             "direct",
@@ -85,7 +85,8 @@ class ZerothLevel:
 
 
 def direct(level: ZerothLevel, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
-    """``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p > n. Raises PlacementError."""
+    """Place ``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p
+    > n. Raises PlacementError."""
     return under(level, make_placement(*level.above, upper) if upper.size else None, upper, lower)
 
 
@@ -107,7 +108,7 @@ def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lowe
 
 
 def condition_of(x: np.ndarray) -> float:
-    """cond X; 1 without columns. Raises PlacementError where it has not full column rank."""
+    """Return cond X; 1 without columns. Raises PlacementError where it has not full column rank."""
     condition = float(np.linalg.cond(x)) if x.size else 1.0
     if not condition < 1.0 / TOLERANCE:
         problem = f"X has not full column rank, cond X = {condition:.2g}"
@@ -144,7 +145,7 @@ def output_feedback_levels(
 
 
 def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, seed: int) -> OutputFeedback:
-    """``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth. Raises PlacementError."""
+    """Place ``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth. Raises PlacementError."""
     levels, family = family_of(*level.above, upper)
     radius = float(np.max(np.abs(lower.poles)))
     wanted = np.poly(lower.poles / radius).real[1:]

@@ -161,7 +161,7 @@ def _poles(required: Sequence[Any], states: int) -> list[Expression]:
 
 
 def _polynomial(poles: list[Expression], count: int, size: int) -> list[Symbols]:
-    """N_0 .. N_(count - 1), diagonal: input j has the j-th ``count`` poles."""
+    """Return N_0 .. N_(count - 1), diagonal: input j has the j-th ``count`` poles."""
     sp = sympy()
     variable = sp.Dummy("s")
     columns = []

@@ -97,7 +97,7 @@ class Evaluator(Protocol):
 def random_genes(
     random: np.random.Generator, basis: int, bases: Sequence[Matrix], code: int, count: int, coding: Coding
 ) -> Genes:
-    """``count`` variations on a basis, each where those before it let it apply.
+    """Draw ``count`` variations on a basis, each applicable after those before it.
 
     Parameters are near those of ``code``, or anywhere, one as likely as the other.
     """
@@ -116,10 +116,9 @@ def random_genes(
 
 
 def cross(random: np.random.Generator, first: Genes, second: Genes, coding: Coding) -> list[Genes]:
-    """Four children of two parents: both joins of their variations, each with both joins of their codes.
+    """Return four children of two parents: both joins of their variations, each with both joins of their codes.
 
-    Either is cut at one random place. A child's variations belong to the basis of the parent that
-    gives the head.
+    Either is cut at one random place. A child's variations belong to the basis of the parent that gives the head.
     """
     cut = int(random.integers(1, max(len(first.variations), 2)))
     low = 2 ** int(random.integers(1, max(coding.bits, 2))) - 1

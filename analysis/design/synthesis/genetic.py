@@ -107,7 +107,7 @@ class Search:
         return [random_genes(random, basis, bases, code, variations, self.coding) for _ in range(count)]
 
     def _breed(self, couples: int) -> None:
-        """Children of some couples, evaluated together, then let in one after another."""
+        """Breed children of some couples, evaluated together, then inserted one after another."""
         random, settings = self.state.random, self.settings
         order = ParetoOrder(objectives_of(self.state.population))
         bar = Bar(order, order.standing(order.objectives[order.worst()]))
@@ -149,10 +149,11 @@ class Search:
         state.population = elites + self._evaluate([basic, *others])
 
     def _evaluate(self, genes: Sequence[Genes], bar: Bar | None = None) -> list[Candidate]:
-        """Candidates of genes. Known laws are not flown again, nor on where the bar rejects what is known.
+        """Evaluate candidates of genes. Known laws are not evaluated again, nor where the bar rejects the known
+        results.
 
-        What the bar rejects leaves no other trace than its evaluation, flown to the end or not, so that
-        rejecting early does not change the search.
+        A rejection leaves no other trace than its evaluation, complete or not, so that rejecting early does not change
+        the search.
         """
         state = self.state
         laws = [phenotype(each, state.bases, self.coding) for each in genes]

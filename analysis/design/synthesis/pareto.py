@@ -19,7 +19,7 @@ def is_dominated(objectives: np.ndarray, point: np.ndarray) -> np.ndarray:
 
 
 def ranks(objectives: np.ndarray) -> np.ndarray:
-    """For each row of ``objectives`` (n, m) how many others dominate it; 0: in the Pareto set."""
+    """Count for each row of ``objectives`` (n, m) the others that dominate it; 0: in the Pareto set."""
     size = len(objectives)
     no_worse, better = np.ones((size, size), dtype=bool), np.zeros((size, size), dtype=bool)
     for values in objectives.T:
@@ -56,14 +56,14 @@ class ParetoOrder:
         self.extent[known] = np.where(spread > 0.0, spread, 1.0)
 
     def distances(self, points: np.ndarray) -> np.ndarray:
-        """Distances of points (..., m) from the ideal one, in units of the front's extent."""
+        """Return distances of points (..., m) from the ideal one, in units of the front's extent."""
         return np.sqrt(np.sum(np.square(np.maximum(points - self.ideal, 0.0) / self.extent), axis=-1))
 
     def standing(self, point: np.ndarray) -> Standing:
         return Standing(dominators(self.objectives, point), float(self.distances(point)))
 
     def order(self) -> np.ndarray:
-        """Places of the set's points from the best standing to the worst; equal ones as they come."""
+        """Return indices of the set's points from the best standing to the worst; equal ones in their order."""
         return np.lexsort((self.distances(self.objectives), self.ranks))
 
     def worst(self) -> int:

@@ -37,7 +37,7 @@ NO_VARIATION = Variation(NOTHING, 0, 0, 0)
 
 
 def random_variation(random: np.random.Generator, matrix: Matrix) -> Variation:
-    """Each kind equally likely, at a random place where the matrix has, or lacks, what it takes, any operation."""
+    """Draw a variation, each kind equally likely, at a random admissible place, any operation."""
     kind = int(random.integers(CHANGE_UNARY, REMOVE_EDGE + 1))
     if kind == CHANGE_BINARY:
         node = int(random.integers(SOURCES, SIZE))

@@ -96,7 +96,7 @@ class _Layout:
 def _solve(
     problem: PointMassProblem, duration: float, about: np.ndarray, log_about: np.ndarray
 ) -> PointMassPath | None:
-    """One convex problem, expanded about a path; scaled by length, speed and what follows from them."""
+    """Solve one convex problem, expanded about a path; scaled by length, speed and derived units."""
     intervals, axes = about.shape[0] - 1, about.shape[1]
     unit = problem.speed**2 / problem.length
     h = duration / intervals * problem.speed / problem.length
@@ -169,7 +169,7 @@ def _solve(
 
 
 def _interleave(parts: list[sparse.csr_array]) -> sparse.csr_array:
-    """First rows of all parts, then second rows, and so on: one cone after another."""
+    """Return first rows of all blocks, then second rows, and so on: one cone after another."""
     count = parts[0].shape[0]
     order = np.arange(count * len(parts)).reshape(len(parts), count).T.ravel()
     return sparse.csr_array(sparse.vstack(parts, format="csr")[order])

@@ -37,7 +37,7 @@ def least_propellant(problem: PointMassProblem, intervals: int, accuracy: float 
 
 
 def _bracket(problem: PointMassProblem) -> tuple[float, float]:
-    """Durations (s) on both sides of the best, from coarse solutions at growing ones until it rises."""
+    """Return durations (s) on both sides of the best, from coarse solutions at growing ones until it rises."""
     times = problem.natural_time * GROWTH ** np.arange(FIRST, LAST + 1)
     best, minimum = None, 1.0
     for index, time in enumerate(times):

@@ -122,7 +122,7 @@ def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float,
 
 
 def _guess(problem: PointMassProblem, start: np.ndarray, end: np.ndarray, intervals: int) -> Shooting:
-    """Straight lines at the natural time; thrust against the change of velocity, upwards from rest to rest."""
+    """Guess straight lines at the natural time; thrust against the change of velocity, upwards from rest to rest."""
     duration = problem.natural_time
     fraction = np.linspace(0.0, 1.0, intervals + 1)[:, np.newaxis]
     spent = 1.0 - math.exp(-THROTTLE * problem.most * duration / problem.exhaust_speed)

@@ -26,7 +26,7 @@ class UniformGravity:
         return (*(0.0 * x for x in level), 0.0 * up - self.value)
 
     def gradient(self, position: np.ndarray) -> np.ndarray:
-        """Its derivative by position (1/s2) as matrices, one for each row of ``position`` (m)."""
+        """Return its derivative by position (1/s2) as matrices, one for each row of ``position`` (m)."""
         return np.zeros((*position.shape, position.shape[1]))
 
 
@@ -46,7 +46,8 @@ class CentralGravity:
         return (*(-pull * x for x in level), -pull * up)
 
     def gradient(self, position: np.ndarray) -> np.ndarray:
-        """Its derivative by position (1/s2) as matrices, one for each row of ``position`` (m): mu/r^3 (3 u u' - 1)."""
+        """Return its derivative by position (1/s2) as matrices, one for each row of
+        ``position`` (m): mu/r^3 (3 u u' - 1)."""
         arm = position.copy()
         arm[:, -1] += self.radius
         distance = np.linalg.norm(arm, axis=1)[:, np.newaxis, np.newaxis]
@@ -104,7 +105,7 @@ def transfer_problem(vehicle: Vehicle, transfer: Transfer) -> PointMassProblem:
 
 
 def landing_problem(vehicle: Vehicle, landing: Landing) -> PointMassProblem:
-    """Braking and landing in the site's frame: along, from the site to where the flight comes from, and up."""
+    """Pose braking and landing in the site's frame: along, from the site to the start, and up."""
     angle = landing.range / landing.radius
     distance = landing.radius + landing.altitude
     course = angle + landing.climb

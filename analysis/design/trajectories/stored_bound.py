@@ -44,7 +44,7 @@ class MissingBound:
 
 
 def digest(inputs: Inputs) -> str:
-    """SHA-256 of the inputs by name, every number to its last bit."""
+    """Return SHA-256 of the inputs by name, every number to its last bit."""
     return hashlib.sha256(json.dumps(_plain(inputs), sort_keys=True).encode()).hexdigest()
 
 

@@ -72,7 +72,8 @@ class Programme:
         return hover_shape.shape_of(self.programme, self.vehicle.angular_acceleration).shape
 
     def states(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """At times (s): rows of x, x', y, y' (m, m/s), and rows of pitch, its rate (rad, rad/s) and propellant."""
+        """Return at times (s) rows of x, x', y, y' (m, m/s), and rows of pitch, its rate (rad, rad/s) and
+        propellant."""
         shape, vehicle = self.shape(), kernel_vehicle(self.vehicle, self.transfer)
         motion, remainder = np.zeros((time.size, 4)), np.zeros((time.size, 3))
         for index, value in enumerate(map(float, time)):
@@ -83,7 +84,7 @@ class Programme:
         return motion, remainder
 
     def thrust(self, time: np.ndarray) -> np.ndarray:
-        """Thrust at times (s), N."""
+        """Return thrust at times (s), N."""
         shape = self.shape()
         full = np.array([hover_shape.full_thrust(shape, float(value)) for value in time])
         return np.where(full, self.vehicle.maximum_thrust, self.vehicle.minimum_thrust)
@@ -120,7 +121,7 @@ def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None 
 
 
 def over_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
-    """Durations (s) about the best programme's and the propellant fraction of each, nan where there is none."""
+    """Return durations (s) about the best programme's and the propellant fraction of each, nan where there is none."""
     low, high, count = DURATIONS
     durations = np.unique([*(best.duration * np.linspace(low, high, count)), best.duration])
     programmes = [find_programme(best.vehicle, best.transfer, float(value)) for value in durations]
@@ -128,7 +129,7 @@ def over_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
 
 
 def over_distance(best: Programme) -> tuple[np.ndarray, np.ndarray]:
-    """Distances (m) from straight down to beyond the programme's, and the least propellant fraction of each."""
+    """Return distances (m) from straight down to beyond the programme's, and the least propellant fraction of each."""
     farthest, count = DISTANCES
     wide = farthest * max(best.transfer.distance, 0.2 * best.transfer.descent)
     distances = np.unique([*np.linspace(0.0, wide, count), best.transfer.distance])

@@ -47,7 +47,7 @@ class Preparation:
         self._loaded: dict[str, Fmu] = {}
 
     def choices(self) -> list[Choice]:
-        """One for each combination of candidates. Raises InputError for a system that cannot be one FMU."""
+        """Return one for each combination of candidates. Raises InputError for a system that cannot be one FMU."""
         for slot, candidates in self.slots.items():
             names = [candidate_name(each) for each in candidates]
             if len(set(names)) < len(names):

@@ -157,7 +157,7 @@ def write_kind(source: ComponentSource) -> str:
 
 
 def _begin(source: ComponentSource) -> list[str]:
-    """From the starts, but for parameters and inputs."""
+    """Restore the starts, but for parameters and inputs."""
     retained = [_retain(member, is_array) for member, is_array in source.given.items()]
     begin = f"self->block = {source.prefix}STARTS;"
     return [f"const {source.block} given = self->block;", begin, *retained] if retained else [begin]
@@ -170,5 +170,5 @@ def _retain(member: str, is_array: bool) -> str:
 
 
 def file_name(source: ComponentSource) -> str:
-    """Its name among the sources."""
+    """Return its name among the sources."""
     return f"{source.prefix.removesuffix('_')}.h"

@@ -221,7 +221,7 @@ class SystemModel:
 
 
 def _macros() -> set[str]:
-    """Names that mean something else to the preprocessor, wherever they stand."""
+    """Return names with another meaning to the preprocessor, anywhere."""
     texts = [text.decode() for text in read_wrapper(2, "system").values()]
     ours = {
         "SAMPLE_TOLERANCE",

@@ -38,7 +38,7 @@ class Statements:
     is_starting: bool = False
 
     def initialisation(self) -> list[str]:
-        """From parameters and inputs to the outputs at the start."""
+        """Write the initialisation: from parameters and inputs to the outputs at the start."""
         program = self.choice.program
         self.unsettled, self.is_starting = set(range(len(self.choice.candidates))), True
         lines = self._of(range(program.reset_end, int(program.phases[0])))
@@ -46,7 +46,7 @@ class Statements:
         return lines
 
     def step(self, phase: int) -> list[str]:
-        """One of the steps that are repeated."""
+        """Write one of the repeated steps."""
         first, end = self.choice.program.phases[phase : phase + 2].tolist()
         return self._of(range(first, end))
 

@@ -72,7 +72,7 @@ def _list_hidden(model: SystemModel, variables: Variables) -> list[Row]:
 
 
 def write_tables(guid: str, model: SystemModel, variables: Variables) -> str:
-    """Facts for the wrapper: GUID, and tables by value reference, of what is not declared last."""
+    """Write the tables of the wrapper: GUID, and variables by value reference, undeclared ones last."""
     rows = [*map(_row_of, variables.declared), *_list_hidden(model, variables)]
     lines = Lines()
     lines.add(f'#define MODEL_GUID "{guid}"')

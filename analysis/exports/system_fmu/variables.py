@@ -250,7 +250,7 @@ class Variables:
 
 
 def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate]]:
-    """Each candidate once, with the first choice that has it."""
+    """Yield each candidate once, with the first choice that has it."""
     seen: set[str] = set()
     for program in model.programs:
         for candidate in program.candidates:

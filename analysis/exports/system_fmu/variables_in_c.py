@@ -14,7 +14,7 @@ from .variables import C_TYPES, Passed, Variables
 
 
 def write_signals(model: SystemModel) -> str:
-    """Their numbers."""
+    """Write the numbers of the signals."""
     lines = Lines()
     lines.comment(
         "Values on their way from component to component, by number: of outputs, connected inputs, connectors."

@@ -40,7 +40,7 @@ class BaseMemory(ABC, Generic[Snapshot]):
 
     @abstractmethod
     def put_back(self, snapshot: Snapshot, cell: Cell | None = None, number: float = 0.0) -> None:
-        """Everything as it was, but for one cell's value."""
+        """Restore everything as it was, but for one cell's value."""
 
     @abstractmethod
     def release(self, snapshot: Snapshot) -> None:

@@ -68,7 +68,7 @@ class BaseSimulation(ABC):
         self._log = choices.get("log")
 
     def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> Result:
-        """One flight from the start, with ``values`` for varied parameters; every n-th row is kept.
+        """Simulate one flight from the start, with ``values`` for varied parameters; every n-th row is kept.
 
         The arrays of the result are the simulation's own and are overwritten by the next flight.
         """
@@ -142,7 +142,7 @@ class BaseSimulation(ABC):
         """Return the memory of the FMUs. Raises InputError where one does not describe its serialisation."""
 
     def provenance(self) -> Provenance:
-        """Parameter values, hashes, options and version: what the result depends on."""
+        """Return parameter values, hashes, options and version: what the result depends on."""
         return provenance_of(self.prepared, self.settings, self.layout.parameters, self._faults, self.signal_names)
 
     @abstractmethod

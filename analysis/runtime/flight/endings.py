@@ -92,7 +92,8 @@ class Outcome(NamedTuple):
 
 
 def end_request(instance: Instance) -> float | None:
-    """When (s) an FMU that discarded a step wants the simulation to end; None where it does not say that it does.
+    """Return the time (s) at which an FMU that discarded a step requests the end of the simulation; None without a
+    request.
 
     Our own never does: a step that a block refuses is a failure, of which pythonfmu makes such a wish.
     """
@@ -114,7 +115,7 @@ def in_words(
     fmi3: arrays.Fmi3 | None,
     instances: Mapping[str, Instance],
 ) -> tuple[str, str]:
-    """Status and message of a flight; ``time`` (s) is that of its last communication point."""
+    """Return status and message of a flight; ``time`` (s) is that of its last communication point."""
     code, subject = outcome.code, outcome.subject
     status = STATUS[code]
     if code == codes.NONFINITE:

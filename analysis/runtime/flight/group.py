@@ -68,7 +68,7 @@ class FlightGroup:
 
     @classmethod
     def of(cls, flight: Flight) -> Self:
-        """One flight."""
+        """Return a group of one flight."""
         ends, complete = np.array([flight.time.size]), np.array([flight.complete])
         return cls(flight.time, flight.signals, ends, [flight.status], complete, [flight.message])
 

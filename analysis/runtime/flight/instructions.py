@@ -44,7 +44,7 @@ class InstructionList(Rows):
         self.drives = drives
 
     def connect(self, group: int, known: Collection[int] | None = None) -> None:
-        """Values over the connections that feed a component; group -1: system connectors.
+        """Write values over the connections that feed a component; group -1: system connectors.
 
         With ``known`` only those whose values come from these components alone.
         """
@@ -108,7 +108,7 @@ class InstructionList(Rows):
         self.orders[component].step(0 if period == 1 else period)
 
     def reset(self) -> None:
-        """Every FMU back to the state after instantiation, its flight ended."""
+        """Reset every FMU to the state after instantiation, its flight ended."""
         for orders in self.orders:
             orders.reset()
 
@@ -134,14 +134,14 @@ class InstructionList(Rows):
             self.read(component)  # again: there are FMUs that compute outputs only when they leave initialisation
 
     def side_by_side(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
-        """All stepped, with the inputs that they have, then all read: Jacobi's way."""
+        """Step all, with the inputs that they have, then read all: Jacobi's way."""
         for component in components:
             self.step(component, periods.get(component, 1))
         for component in components:
             self.read(component)
 
     def in_turn(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
-        """Each with inputs of the end of its step."""
+        """Step each with inputs of the end of its step."""
         for component in components:
             self.set(component)
             self.step(component, periods.get(component, 1))

@@ -27,7 +27,8 @@ class StuckError(TimeoutError):
 
 
 def fly(simulation: BaseSimulation, timeout: float | None = None) -> Result:
-    """One flight. Ctrl-C ends it at its next communication point: what was flown comes back, ``interrupted``.
+    """Simulate one flight. Ctrl-C ends it at its next communication point: its rows so far are returned,
+    ``interrupted``.
 
     So does a ``timeout`` (s of the wall clock): ``timed_out``. Raises KeyboardInterrupt or StuckError where no point is
     reached within PATIENCE: a step of an FMU cannot be cut.

@@ -51,7 +51,7 @@ class Piece:
         )
 
     def read(self) -> np.ndarray:
-        """Their values; the array is used again by the next call."""
+        """Read their values; the array is used again by the next call."""
         if self._references.size:
             references, values = self._pointers
             slave = self._instance.slave
@@ -119,7 +119,7 @@ class Memory(BaseMemory[Snapshot]):
         )
 
     def put_back(self, snapshot: Snapshot, cell: Cell | None = None, number: float = 0.0) -> None:
-        """Everything as it was, but for one cell's value."""
+        """Restore everything as it was, but for one cell's value."""
         for component, instance in self._instances.items():
             instance.set_state(snapshot.states[component])
         buffers = self._buffers

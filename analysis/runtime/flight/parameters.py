@@ -182,7 +182,8 @@ class Parameters:
         return self._network.fmus[component].digest in _one_by_one
 
     def learn_unreadable(self, first: int, count: int) -> None:
-        """Not to read back what an FMU does not give: a parameter, or one of ``count`` that is to be found yet."""
+        """Note not to read back a parameter that an FMU does not return, or one of ``count``
+        that is to be identified yet."""
         component, name = self.keys[first]
         fmu = self._network.fmus[component]
         name = fmu.variables[name].array or name
@@ -198,9 +199,9 @@ class Parameters:
         return self._network.fmus[component].digest in _set_once
 
     def learn_set_once(self, component: str) -> None:
-        """Not to set an FMU's parameters in initialisation mode, which it has refused; they are read back."""
+        """Note not to set an FMU's parameters in initialisation mode, which it has refused; they are read back."""
         _set_once.add(self._network.fmus[component].digest)
 
     def blank(self) -> arrays.Settings:
-        """Arrays of the same layout, to read into."""
+        """Return arrays of the same layout, to read into."""
         return arrays.Settings(*(np.zeros_like(array) for array in self.values))

@@ -66,5 +66,6 @@ class FlightRecorder:
 
 
 def rows_between(first: int, last: int, every: int = 1) -> int:
-    """Room that a flight between two communication points needs, -1 for its start, where every n-th row is kept."""
+    """Return the number of rows of a flight between two communication points, -1 for its start,
+    with every n-th row kept."""
     return (last - max(first, 0)) // every + 2

@@ -93,7 +93,7 @@ class Flight:
         return self.status in COMPLETE
 
     def final(self) -> dict[str, float | int | bool]:
-        """Last values by signal, with their types."""
+        """Return last values by signal, with their types."""
         convert = {"Integer": int, "Enumeration": int, "Boolean": bool}
         if not self.time.size:
             return {}
@@ -163,7 +163,7 @@ class Result(Flight):
         return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields, metadata=metadata))
 
     def summary(self) -> dict[str, object]:
-        """Status and provenance, without the signals."""
+        """Return status and provenance, without the signals."""
         last = float(f"{self.time[-1]:.12g}") if self.time.size else None  # 283.4, not 283.40000000000003
         ending = {"status": self.status, "message": self.message, "rows": int(self.time.size), "end_time": last}
         return {**ending, **self.provenance}
@@ -232,7 +232,7 @@ def status_meaning(network: Network, name: str, value: int) -> str:
 
 
 def with_meaning(network: Network, name: str, value: int) -> str:
-    """``guidance.status 3, no solution``."""
+    """Return a status with its meaning: ``guidance.status 3, no solution``."""
     words = status_meaning(network, name, value)
     return f"{name} {value}, {words}" if words else f"{name} {value}"
 

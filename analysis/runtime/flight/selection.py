@@ -42,7 +42,7 @@ class Selection:
             check_fault(network, fault)
 
     def keys(self, network: Network) -> dict[str, Key]:
-        """(component, variable) of the varied parameters, by name. Raises InputError for one that is none."""
+        """Return (component, variable) of the varied parameters, by name. Raises InputError for one that is none."""
         return {name: _key(network, name) for name in self.varied}
 
     def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> Settings:
@@ -60,7 +60,7 @@ class Selection:
         return replace(prepared.settings, variables=variables)
 
     def injections(self, step: float) -> list[Injection]:
-        """Faults, then excitations; ``step`` is the communication step (s)."""
+        """Return faults, then excitations; ``step`` is the communication step (s)."""
         excitations = [of_excitation(name, column) for column, name in enumerate(self.excited)]
         return [*(of_fault(fault, TIME_MARGIN * step) for fault in self.faults), *excitations]
 
@@ -74,7 +74,7 @@ class Selection:
 
 
 def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) -> list[str]:
-    """Variables of FMUs that are to be recorded, by ``component.variable``; the name of a vector is all its elements.
+    """Return variables of FMUs to be recorded, by ``component.variable``; the name of a vector is all its elements.
 
     Of an FMU that flies alone the component may be left out. Raises InputError for names of none, and for Strings.
     """

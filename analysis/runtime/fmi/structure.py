@@ -31,7 +31,7 @@ def structural_sizes(
 
 
 def _bindings(system: System, component: str) -> Iterator[tuple[str, list[Binding]]]:
-    """Bindings from the inside out, each with what stands before the component's variables there."""
+    """Yield bindings from the inside out, each with the prefix of the component's variables there."""
     owner, remainder = _element(system, component)
     if owner is None:
         return

@@ -54,7 +54,7 @@ class Log:
         self._clock = clock
 
     def write(self, component: str, status: int, category: str, message: str) -> None:
-        """One message, on one line: what an FMU breaks into several is put together with bars."""
+        """Write one message, on one line: several lines of an FMU are joined with bars."""
         if not 0 <= status < len(STATUSES) or status >= SAID_FROM[self.level]:
             time = "" if self._clock is None else f"t = {self._clock():.9g} s: "
             self._counts[component] = self._counts.get(component, 0) + 1
@@ -109,7 +109,7 @@ class Instance:
         return [_text(message) for message in self.said]
 
     def function_addresses(self) -> list[int]:
-        """Addresses of the C functions in the order of library.FUNCTION_NAMES."""
+        """Return addresses of the C functions in the order of library.FUNCTION_NAMES."""
         return self.library.addresses
 
     def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
@@ -158,7 +158,7 @@ class Instance:
             release(self.fmu)
 
     def abandon(self) -> None:
-        """Never use it again, nor free it."""
+        """Abandon it: neither use nor free it again."""
         self.is_there = False
         _alone.discard(self.fmu.digest)
 

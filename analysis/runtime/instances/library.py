@@ -73,7 +73,7 @@ class Library:
         self.users = 0
 
     def slave(self, instance_name: str) -> Slave:
-        """fmpy's face of one more instance, not instantiated yet."""
+        """Return fmpy's object of one more instance, not instantiated yet."""
         slave = copy.copy(self._slave)
         slave.instanceName = instance_name
         return slave

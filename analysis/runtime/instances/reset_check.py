@@ -148,7 +148,7 @@ def _free(instance: Instance, error: FMICallException | None = None) -> None:
 
 
 def _changes(fmu: Fmu) -> list[dict[str, Number]]:
-    """Other values than the declared ones: of all Real parameters and inputs, of the inputs, none.
+    """Return other values than the declared ones: of all Real parameters and inputs, of the inputs, none.
 
     Whole numbers are changed where there is no Real parameter only: as sizes they could do harm.
     """

@@ -36,7 +36,7 @@ def begin(instance: Instance, changes: Mapping[str, Number], start: float, toler
 
 
 def step(instance: Instance, time: float, size: float) -> bool:
-    """One step; returns whether another may follow. Raises FMICallException where it fails."""
+    """Step once; return True if another step may follow. Raises FMICallException where it fails."""
     try:
         ended = instance.slave.doStep(time, size)
     except FMICallException as error:
@@ -56,7 +56,7 @@ def read(instance: Instance, causality: str) -> bytes:
 
 
 def _read(instance: Instance, call: str, group: list[Variable]) -> bytes:
-    """Values of variables in one call, or each by itself where one of them cannot be read."""
+    """Read values of variables in one call, or each by itself where one of them cannot be read."""
     references = list(dict.fromkeys(each.reference for each in group))
     wholes = [[each for each in group if each.reference == reference] for reference in references]
     get = getattr(instance.slave, f"get{call}")

@@ -67,7 +67,7 @@ def build_loop(build: Path, platforms: list[str], *, portable: bool = False) -> 
 
 
 def built_file(build: Path, platform: str) -> Path:
-    """Path of the library in the folder of a build, named by its content; it need not exist."""
+    """Return path of the library in the folder of a build, named by its content; it need not exist."""
     extension = PLATFORMS[platform].extension if platform in PLATFORMS else ""
     return build / FOLDER / platform / f"{_digest()}{extension}"
 

@@ -24,7 +24,7 @@ class Loop:
         self.under_way = threading.Lock()
 
     def fly(self, run: arrays.Run) -> int:
-        """One run; returns the number of rows in the record."""
+        """Run once; return the number of rows in the record."""
         with self.under_way:
             self._run.fill(run)
             rows: int = self._library.perilune_fly(ctypes.byref(self._run.memory))

@@ -67,7 +67,7 @@ class SystemArchive:
         return f"{EXTRA}{name}" if f"{EXTRA}{name}" in self.files else name
 
     def read(self, name: str, element: str) -> bytes:
-        """Content of a file the description refers to, at ``element``."""
+        """Read a file the description refers to, at ``element``."""
         return self._content(self._place(name), element)
 
     def _place(self, source: str) -> str:
@@ -144,11 +144,11 @@ class SystemArchive:
         return self.is_fmu or self.has(self._place(source))
 
     def variants(self) -> list[str]:
-        """Names of the archive's SSDs, the default one included."""
+        """Return names of the archive's SSDs, the default one included."""
         return sorted(name.removesuffix(".ssd") for name in self.files if name.endswith(".ssd") and "/" not in name)
 
     def description_name(self, variant: str | None) -> str:
-        """Archive name of the SSD: the default one or a variant's."""
+        """Return archive name of the SSD: the default one or a variant's."""
         if self.is_fmu:
             raise InputError(self.label, DESCRIPTION, "an FMU alone has none", "give a system here")
         name = self.description if variant is None else f"{variant.removesuffix('.ssd')}.ssd"
@@ -269,7 +269,7 @@ def open_system(system: str | Path) -> SystemArchive:
 
 
 def system_names() -> list[str]:
-    """Names of the systems under ssp_systems."""
+    """Return names of the systems under ssp_systems."""
     return sorted(entry.parent.name for entry in SYSTEMS.glob(f"*/{SYSTEM_FILE}"))
 
 

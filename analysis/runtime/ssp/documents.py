@@ -63,7 +63,7 @@ def _schema(kind: str, version: str) -> etree.XMLSchema:
 
 
 def parse_xml(data: bytes, file: str) -> etree._Element:
-    """Root element of an XML document; a DOCTYPE is refused before anything else is looked at."""
+    """Parse an XML document to its root element; a DOCTYPE is refused before anything else."""
     refusal = InputError(file, "DOCTYPE", "a document type declaration is not accepted", "remove the <!DOCTYPE ...>")
     XML_BYTES.check(len(data), file, "")
     XML_TAGS.check(data.count(b"<"), file, "")
@@ -139,10 +139,10 @@ def child(element: etree._Element, name: str) -> etree._Element | None:
 
 
 def children(element: etree._Element | None, name: str) -> list[etree._Element]:
-    """All children with a prefixed name; none of an absent element."""
+    """Return all children with a prefixed name; none of an absent element."""
     return [] if element is None else element.findall(name, NAMESPACES)
 
 
 def tag(element: etree._Element) -> str:
-    """Local name of an element, empty for comments and processing instructions."""
+    """Return local name of an element, empty for comments and processing instructions."""
     return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""

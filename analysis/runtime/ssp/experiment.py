@@ -59,7 +59,7 @@ def step_of_component(component: etree._Element, file: str) -> float | None:
 
 
 def _read_annotation(element: etree._Element | None) -> Iterator[tuple[str, etree._Element]]:
-    """Everything in the annotations of an element, with the annotations' types."""
+    """Yield everything in the annotations of an element, with the annotations' types."""
     if element is not None:
         for annotation in children(child(element, "ssd:Annotations"), "ssc:Annotation"):
             for item in annotation.iterdescendants(etree.Element):

@@ -13,7 +13,8 @@ MOST_DIMENSIONS = 6  # of an array that is named as a whole
 
 
 def split_name(name: str, components: Mapping[str, object] | Set[str]) -> tuple[str, str]:
-    """Component and variable of a name, the longest component that fits; empty for the system's own connectors."""
+    """Return component and variable of a name, the longest component that fits; empty for the system's own
+    connectors."""
     owner, dot, _ = name.rpartition(".")
     while dot and owner not in components:
         owner, dot, _ = owner.rpartition(".")

@@ -36,10 +36,10 @@ INDEX = re.compile(r"\[[\d,]+\]$")
 def collect_settings(
     network: Network, archive: SystemArchive, assignments: Sequence[Assignment], options: SystemOptions
 ) -> Settings:
-    """All values of a system: its bindings from the inside out, then ``assignments``; later ones win.
+    """Collect all values of a system: its bindings from the inside out, then ``assignments``; later ones win.
 
-    Raises InputError for a name that matches nothing (unless allowed), a value that does not
-    fit its variable, and declared inputs that have neither connection nor value (unless they keep their starts).
+    Raises InputError for a name that matches nothing (unless allowed), a value that does not fit its variable, and
+    declared inputs that have neither connection nor value (unless they keep their starts).
     """
     settings, allow_unmatched = Settings(), options.chosen["allow_unmatched"]
     notes = network.notes if allow_unmatched else None

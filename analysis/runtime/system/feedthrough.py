@@ -93,7 +93,7 @@ def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *
 
 
 def _read_locals(network: Network, component: str) -> set[str]:
-    """Local variables of a component that are connected like outputs, whose dependencies no FMU declares."""
+    """Return local variables of a component that are connected like outputs, whose dependencies no FMU declares."""
     return {
         link.source.variable
         for link in network.links()

@@ -188,7 +188,7 @@ def _connect(network: Network, path: str, system: System, connection: Connection
 def orient(
     network: Network, path: str, system: System, connection: Connection
 ) -> tuple[tuple[Point, Node], tuple[Point, Node]]:
-    """Source and target of a connection with their nodes: the standard gives its ends no direction.
+    """Return source and target of a connection with their nodes: the standard gives its ends no direction.
 
     ``path`` is that of the ``system`` in which the connection stands. Raises InputError.
     """
@@ -221,7 +221,7 @@ def _link(network: Network, path: str, system: System, connection: Connection) -
 
 
 def _settle_types(network: Network) -> None:
-    """System connectors without a declared type take that of what drives or reads them."""
+    """Give system connectors without a declared type that of their source or readers."""
     changed = True
     while changed:
         changed = False

@@ -114,7 +114,8 @@ class Fmu:
         return {name.removeprefix(SOURCES): read_entry(archive, name, self.label).decode() for name in files}
 
     def read_dependencies(self) -> dict[str, set[str] | None]:
-        """Output -> inputs that it depends on directly, as ModelStructure declares it; None where it does not."""
+        """Return output -> inputs that it depends on directly, as ModelStructure declares it; None where it does
+        not."""
         inputs = {name for name, variable in self.variables.items() if variable.causality == "input"}
         outputs: dict[str, set[str] | None] = {
             name: None for name, variable in self.variables.items() if variable.causality == "output"

@@ -96,13 +96,13 @@ class Network:
         return self.fmus[component].unit_of(self.fmus[component].variables[variable])
 
     def links(self) -> Iterator[Link]:
-        """All links, those that are added to others behind them."""
+        """Yield all links, those that are added to others after them."""
         for link in self.driver.values():
             yield link
             yield from link.added
 
     def components(self) -> list[tuple[str, Component]]:
-        """Components with their flat names."""
+        """Return components with their flat names."""
         return [
             (path + element.name, element)
             for path, system in self.systems.items()

@@ -69,7 +69,7 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
 
 
 def component_periods(network: Network, options: SystemOptions, step: float) -> dict[str, int]:
-    """Communication steps that one step of a component takes, of those that step less often than ``step`` (s).
+    """Return the communication steps of one step of a component, for those that step less often than ``step`` (s).
 
     A component whose own step is none of ``step`` takes as many whole ones as fit into it, as libcosim does; a remark
     says so. Raises InputError.

@@ -46,7 +46,7 @@ def cache_response(response: Response) -> Response:
 
 
 def quotient(value: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """One response over another: 1 where both are 0, inf where the reference alone is."""
+    """Return one response over another: 1 where both are 0, inf where the reference alone is."""
     silent = reference == 0.0
     same = np.where(value == 0.0, 1.0, np.inf)
     return np.where(silent, same, value / np.where(silent, 1.0, reference))
@@ -88,7 +88,7 @@ def interpolate(frequency: np.ndarray, value: np.ndarray, sample_period: float) 
 
 
 def base_grid(low: float, high: float, include: Iterable[float] = ()) -> np.ndarray:
-    """Frequencies (rad/s) from ``low`` to ``high``: logarithmic, evenly spaced, and those to ``include``."""
+    """Return frequencies (rad/s) from ``low`` to ``high``: logarithmic, evenly spaced, and those to ``include``."""
     if not 0.0 < low < high:
         raise ValueError(f"frequencies from {low:g} to {high:g} rad/s; needs 0 < low < high")
     logarithmic = np.geomspace(low, high, max(2, round(_PER_DECADE * np.log10(high / low)) + 1))
@@ -147,7 +147,7 @@ def _halve(
 
 
 def _refine(response: Response, frequency: np.ndarray, value: np.ndarray, most: int) -> Curve:
-    """Finer around every closest approach, which every crossing is, and so is a touch without a crossing."""
+    """Refine the curve around every closest approach, which every crossing is, and so is a touch without a crossing."""
     for _ in range(_HALVINGS):
         gain = np.abs(np.log(np.maximum(np.abs(value), _SILENT)))
         phase = np.abs(np.angle(-value))

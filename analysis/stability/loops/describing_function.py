@@ -53,13 +53,13 @@ class Element:
 
 
 def _share(threshold: float | np.ndarray, amplitude: np.ndarray) -> np.ndarray:
-    """sqrt(1 - (threshold/amplitude)^2) where the amplitude reaches the threshold, else 0."""
+    """Return sqrt(1 - (threshold/amplitude)^2) where the amplitude reaches the threshold, else 0."""
     ratio = np.minimum(abs(threshold) / amplitude, 1.0)
     return np.sqrt((1.0 - ratio) * (1.0 + ratio))
 
 
 def _saturation_function(limit: float, amplitude: np.ndarray) -> np.ndarray:
-    """f(limit/a): N of a saturation with slope 1 (Gelb and Vander Velde 1968, section 2.3)."""
+    """Return f(limit/a): N of a saturation with slope 1 (Gelb and Vander Velde 1968, section 2.3)."""
     ratio = np.minimum(limit / amplitude, 1.0)
     return 2.0 / math.pi * (np.arcsin(ratio) + ratio * _share(limit, amplitude))
 
@@ -91,7 +91,7 @@ def _staircase(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     minimum = parameters["least_pulse"]
 
     def gain(a: float) -> complex:
-        """Half the sum over relays on both sides of the middle, switched at i - 1/2 and i + 1/2 least pulses."""
+        """Return half the sum over relays on both sides of the middle, switched at i - 1/2 and i + 1/2 least pulses."""
         steps = np.arange(-math.floor(a / minimum - 0.5), math.floor(a / minimum - 0.5) + 1) * minimum
         if not len(steps):
             return 0.0 + 0.0j
@@ -218,7 +218,7 @@ def complete_parameters(kind: str, parameters: Parameters) -> dict[str, float]:
 
 
 def describing_function(kind: str, amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
-    """N(a), complex, for amplitudes of the input (any shape, positive); 0 where the element puts nothing out.
+    """Return N(a), complex, for amplitudes of the input (any shape, positive); 0 where the element has no output.
 
     The unit is that of the output per unit of the input. ValueError for a wrong kind, parameter or amplitude.
     """
@@ -230,7 +230,7 @@ def describing_function(kind: str, amplitude: np.ndarray, parameters: Parameters
 
 
 def amplitude_range(kind: str, parameters: Parameters) -> tuple[float, float]:
-    """Amplitudes between which N(a) is worth a figure: around its kinks (one level of output, without any)."""
+    """Return amplitudes between which N(a) is worth a figure: around its kinks (one level of output, without any)."""
     complete = complete_parameters(kind, parameters)
     element = ELEMENTS[kind]
     kinks = element.kinks(complete)

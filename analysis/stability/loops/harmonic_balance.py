@@ -52,7 +52,7 @@ class _Loop:
         return complex(self.gains(np.array([amplitude]))[0])
 
     def critical(self, turn: complex) -> list[tuple[float, complex]]:
-        """Frequencies, and turn L there, at which turn L is real and negative."""
+        """Return frequencies, and turn L there, at which turn L is real and negative."""
         imaginary = (turn * self.curve).imag
         points = []
         for i in np.flatnonzero((imaginary[1:] < 0.0) != (imaginary[:-1] < 0.0)):
@@ -65,14 +65,14 @@ class _Loop:
         return points
 
     def slope(self, frequency: float) -> complex:
-        """d ln L / dw."""
+        """Return d ln L / dw."""
         h = 1e-5 * frequency
         upper = min(frequency + h, float(self.frequency[-1]))
         lower = max(frequency - h, float(self.frequency[0]))
         return complex(np.log(self.linear(upper) / self.linear(lower))) / (upper - lower)
 
     def amplitudes(self, least: float, largest: float) -> np.ndarray:
-        """Amplitudes, ascending, with every kink and dense after it, where abs(L) is between the two values."""
+        """Return amplitudes, ascending, with every kink and dense after it, where abs(L) is between the two values."""
         kinks = self.element.kinks(self.parameters)
         output = self.element.output(self.parameters)
         last = self.element.farthest(self.parameters)
@@ -109,7 +109,7 @@ class _Loop:
 
 
 def _real_balances(loop: _Loop) -> list[tuple[float, float]]:
-    """N real: the phase of L alone gives the frequencies, then the size of N the amplitudes."""
+    """Solve for real N: the phase of L alone gives the frequencies, then the size of N the amplitudes."""
     balances = []
     for frequency, value in loop.critical(1.0 + 0j):
         wanted = 1.0 / abs(value)
@@ -158,7 +158,7 @@ def _crossing_segments(first: np.ndarray, second: np.ndarray) -> list[tuple[int,
 
 
 def _complex_balances(loop: _Loop) -> list[tuple[float, float]]:
-    """N complex: intersections of ln N(a) and ln(-1/L(w)) in the plane, then both refined together."""
+    """Solve for complex N: intersections of ln N(a) and ln(-1/L(w)) in the plane, then both refined together."""
     sizes = abs(loop.curve)
     grid = loop.amplitudes(float(sizes.min()), float(sizes.max()))
     if not len(grid):

@@ -32,16 +32,16 @@ def classical(
     undamped: Iterable[float] = (),
     include: Iterable[float] = (),
 ) -> Classical:
-    """All gain, phase and delay margins between ``low`` and ``high`` (rad/s), sampled with ``sample_period`` (s).
+    """Find all gain, phase and delay margins between ``low`` and ``high`` (rad/s), sampled with ``sample_period`` (s).
 
-    Where L is real without crossing the axis it has a gain margin too: at the Nyquist frequency when ``high`` is
-    that, and at frequency 0 (returned as such) when L without integrators levels off below ``low``. Encirclements
-    are counted when the number of open-loop poles outside of the unit circle is known; ``poles_at_one`` and
-    ``undamped`` (rad/s) are those of `encirclements`, ``include`` that of `dense`.
+    Where L is real without crossing the axis it has a gain margin too: at the Nyquist frequency when ``high`` is that,
+    and at frequency 0 (returned as such) when L without integrators levels off below ``low``. Encirclements are counted
+    when the number of open-loop poles outside of the unit circle is known; ``poles_at_one`` and ``undamped`` (rad/s)
+    are those of `encirclements`, ``include`` that of `dense`.
 
-    Crossings are bracketed on the grid and solved for on the response itself (Brent). Between the ends
-    python-control's `stability_margins` of an FRD on the same grid gives the same to 1e-6 dB and deg, as the tests
-    hold, but version 0.10.2 gives none at either end, and its polynomial route loses resonant loops (1.14 for 1.05).
+    Crossings are bracketed on the grid and solved for on the response itself (Brent). Between the ends python-control's
+    `stability_margins` of an FRD on the same grid gives the same to 1e-6 dB and deg, as the tests hold, but version
+    0.10.2 gives none at either end, and its polynomial route loses resonant loops (1.14 for 1.05).
     """
     include = [*include]
     undamped = [*undamped]
@@ -82,9 +82,9 @@ def classical(
 
 
 def robust(response: Response, low: float, high: float, *, include: Iterable[float] = ()) -> Robust:
-    """Peaks of S = 1/(1+L) and T = L/(1+L) and the disk margin, between ``low`` and ``high`` (rad/s).
+    """Find peaks of S = 1/(1+L) and T = L/(1+L) and the disk margin, between ``low`` and ``high`` (rad/s).
 
-    They bound what the loop stands only where the closed loop is stable.
+    They bound the permitted perturbations only where the closed loop is stable.
     """
     response = cache_response(response)
     frequency = dense(response, low, high, include=include).frequency
@@ -161,7 +161,7 @@ def _roots(
     values: np.ndarray,
     crossing: Callable[[float, float], bool],
 ) -> list[float]:
-    """Zeros of ``function`` between points of different sign; points within rounding of zero have none."""
+    """Find zeros of ``function`` between points of different sign; points within rounding of zero have none."""
     retained = np.abs(values) > _ROUNDING
     frequency, values = frequency[retained], values[retained]
     roots = []

@@ -64,7 +64,7 @@ def multisine(
 
 
 def single_line(samples: int, line: int) -> Multisine:
-    """One period of a cosine of amplitude 1 at one line; no line counts as unexcited."""
+    """Return one period of a cosine of amplitude 1 at one line; no line counts as unexcited."""
     phase, unexcited = np.zeros(1), np.zeros(0, dtype=int)
     return Multisine(_unit_signal(samples, np.array([line]), phase), 1.0, np.array([line]), unexcited, phase)
 
@@ -76,7 +76,7 @@ def _unit_signal(samples: int, lines: np.ndarray, phases: np.ndarray) -> np.ndar
 
 
 def _low_crest(samples: int, lines: np.ndarray, random: np.random.Generator) -> np.ndarray:
-    """Phases (rad) with a low peak: the best of some random ones, then swapping between time and frequency.
+    """Return phases (rad) with a low peak: the best of some random ones, then swapping between time and frequency.
 
     Van der Ouderaa, Schoukens and Renneboog, "Peak factor minimization using a time-frequency domain swapping
     algorithm", IEEE Trans. Instrumentation and Measurement 37 (1988).
@@ -97,10 +97,11 @@ def _low_crest(samples: int, lines: np.ndarray, random: np.random.Generator) -> 
 
 
 def line_spectrum(record: np.ndarray, samples: int, lines: np.ndarray) -> np.ndarray:
-    """Complex amplitudes (len(lines), ...) of a record (n, ...) of whole periods of ``samples``, averaged over them.
+    """Return complex amplitudes (len(lines), ...) of a record (n, ...) of whole periods of ``samples``, averaged over
+    them.
 
-    A line amplitude * cos(2 pi k n/N + phase) gives amplitude * exp(1j * phase).
-    Raises ValueError when the record is not a whole number of periods.
+    A line amplitude * cos(2 pi k n/N + phase) gives amplitude * exp(1j * phase). Raises ValueError when the record is
+    not a whole number of periods.
     """
     record = np.asarray(record, dtype=float)
     periods, remainder = divmod(len(record), samples)

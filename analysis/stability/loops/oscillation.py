@@ -39,7 +39,8 @@ class Oscillation:
 
 
 def _upward_crossings(values: np.ndarray, ripple: float) -> np.ndarray:
-    """Upward zero crossings, in samples, interpolated; only those after which ``ripple`` is reached from -ripple."""
+    """Return upward zero crossings, in samples, interpolated; only those after which ``ripple``
+    is reached from -ripple."""
     state = np.where(values > ripple, 1, np.where(values < -ripple, -1, 0))
     decided = np.flatnonzero(state)
     turns = decided[1:][(state[decided[1:]] == 1) & (state[decided[:-1]] == -1)]
@@ -49,7 +50,7 @@ def _upward_crossings(values: np.ndarray, ripple: float) -> np.ndarray:
 
 
 def _sine(values: np.ndarray, period: float) -> tuple[float, float, float]:
-    """Least squares of one sine and a constant: amplitude, constant, share of the variance explained."""
+    """Fit one sine and a constant by least squares: amplitude, constant, share of the variance explained."""
     angle = 2.0 * np.pi / period * np.arange(len(values))
     basis = np.column_stack([np.cos(angle), np.sin(angle), np.ones(len(values))])
     solution = np.linalg.lstsq(basis, values, rcond=None)[0]

@@ -70,7 +70,7 @@ def refine(
 
 
 def _decisive(classical: Classical, robust: Robust) -> list[float]:
-    """Frequencies (rad/s) of the nearest crossings, and of the points nearest to -1."""
+    """Return frequencies (rad/s) of the nearest crossings, and of the points nearest to -1."""
     gains = sorted(classical.gain, key=lambda crossing: abs(np.log(crossing.value)))[:CROSSINGS]
     phases = sorted(classical.phase, key=lambda crossing: abs(crossing.value))[:CROSSINGS]
     crossings = [crossing.frequency for crossing in (*gains, *phases)]

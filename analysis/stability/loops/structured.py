@@ -48,7 +48,7 @@ def _of_group(matrix: np.ndarray) -> np.ndarray:
 
 
 def _two(matrix: np.ndarray) -> np.ndarray:
-    """Both singular values follow from the determinant, which D leaves, and the sum of squares: balance is best."""
+    """Return both singular values from the determinant, which D leaves, and the sum of squares: balance is best."""
     across, back = np.abs(matrix[:, 0, 1]), np.abs(matrix[:, 1, 0])
     balanced = matrix.copy()
     balanced[:, 0, 1] = np.sqrt(across * back) * np.exp(1j * np.angle(matrix[:, 0, 1]))
@@ -164,7 +164,7 @@ def _expansion(
     gradient = np.sum(weight[:, None] * first[:, :, diagonal, diagonal].real, axis=2) / total
 
     def traces(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """Re tr(one_k other_l) for all pairs of channels."""
+        """Return Re tr(one_k other_l) for all pairs of channels."""
         flat = other.swapaxes(2, 3).reshape(n, channels, -1).swapaxes(1, 2)
         return (one.reshape(n, channels, -1) @ flat).real
 

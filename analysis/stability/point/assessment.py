@@ -51,10 +51,10 @@ def assess(
     include: Sequence[float] = (),
     slower: Callable[[float], int] = lambda _: 0,
 ) -> Assessment:
-    """All margins between ``low`` and ``high`` (rad/s); ``undamped`` and ``include`` as in `classical`.
+    """Find all margins between ``low`` and ``high`` (rad/s); ``undamped`` and ``include`` as in `classical`.
 
-    ``slower`` says how many unstable open-loop poles lie below a frequency: encirclements counted from there on take
-    them as integrators, so it is begun below them where that can be resolved.
+    ``slower`` counts unstable open-loop poles below a frequency: encirclements counted from there on take them as
+    integrators, so it is begun below them where that can be resolved.
     """
     response = cache_response(response)
     notes: dict[str, str] = {}

@@ -91,9 +91,9 @@ class Bench:
         return self.period * self.prepared.step
 
     def fly(self, first: int, last: int, excitation: np.ndarray | None = None) -> dict[str, np.ndarray]:
-        """Signals at points first + 1 to last (from 0 on with ``first`` -1). Raises StudyError.
+        """Simulate signals at points first + 1 to last (from 0 on with ``first`` -1). Raises StudyError.
 
-        ``excitation`` [r, connectors] begins at the operating point or, behind it, at ``first`` + 1.
+        ``excitation`` [r, connectors] begins at the operating point or, after it, at ``first`` + 1.
         """
         added = np.zeros((0, len(self.connectors))) if excitation is None else excitation
         if first < 0 and added.size:
@@ -117,7 +117,7 @@ class Bench:
         return [self.connectors.index(name) for name in channel.connectors]
 
     def _hyperperiod(self) -> int:
-        """In communication points."""
+        """Return the hyperperiod in communication points."""
         step = self.prepared.step
         period = math.lcm(*(channel.period for channel in self.channels), *self.prepared.periods.values())
         for component, fmu in self.prepared.network.fmus.items():

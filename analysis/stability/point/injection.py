@@ -76,7 +76,8 @@ class Injector:
         self._base: dict[str, np.ndarray] = {}
 
     def measure(self) -> Measured:
-        """L with the declared amplitude and with half of it. Raises NotMeasurableError, StudyError, UnstableError."""
+        """Measure L with the declared amplitude and with half of it. Raises NotMeasurableError,
+        StudyError, UnstableError."""
         peak = self.peak()
         value, unexcited = self.spectrum(peak)
         half, _ = self.spectrum(0.5 * peak)
@@ -104,7 +105,7 @@ class Injector:
         return self.signal.signal * (size / float(np.max(abs(self.signal.signal)))), size
 
     def spectrum(self, peak: float) -> tuple[np.ndarray, float]:
-        """L on the lines with a multisine of this largest value, and the largest answer on unexcited lines."""
+        """Measure L on the lines with a multisine of this largest value, and the largest answer on unexcited lines."""
         wave, _ = self.wave(peak)
         window = self.periods * self.samples
         while True:
@@ -151,7 +152,7 @@ class Injector:
         return float(2.0 * np.pi * lines[best] / (probe.samples * self.seconds)), complex(response[0])
 
     def _points(self) -> int:
-        """Communication points behind the operating point that a measurement takes."""
+        """Return the communication points after the operating point that a measurement takes."""
         points = (self._transient + self.periods + 1) * self.samples * self.channel.period
         until = self.bench.point.until
         end = self.bench.time + points * self.bench.prepared.step
@@ -164,7 +165,7 @@ class Injector:
         return points
 
     def _simulate_undisturbed(self) -> dict[str, np.ndarray]:
-        """Signals from the operating point on without anything added."""
+        """Simulate signals from the operating point on without any addition."""
         points = self._points()
         if not self._base or len(next(iter(self._base.values()))) < points:
             try:

@@ -40,7 +40,7 @@ class Jacobian:
         self.ports = tuple(ports)
 
     def _after(self, excitation: np.ndarray | None = None) -> np.ndarray:
-        """Memory, u and v of one flight from the memory as it is now."""
+        """Return memory, u and v of one simulation from the memory as it is now."""
         bench = self.bench
         signals = bench.fly(self.first, self.last, excitation)
         added = np.zeros((bench.period, len(bench.connectors))) if excitation is None else excitation
@@ -87,11 +87,11 @@ class Jacobian:
 
 
 def plateau(column: Callable[[float], np.ndarray], steps: Sequence[float] = STEPS) -> tuple[np.ndarray, np.ndarray]:
-    """Each element of a column at the step where it changes least to the next smaller one, and its value there.
+    """Return each element of a column at the step where it changes least to the next smaller one, and its value there.
 
-    Steps that are too large bend, steps that are too small drown in rounding; in between is a plateau. A pair that
-    is 0 twice counts only where there is no plateau elsewhere: rounding can swallow a change altogether. Of a single
-    step it is the same value twice. Raises StudyError where no step leaves the flight whole.
+    Steps that are too large bend, steps that are too small drown in rounding; in between is a plateau. A pair that is 0
+    twice counts only where there is no plateau elsewhere: rounding can swallow a change altogether. Of a single step it
+    is the same value twice. Raises StudyError where no step leaves the flight whole.
     """
     values: list[np.ndarray] = []
     for step in steps:

@@ -97,7 +97,8 @@ class LiftedModel:
         )
 
     def _shares(self, port: Port) -> np.ndarray:
-        """By cell: the largest relative change of what comes back, at any frequency, per relative change of it."""
+        """Return by cell the largest relative change of the return signal, at any frequency, per relative change of
+        it."""
         fractions = np.zeros(len(self.a))
         identity = np.eye(len(self.a))
         for w in np.geomspace(LOWEST, 1.0, LOOKS) * np.pi / port.seconds:
@@ -130,16 +131,16 @@ class LiftedModel:
         return replace(self, a=a, b=b, cu=cu, cv=cv, names=(), variables={})
 
     def poles(self) -> np.ndarray:
-        """Closed-loop multipliers over the hyperperiod, those at 0 left out, largest first."""
+        """Return closed-loop multipliers over the hyperperiod, those at 0 left out, largest first."""
         values = np.linalg.eigvals(self.lasting.a)
         return values[np.argsort(-abs(values), kind="stable")]
 
     def unstable(self) -> int:
-        """Closed-loop multipliers outside the unit circle."""
+        """Count closed-loop multipliers outside the unit circle."""
         return int(np.sum(abs(self.poles()) > 1.0 + UNIT_CIRCLE))
 
     def open_loops(self, ports: tuple[Port, ...]) -> np.ndarray:
-        """Multipliers with these ports' cuts open and the other loops closed, those at 0 left out."""
+        """Return multipliers with these ports' cuts open and the other loops closed, those at 0 left out."""
         rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
         inside = np.linalg.solve(self.du[np.ix_(rows, rows)], self.cu[rows])
         a = self.a - self.b[:, rows] @ inside
@@ -172,7 +173,7 @@ class LiftedModel:
         return triangle, unitary.conj().T @ self.b, self.cu @ unitary, self.cv @ unitary
 
     def _resolvent(self, z: np.ndarray, right: np.ndarray) -> np.ndarray:
-        """(z - triangle)^-1 right, of shape (states, n), a column for each z: substitution for all z at once."""
+        """Return (z - triangle)^-1 right, of shape (states, n), a column for each z: substitution for all z at once."""
         triangle = self._triangular[0]
         shifted = z - triangle.diagonal()[:, None]
         x = np.array(right, dtype=complex)
@@ -184,7 +185,7 @@ class LiftedModel:
         return x
 
     def response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> np.ndarray:
-        """L, minus the transfer from what goes in to what comes back, (n, m, m); other loops closed."""
+        """Return L, minus the transfer from the input to the return signal, (n, m, m); other loops closed."""
         u, v = self.disturbance_response(ports, np.asarray(frequency, dtype=float))
         return -np.linalg.solve(np.swapaxes(u, 1, 2), np.swapaxes(v, 1, 2)).swapaxes(1, 2)
 

@@ -34,11 +34,11 @@ def element_report(
     high: float,
     prepare: Callable[[Layer], PreparedSystem],
 ) -> Nonlinearity:
-    """Harmonic balance of an element at a cut with the linear rest of the loop, L = ``response``.
+    """Report the harmonic balance of an element at a cut with the linear rest of the loop, L = ``response``.
 
     ``prepare`` gives the system with the element's own layer, in which its limit cycle is simulated: amplitude and
-    period are read at what comes back to the cut, integrated where N is of the integral.
-    Raises InputError for parameters that the element cannot have.
+    period are read at the signal that returns to the cut, integrated where N is of the integral. Raises InputError for
+    parameters that the element cannot have.
     """
     try:
         parameters = complete_parameters(element.kind, element.parameters)

@@ -54,7 +54,7 @@ class LoopStudy:
         self.nyquist = np.pi / self.seconds
 
     def measure(self) -> None:
-        """Frequency-response test, from well below the crossover on."""
+        """Run the frequency-response test, from well below the crossover on."""
         try:
             if self.model is not None:
                 self._measure_from(LINES_FROM * self.model.lowest)
@@ -264,7 +264,7 @@ class LoopStudy:
         return replace(self.measured, curve=self.refined, lines=len(self.refined.frequency))
 
     def _step(self, assessment: Assessment) -> tuple[np.ndarray, np.ndarray]:
-        """Response of T, what comes back over what is added, to a step at the cut."""
+        """Return the response of T, the return signal over the addition, to a step at the cut."""
         assert self.model is not None
         crossings = [crossing.frequency for crossing in assessment.classical.phase]
         length = STEP_LENGTH / min(crossings, default=self.nyquist) * 2.0 * np.pi / 4.0
@@ -279,7 +279,7 @@ class LoopStudy:
         return np.arange(periods * port.count) * self.seconds, np.concatenate(values)
 
     def amplitudes(self, frequency: float) -> tuple[tuple[AmplitudePoint, ...], float] | None:
-        """L on the measured line nearest to a frequency (rad/s), over the amplitude of what is added."""
+        """Measure L on the measured line nearest to a frequency (rad/s), over the amplitude of the addition."""
         if self.injector is None or self.measured is None:
             return None
         peak = self.injector.peak()

@@ -24,7 +24,7 @@ ADDS_UP = 1e-6  # from 1: a cell that depends on itself so nearly only adds up, 
 
 
 def modes(model: LiftedModel, port: Port) -> tuple[Mode, ...]:
-    """All modes of a reduced model that last, largest multiplier first."""
+    """Return all modes of a reduced model that last, largest multiplier first."""
     lasting = model.lasting
     if not lasting.a.size:
         return ()
@@ -59,7 +59,7 @@ def _mode(z: complex, period: float, kind: str, controllability: float, observab
 
 
 def structure(model: LiftedModel, port: Port, states: int) -> Structure:
-    """Ranks of [b, ab, a2b, ...] and of its dual over as many periods as there are states."""
+    """Return ranks of [b, ab, a2b, ...] and of its dual over as many periods as there are states."""
     lasting = model.lasting
     controllable = _rank(lasting.a, lasting.b[:, port.rows])
     observable = _rank(lasting.a.T, lasting.cu[port.rows].T)
@@ -103,6 +103,6 @@ def circles(matrix: np.ndarray) -> list[np.ndarray]:
 
 
 def multipliers(matrix: np.ndarray, cells: np.ndarray) -> np.ndarray:
-    """Eigenvalues of a block, largest first."""
+    """Return eigenvalues of a block, largest first."""
     values = np.linalg.eigvals(matrix[np.ix_(cells, cells)])
     return values[np.argsort(-abs(values), kind="stable")]

@@ -24,7 +24,8 @@ NEGLIGIBLE = 1e-11  # relative size of singular values that carry no information
 
 
 def open_loop(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
-    """L of some ports with one sample period, their cuts open, other loops closed; ``model`` is reduced for them.
+    """Return L of some ports with one sample period, their cuts open, other loops closed; ``model`` is reduced for
+    them.
 
     At the ports' own sample period where they do not change from sample to sample, else lifted over the hyperperiod.
     """
@@ -64,7 +65,7 @@ def _open(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
 
 
 def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
-    """One state space for all samples, as far as there is one; its error says whether."""
+    """Return one state space for all samples, as far as there is one; its error says so."""
     count, states = len(ports), len(lifted.a)
     blocks = [lifted.c]
     for _ in range(1 + -(-states // len(lifted.c))):
@@ -92,7 +93,7 @@ def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, 
 
 
 def _waves(lifted: StateSpace, ports: tuple[Port, ...], frequency: np.ndarray) -> np.ndarray:
-    """L of a lifted open loop (n, m, m): the mean of what answers at the frequency of exp(jwt)."""
+    """Return L of a lifted open loop (n, m, m): the mean of the answers at the frequency of exp(jwt)."""
     count = len(ports)
     wave = np.exp(1j * ports[0].seconds * np.outer(frequency, np.arange(lifted.samples)))
     blocks = lifted.response(frequency).reshape(-1, lifted.samples, count, lifted.samples, count)

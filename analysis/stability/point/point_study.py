@@ -48,7 +48,7 @@ class PointStudy:
         return self.bench.channels
 
     def linearise(self, cells: Sequence[int] | None = None, steps: Sequence[float] = STEPS) -> None:
-        """Linearisation, or why it cannot be taken; ``cells`` and ``steps`` as in `linearise`."""
+        """Linearise, or note why it is impossible; ``cells`` and ``steps`` as in `linearise`."""
         try:
             self._start = OperatingPoint(self.bench)
             self.linear = linearise(self._start, cells, steps)
@@ -56,7 +56,7 @@ class PointStudy:
             self.why_not = str(error)
 
     def model(self, channel: Channel) -> LoopModel | None:
-        """Linearisation of one channel; None where there is none."""
+        """Return the linearisation of one channel; None where there is none."""
         if self.linear is None:
             return None
         if channel.name not in self._models:
@@ -65,7 +65,7 @@ class PointStudy:
         return self._models[channel.name]
 
     def margins(self, states: Sequence[int], names: Sequence[str]) -> list[Margins]:
-        """Margins of channels by name where the memory that matters is known. Raises StudyError."""
+        """Return margins of channels by name where the memory that matters is known. Raises StudyError."""
         self.linearise(states, ONE_STEP)
         if self.linear is None:
             raise StudyError(self.why_not)
@@ -119,7 +119,7 @@ class PointStudy:
         return worst
 
     def joint(self, loop: Loop, limits: Limits) -> JointReport | None:
-        """All channels of a loop at once, None where it has one, or no linear model.
+        """Report all channels of a loop at once, None where it has one, or no linear model.
 
         Raises StudyError where the margin is not resolved over frequency.
         """

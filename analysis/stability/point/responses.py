@@ -97,9 +97,9 @@ class LoopModel:
         return _blur(self.facts.plateau)
 
     def lightly_damped(self) -> tuple[list[float], list[float]]:
-        """Frequencies (rad/s) of undamped and of lightly damped open-loop poles.
+        """Return frequencies (rad/s) of undamped and of lightly damped open-loop poles.
 
-        Where the loop has several samples a hyperperiod, a multiplier tells the frequency of slow poles only.
+        Where the loop has several samples a hyperperiod, a multiplier determines the frequency of slow poles only.
         """
         angle = np.angle(self.poles_open)
         maximum = np.pi if self.port.count == 1 else SLOW_ANGLE
@@ -185,7 +185,7 @@ def agreement(response: Response, measured: Measured, sample_period: float) -> A
 
 
 def disagreement(compared: Agreement, a: Linearised, b: Measured) -> str:
-    """Why linearised and measured responses differ, as far as each knows of itself."""
+    """Return the reason for different linearised and measured responses, as far as each knows of itself."""
     reasons = []
     if a.plateau > DOUBTFUL:
         names = ", ".join(a.doubtful)

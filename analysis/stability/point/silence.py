@@ -64,7 +64,8 @@ def silence_of(
 def _disturb(
     bench: Bench, channel: Channel, samples: np.ndarray, names: list[str]
 ) -> tuple[float | None, dict[str, bool] | None]:
-    """By what factor a sample an output parts from the undisturbed flight, and of all outputs whether they do."""
+    """Return the factor per sample by which an output departs from the undisturbed simulation, and if each output
+    does."""
     added = np.repeat(samples, channel.period)
     last = bench.origin + added.size
     with suppress(StudyError):

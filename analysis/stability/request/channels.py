@@ -118,7 +118,7 @@ def channels_of(loop: Loop, network: Network, step: float) -> list[Channel]:
 
 
 def _period(loop: Loop, network: Network, step: float, where: str) -> int:
-    """In communication points."""
+    """Return the sample period in communication points."""
     if loop.period is None:
         return 1
     period = round(loop.period / step)

@@ -141,7 +141,8 @@ def _remaining(layer: Layer, options: SystemOptions) -> Layer:
 
 
 def _shift(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
-    """Points with the settings of declared ones at other times. Raises InputError where one lies behind their end."""
+    """Return points with the settings of declared ones at other times. Raises InputError where one is after their
+    end."""
     shifted = []
     for point in points:
         for time in at:
@@ -161,7 +162,7 @@ def _name_at(point: str, time: float) -> str:
 
 
 def _values_of_trial(plan: BatchPlan, options: SystemOptions, trial: int) -> SystemOptions:
-    """Options with the draws of one trial as settings, over the campaign's own and below the user's."""
+    """Return options with the draws of one trial as settings, over the campaign's own and below the user's."""
     if not 0 <= trial < plan.campaign.trials:
         problem = f"the campaign has trials 0 to {plan.campaign.trials - 1}"
         raise InputError("`trial`", str(trial), problem, "give one of them")
@@ -180,7 +181,7 @@ class Subject:
     fmus: dict[str, Fmu] = field(default_factory=dict)
 
     def with_options(self, *, step: float | None = None, **layers: Layer) -> Subject:
-        """With another communication step (s), and with what others ask, by the names of `LAYERS`."""
+        """Return the subject with another communication step (s), and further options by the names of `LAYERS`."""
         options = self.options.among(**layers)
         return replace(self, options=options if step is None else options.but(step=step))
 

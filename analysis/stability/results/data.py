@@ -77,7 +77,7 @@ def _assumption(orders: Orders) -> str:
 
 
 def _loop(loop: LoopReport, time: float) -> dict[str, object]:
-    """One channel at a point of this time (s)."""
+    """Return one channel at a point of this time (s)."""
     curves = {name: (frequency, value) for name, frequency, value in _curves(loop)}
     empty = np.zeros(0), np.zeros(0, dtype=complex)
     linearised, measured = (curves.get(name, empty) for name in (LINEARISED, MEASURED))
@@ -116,7 +116,7 @@ def _joint(joint: JointReport, time: float) -> dict[str, object]:
 
 
 def _fill_unknown(facts: Mapping[str, float | str | None]) -> dict[str, float | str]:
-    """Margins for files that have no null."""
+    """Return margins for files that have no null."""
     return {key: "not known" if value is None else value for key, value in facts.items()}
 
 
@@ -166,7 +166,7 @@ def _table(report: StabilityReport) -> str:
 
 
 def _plain(value: object) -> object:
-    """Arrays for JSON; complex numbers are [real, imaginary]."""
+    """Return arrays for JSON; complex numbers are [real, imaginary]."""
     if isinstance(value, np.ndarray):
         return np.stack([value.real, value.imag], axis=-1).tolist() if np.iscomplexobj(value) else value.tolist()
     raise TypeError(type(value).__name__)

@@ -190,7 +190,7 @@ class StabilityReport:
     orders: Orders | None = None
 
     def judgements(self) -> Iterator[Judged]:
-        """Everything that is judged, with where it belongs."""
+        """Yield every requirement, with its loop."""
         for loop in self.loops:
             for requirement in loop.judged:
                 yield Judged(loop, requirement)

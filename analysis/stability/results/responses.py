@@ -105,7 +105,7 @@ class StateSpace:
     error: float
 
     def response(self, frequency: np.ndarray) -> np.ndarray:
-        """y over u at angular frequencies (rad/s, shape (n,)): shape (n, outputs, inputs)."""
+        """Return y over u at angular frequencies (rad/s, shape (n,)): shape (n, outputs, inputs)."""
         z = np.exp(1j * self.period * np.asarray(frequency, dtype=float))
         shifted = z[:, None, None] * np.eye(len(self.a)) - self.a
         return self.c @ np.linalg.solve(shifted, self.b.astype(complex)[None]) + self.d

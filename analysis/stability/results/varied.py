@@ -49,7 +49,7 @@ class Dispersion:
         return np.array([item.size(quantity) for item in self.margins])
 
     def levels(self, quantity: Quantity) -> dict[str, float]:
-        """Least, 5 % and median over all trials: order statistics, so each is the margin of a trial."""
+        """Return least, 5 % and median over all trials: order statistics, so each is the margin of a trial."""
         sizes = [item.size(quantity) for item in self.margins]
         return {name: order_statistic(sizes, level) for name, level in LEVELS.items()}
 

@@ -29,14 +29,15 @@ def significant_digits(low: float, high: float) -> int:
 
 
 def binomial_interval(failures: int, samples: int, confidence: float) -> Interval:
-    """Clopper and Pearson's interval, of independent samples."""
+    """Return Clopper and Pearson's interval, of independent samples."""
     ends = binomtest(failures, samples).proportion_ci(confidence, method="exact")
     fraction = failures / samples
     return Interval(float(ends.low), float(ends.high), float(np.sqrt((1.0 - fraction) / (fraction * samples))))
 
 
 def fractional_interval(failures: float, samples: float, confidence: float) -> Interval:
-    """Clopper and Pearson's interval of numbers of failures and samples that need not be whole: effective ones."""
+    """Return Clopper and Pearson's interval of numbers of failures and samples that need not be whole: effective
+    ones."""
     outside = (1.0 - confidence) / 2.0
     low = float(beta.ppf(outside, failures, samples - failures + 1.0)) if failures > 0.0 else 0.0
     high = float(beta.ppf(1.0 - outside, failures + 1.0, samples - failures)) if failures < samples else 1.0

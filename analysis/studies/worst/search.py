@@ -121,7 +121,8 @@ def _evolve(counted: _Counted, points: np.ndarray, values: np.ndarray, random: n
 
 
 def _corners(points: np.ndarray, values: np.ndarray, most: int, random: np.random.Generator) -> np.ndarray:
-    """All corners (corners, dimensions) of the cube if they are no more than ``most``; else half as many of them.
+    """Return all corners (corners, dimensions) of the cube if they are no more than ``most``; else half as many of
+    them.
 
     Those are the one that a plane through the known values rises to, and others at random.
     """
@@ -146,7 +147,7 @@ def _to_ends(counted: _Counted) -> None:
 
 
 def _climb(counted: _Counted) -> None:
-    """From the best point, with the evaluations that are left."""
+    """Climb from the best point, with the remaining evaluations."""
 
     def badly(point: np.ndarray) -> float:
         return -float(counted(point[np.newaxis])[0])

@@ -198,7 +198,7 @@ class _Points:
         return rows[:, 0] if self.over is None or count == 1 else self.over.objective(rows)
 
     def leave_out_noise_without_effect(self) -> None:
-        """After the random trials: one realisation is enough where noise has not changed a value of any."""
+        """Set one realisation after the random trials, where noise has not changed a value of any."""
         if self.realisations > 1:
             self.effect = self._varied
             self.realisations = self.realisations if self._varied else 1

@@ -126,7 +126,8 @@ def _check_sources(component: str, fmu: Fmu, block_class: type[Block]) -> None:
 
 
 def _members(block_class: type[Block]) -> dict[str, dict[str, str]]:
-    """By variable, the member of the struct by the name of its FMI variable: ``position[1]`` is ``position.x[0]``."""
+    """Return by variable the member of the struct by the name of its FMI variable:
+    ``position[1]`` is ``position.x[0]``."""
     members: dict[str, dict[str, str]] = {}
     for name, variable in block_class.variables.items():
         places = [member(variable, index) for index in range(variable.size)]

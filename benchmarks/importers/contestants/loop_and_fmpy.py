@@ -56,7 +56,7 @@ class _Unit:
 
 
 def prepare_calls(course: Course) -> Fly:
-    """One setReal, doStep and getReal per FMU and step, in the order of our sequential algorithm."""
+    """Prepare one setReal, doStep and getReal per FMU and step, in the order of our sequential algorithm."""
     prepared = course.prepared
     places: dict[str, int] = {}
     for component in prepared.network.fmus:

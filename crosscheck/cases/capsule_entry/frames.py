@@ -10,7 +10,7 @@ X, Y, Z = np.eye(3)
 def to_inertial(
     time: np.ndarray, geocentric: np.ndarray, motion: np.ndarray, attitude: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Position (m), velocity (m/s), quaternion from body to inertial, each with a column per time (s).
+    """Return position (m), velocity (m/s), quaternion from body to inertial, each with a column per time (s).
 
     Rows: radius, longitude, latitude; speed, flight-path angle, heading over the Earth; bank, sideslip, angle of
     attack.
@@ -28,7 +28,7 @@ def to_inertial(
 
 
 def _then(first: np.ndarray, angle: np.ndarray, axis: np.ndarray) -> np.ndarray:
-    """Quaternions [4, n], scalar first, followed by rotations by angles (rad) about an axis of their frame."""
+    """Return quaternions [4, n], scalar first, followed by rotations by angles (rad) about an axis of their frame."""
     a, u = first[0], first[1:]
     b, v = np.cos(0.5 * angle), axis[:, None] * np.sin(0.5 * angle)
     return np.vstack([a * b - np.sum(u * v, axis=0), a * v + b * u + np.cross(u, v, axis=0)])

@@ -6,7 +6,7 @@ from crosscheck.table import Table
 
 
 def simulate(step: float) -> Table:
-    """No jets, rotors without momentum."""
+    """Simulate without jets, rotors without momentum."""
     parameters = {
         "inertia": list(INERTIA),
         "rotor_momentum": 0.0,

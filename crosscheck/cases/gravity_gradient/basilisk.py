@@ -19,7 +19,8 @@ from crosscheck.table import Table
 
 
 def fly(step: float) -> Table:
-    """On a circle in the frame of the start: x along the velocity, y away from the centre, z against the momentum."""
+    """Simulate on a circle in the frame of the start: x along the velocity, y away from the
+    centre, z against the momentum."""
     flight = Flight(step)
     flight.attract(MU)
     flight.set_inertia([list(row) for row in INERTIA])
@@ -41,7 +42,7 @@ def fly(step: float) -> Table:
 
 
 def _torque(time: float) -> np.ndarray:
-    """Torque (N m, body) of the jets at a time (s)."""
+    """Return torque (N m, body) of the jets at a time (s)."""
     total = np.zeros(3)
     for start, lengths in PULSES:
         burning = (time > start) & (time < start + np.abs(lengths))

@@ -17,7 +17,7 @@ from crosscheck.table import Table
 
 
 def simulate(step: float) -> Table:
-    """Its angles turned into attitudes in the inertial frame that the orbital one is at the start."""
+    """Simulate; convert its angles to attitudes in the inertial frame that the orbital one is at the start."""
     times = np.array([0.0, *(start for start, _ in PULSES), CASE.duration])
     lengths = np.array([(0.0, 0.0, 0.0), *(each for _, each in PULSES), PULSES[-1][1]])
     count = np.array([0, *(number + 1 for number in range(len(PULSES))), len(PULSES)])

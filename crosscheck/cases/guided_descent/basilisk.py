@@ -34,7 +34,7 @@ class Guidance(sysModel.SysModel):
         self.engine.extForce_N = column(MASS * (self.thrust(time + 0.5 * self.length) - GRAVITY * UP))
 
     def thrust(self, time: float) -> np.ndarray:
-        """Thrust acceleration (m/s2) at a time (s)."""
+        """Return thrust acceleration (m/s2) at a time (s)."""
         size, since = self.fmu.read("thrust_acceleration", "command_time")
         along = self.fmu.read_vector("thrust_direction")
         along = along + (time - since) * self.fmu.read_vector("thrust_direction_rate")

@@ -7,7 +7,7 @@ from crosscheck.table import Table
 
 
 def simulate(step: float) -> Table:
-    """Guidance, allocation and plant in closed loop."""
+    """Simulate guidance, allocation and plant in closed loop."""
     flight = perilune.simulate(
         "lunar_terminal_guidance",
         step=step,

@@ -6,7 +6,7 @@ from crosscheck.table import Table
 
 
 def fly(step: float) -> Table:
-    """Gravity of a point mass and its gradient."""
+    """Simulate gravity of a point mass and its gradient."""
     flight = begin_in_gradient(case, step)
     flight.run(case.CASE.duration)
     return flight.table()

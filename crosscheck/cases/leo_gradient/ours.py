@@ -7,5 +7,5 @@ from crosscheck.table import Table
 
 
 def simulate(step: float) -> Table:
-    """Gravity of a point mass alone."""
+    """Simulate gravity of a point mass alone."""
     return fly("spacecraft", step, case.CASE.duration, in_gradient(case, step), OUTPUTS)

@@ -18,7 +18,7 @@ def handed_over(step: float) -> dict:
 
 
 def simulate(step: float) -> Table:
-    """Areas larger by the ratio of the solar constants, coefficients of drag smaller by it."""
+    """Simulate areas larger by the ratio of the solar constants, coefficients of drag smaller by it."""
     rows = [
         (LARGER * area, *others, coefficient / LARGER, specular, diffuse)
         for area, *others, coefficient, specular, diffuse in PLATES

@@ -7,7 +7,7 @@ from crosscheck.table import Table
 
 
 def fly(step: float, given: dict) -> Table:
-    """Gravity alone."""
+    """Simulate gravity alone."""
     flight = Flight(step)
     flight.start(START, SPEED)
     surround(flight, given, step, DEGREE)

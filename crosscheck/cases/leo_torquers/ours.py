@@ -18,7 +18,7 @@ def handed_over(step: float) -> dict:
 
 
 def simulate(step: float) -> Table:
-    """Dipoles that change between steps."""
+    """Simulate dipoles that change between steps."""
     times = np.array([*(time for time, _ in COMMANDS), CASE.duration])
     dipoles = np.array([*(each for _, each in COMMANDS), COMMANDS[-1][1]])
     segment = np.repeat(np.arange(times.size - 1), 2)

@@ -7,7 +7,7 @@ from crosscheck.table import Table
 
 
 def fly(step: float, given: dict) -> Table:
-    """Coefficients of higher order than 0 are 0."""
+    """Simulate gravity whose coefficients of higher order than 0 are 0."""
     zonal: list[float] = []
     for n in range(2, DEGREE + 1):
         first = n * (n + 1) - 6  # numbers of the degrees before

@@ -15,7 +15,7 @@ def handed_over(step: float) -> dict:
 
 
 def simulate(step: float) -> Table:
-    """Gravity alone."""
+    """Simulate gravity alone."""
     parameters = {
         **GRAVITY_ALONE,
         "gravity_degree": DEGREE,

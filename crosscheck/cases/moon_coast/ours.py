@@ -6,7 +6,7 @@ from crosscheck.table import Table
 
 
 def simulate(step: float) -> Table:
-    """Without a command the lander coasts."""
+    """Simulate a coast: the lander has no command."""
     parameters = {
         "initial_position": [0.0, 0.0, APOAPSIS - RADIUS],
         "initial_velocity": [SPEED, 0.0, 0.0],

@@ -40,7 +40,7 @@ def fly(step: float) -> Table:
 
 
 def _gyro(axis: np.ndarray, angle: float, rate: float) -> object:
-    """Balanced, without limits, with a gimbal axis (body), and a spin axis along x at the angle 0."""
+    """Return a balanced gyro without limits, with a gimbal axis (body), and a spin axis along x at the angle 0."""
     gyro = vscmgStateEffector.VSCMGConfigMsgPayload()
     gyro.VSCMGModel = vscmgStateEffector.vscmgBalancedWheels
     gyro.gsHat0_B, gyro.gtHat0_B, gyro.ggHat_B = column(SPIN), column(np.cross(axis, SPIN)), column(axis)

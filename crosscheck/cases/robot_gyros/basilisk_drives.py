@@ -39,7 +39,7 @@ class Drives(sysModel.SysModel):
         return np.array(self.craft.dynManager.getStateObject(name).getState()).flatten()
 
     def UpdateState(self, now: int) -> None:  # noqa: N802
-        """Torques of the step that begins at this time (ns)."""
+        """Write torques of the step that begins at this time (ns)."""
         length, angles = self.length, ANGLES + RATES * now * TO_SECONDS
         lag = angles - self.state("VSCMGGammas")
         self.correction = 2.5 * lag - 1.5 * self.lag - 0.75 * self.correction
@@ -58,13 +58,13 @@ class Drives(sysModel.SysModel):
 
 
 def axes(angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Spin axes (body) at gimbal angles (rad), and their derivatives by these."""
+    """Return spin axes (body) at gimbal angles (rad), and their derivatives by these."""
     spin = np.cos(angles)[:, None] * SPIN + np.sin(angles)[:, None] * np.cross(GIMBAL_AXES, SPIN)
     return spin, np.cross(GIMBAL_AXES, spin)
 
 
 def acceleration(rate: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    """Angular acceleration (rad/s2, body) that the drives expect."""
+    """Return angular acceleration (rad/s2, body) that the drives expect."""
     spin, across = axes(angles)
     momentum = INERTIA * rate + ROTOR_MOMENTUM * spin.sum(axis=0)
     return -(np.cross(rate, momentum) + ROTOR_MOMENTUM * RATES @ across) / INERTIA

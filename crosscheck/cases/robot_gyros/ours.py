@@ -17,7 +17,7 @@ from crosscheck.table import Table
 
 
 def simulate(step: float) -> Table:
-    """No jets; gimbal rates commanded once."""
+    """Simulate without jets; gimbal rates commanded once."""
     parameters = {
         "mass": MASS,
         "inertia": list(INERTIA),

@@ -20,7 +20,7 @@ from crosscheck.table import Table
 
 
 def fly(step: float) -> Table:
-    """Thrusters of a constant mass, commanded once."""
+    """Simulate thrusters of a constant mass, commanded once."""
     flight = Flight(step)
     flight.set_inertia([[INERTIA[0], 0.0, 0.0], [0.0, INERTIA[1], 0.0], [0.0, 0.0, INERTIA[2]]], MASS)
     flight.start((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), to_mrp(QUATERNION), ANGULAR_VELOCITY)

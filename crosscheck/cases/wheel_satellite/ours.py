@@ -20,7 +20,7 @@ from crosscheck.table import Table
 
 
 def simulate(step: float) -> Table:
-    """No limits of torque and speed."""
+    """Simulate without limits of torque and speed."""
     times = np.array([*(time for time, _ in COMMANDS), CASE.duration])
     torques = np.array([*(each for _, each in COMMANDS), COMMANDS[-1][1]])
     segment = np.repeat(np.arange(times.size - 1), 2)

@@ -27,7 +27,7 @@ from crosscheck.table import Table
 
 
 def fly(amplitude: float) -> Table:
-    """Spring W^2 Ih, damper 2 zeta W Ih; first axis of a hinge inwards, second the hinge's."""
+    """Swing with spring W^2 Ih, damper 2 zeta W Ih; first axis of a hinge inwards, second the hinge's."""
     panels = []
     for hinge, outwards, frequency, damping in zip(HINGES, OUTWARDS, FREQUENCY, DAMPING, strict=True):
         axes = np.array([-outwards, AXIS, np.cross(-outwards, AXIS)])

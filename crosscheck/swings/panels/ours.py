@@ -23,7 +23,8 @@ from crosscheck.table import Table
 
 
 def simulate(amplitude: float) -> Table:
-    """Participation m d/root(Ih) in translation, (Is a + m s x d)/root(Ih) in rotation, d the velocity by the rate."""
+    """Swing with participation m d/root(Ih) in translation, (Is a + m s x d)/root(Ih) in
+    rotation, d the velocity by the rate."""
     root = np.sqrt(ABOUT_HINGE)
     velocities = ARM * np.cross(AXIS, OUTWARDS)
     rotation = (PANEL_INERTIA @ AXIS + PANEL * np.cross(CENTRES, velocities)) / root

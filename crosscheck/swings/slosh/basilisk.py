@@ -22,7 +22,7 @@ from crosscheck.table import Table
 
 
 def fly(amplitude: float) -> Table:
-    """Spring W^2 m, damper 2 zeta W m."""
+    """Swing with spring W^2 m, damper 2 zeta W m."""
     particles = []
     for mass, position, along, frequency, damping in zip(PARTICLES, POSITIONS, ALONG, FREQUENCY, DAMPING, strict=True):
         particle = linearSpringMassDamper.LinearSpringMassDamper()

@@ -19,7 +19,7 @@ from crosscheck.table import Table
 
 
 def simulate(amplitude: float) -> Table:
-    """Participation root(m) p in translation, root(m) s x p in rotation."""
+    """Swing with participation root(m) p in translation, root(m) s x p in rotation."""
     root = np.sqrt(PARTICLES)
     modes = (FREQUENCY, DAMPING, root[:, None] * ALONG, root[:, None] * np.cross(POSITIONS, ALONG), root)
     return swing_plant(modes, (MASS, INERTIA), (amplitude * FORCE, amplitude * TORQUE), CASE.step, CASE.duration)

@@ -34,7 +34,7 @@ Curve = tuple[np.ndarray, np.ndarray]  # position errors (m), descending, and ve
 
 
 def simulate_methods() -> dict[str, Curve]:
-    """Errors of each method over its flight."""
+    """Simulate each method; return the errors over its flight."""
     return {
         method: _errors(simulate(SYSTEM, parameters=["paper.ssv"], use={"guidance": fmu}))
         for method, fmu in METHODS.items()
@@ -56,7 +56,7 @@ def largest_difference(curve: Curve, other: Curve, nearest: float, farthest: flo
 
 
 def portrait_figure(curves: Mapping[str, Curve]) -> Figure:
-    """Velocity error over position error, and how far that of each method is from that of A*."""
+    """Draw velocity error over position error, and the distance of each method's from that of A*."""
     figure = new_figure(3.2, 8.6)
     portrait, difference = figure.subplots(1, 2)
     reference = curves["A*"]

@@ -25,7 +25,7 @@ SIZE = (2.6, 3.6)  # in
 
 
 def duration_figure() -> Figure:
-    """Propellant of the programme over its duration t7: figure 3."""
+    """Draw propellant of the programme over its duration t7: figure 3."""
     figure = new_figure(*SIZE)
     axes = figure.subplots()
     _plot(axes, DURATIONS, [find_programme(HOVER_VEHICLE, HOVER_TRANSFER, float(value)) for value in DURATIONS], 0, "")
@@ -36,7 +36,7 @@ def duration_figure() -> Figure:
 
 
 def distance_figure() -> Figure:
-    """Least propellant over the distance of the end: figure 7, with the turn in free fall."""
+    """Draw least propellant over the distance of the end: figure 7, with the turn in free fall."""
     figure = new_figure(*SIZE)
     axes = figure.subplots()
     programmes = [_programme(float(value)) for value in DISTANCES]

@@ -42,7 +42,7 @@ def cluster(address: str | None, *, workers: int | None = None, engine: str | No
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Without the lines of distributed: what is wrong is said in one, by us."""
+    """Silence the lines of distributed: errors are reported in one line, by us."""
     logs = [logging.getLogger(name) for name in LOGS]
     levels = [log.level for log in logs]
     for log in logs:

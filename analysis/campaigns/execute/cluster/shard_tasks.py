@@ -150,7 +150,7 @@ def _itself(sent: Any) -> Any:
 
 
 def _what_ends_them(tasks: Sequence[Task]) -> str:
-    """In words, of tasks of one trial each."""
+    """Name the causes in words, of tasks of one trial each."""
     names = [f"trial {task[0].trials[0]} of {task[0].variant}" for task in tasks]
     more = f" and {len(names) - 1} more" if len(names) > 1 else ""
     return f"workers end again and again with {names[0]}{more}"

@@ -61,7 +61,7 @@ class Connections:
         return [[term for link in group for term in self._terms(link)] for group in self._groups]
 
     def arrays(self) -> dict[str, np.ndarray]:
-        """Slots, transformations and tables of all connections, as fields of the loop's program."""
+        """Return slots, transformations and tables of all connections, as fields of the loop's program."""
         links = [term for group in self._groups for link in group for term in (link, *link.added)]
         tables = [numbers(self._network, link) + _remainder(link) for link in links]
         firsts = np.cumsum([0, *(len(table) for table in tables)])

@@ -66,7 +66,7 @@ class Fmi2Orders:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 
     def set(self, begun: int, *, started: bool) -> None:
-        """All inputs; rows from ``begun`` on are what carries their values there."""
+        """Set all inputs; rows from ``begun`` on carry their values there."""
         for name in ("SetReal", "SetInteger", "SetBoolean"):
             stretch = self._ranges[FUNCTION[name]]
             if stretch[1]:
@@ -91,7 +91,7 @@ class Fmi2Orders:
             self._rows.inject(self._ranges[FUNCTION[name]])
 
     def get(self) -> None:
-        """All outputs."""
+        """Get all outputs."""
         for name in ("GetReal", "GetInteger", "GetBoolean"):
             stretch = self._ranges[FUNCTION[name]]
             if stretch[1]:
@@ -111,7 +111,7 @@ class Fmi2Orders:
         self._call(codes.STEP, "DoStep", (0, count))
 
     def reset(self) -> None:
-        """Back to the state after instantiation, its flight ended."""
+        """Reset to the state after instantiation, the flight ended."""
         self._call(codes.MODE, "Terminate")
         self._call(codes.MODE, "Reset")
 
@@ -130,7 +130,7 @@ class Fmi2Orders:
         self._parameters(3)
 
     def _parameters(self, column: int) -> None:
-        """Parameters: column 1 of their ranges sets them, 2 sets them again, 3 reads them back."""
+        """Call parameters: column 1 of their ranges sets them, 2 sets them again, 3 reads them back."""
         for ranges, (setter, getter) in zip(self._parameter_ranges, PARAMETER_CALLS, strict=True):
             first, count = ranges[0], ranges[column]
             code, name = getter if column == 3 else setter
@@ -139,7 +139,7 @@ class Fmi2Orders:
                 self._call(code, name, (start, size))
 
     def _give(self, stretch: Stretch, begun: int) -> None:
-        """Reals set on a stretch of slots; in the FMU's own memory where it says where they lie."""
+        """Set Reals on a stretch of slots; in the FMU's own memory where it locates them."""
         runs = self._runs(stretch, "Real", to_set=True)
         rows = self._rows.rows
         moved = with_moves(rows[begun:], runs, self._component, self._instance.address)
@@ -151,7 +151,7 @@ class Fmi2Orders:
             self._exchange(codes.PUT_REAL, runs)
 
     def _take(self, name: str, stretch: Stretch) -> None:
-        """Reals, Integers or Booleans got on slots in a row; of the FMU's own memory where it says where they lie."""
+        """Get Reals, Integers or Booleans on consecutive slots; from the FMU's own memory where it locates them."""
         kind = name.removeprefix("Get")
         call = codes.GET_REAL if kind == "Real" else codes.GET_WHOLE
         runs = self._runs(stretch, kind)

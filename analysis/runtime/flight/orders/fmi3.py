@@ -29,7 +29,7 @@ class Fmi3Orders:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 
     def set(self, begun: int, *, started: bool) -> None:
-        """All inputs; discrete ones in event mode, if that is used and the flight has ``started``."""
+        """Set all inputs; discrete ones in event mode, if that is used and the flight has ``started``."""
         events = self._transfers.discrete if started and self._transfers.uses_events else []
         for transfer in (*self._transfers.inputs, *self._transfers.discrete):
             self._rows.inject(self._table.slots(transfer))
@@ -61,7 +61,7 @@ class Fmi3Orders:
             self._rows.call(codes.MODE, self._component, _mode(name))
 
     def enter_initialization(self) -> None:
-        """Structure, parameters, initialisation mode, parameters."""
+        """Write structure, parameters, initialisation mode, parameters."""
         if self._transfers.structural:
             self._rows.call(codes.MODE, self._component, _mode("EnterConfigurationMode"))
             self._exchange(codes.GIVE_PARAMETERS, codes.SETTERS, self._transfers.structural)
@@ -71,7 +71,7 @@ class Fmi3Orders:
         self._exchange(codes.GIVE_PARAMETERS, codes.SETTERS, self._transfers.repeated)
 
     def exit_initialization(self) -> None:
-        """To step mode, by way of event mode where that is used."""
+        """Enter step mode, by way of event mode where that is used."""
         self._rows.call(codes.MODE, self._component, _mode("ExitInitializationMode"))
         if self._transfers.uses_events:
             self._rows.call(codes.SETTLE, self._component, codes.UPDATE_DISCRETE_STATES)

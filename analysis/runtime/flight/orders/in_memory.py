@@ -40,8 +40,8 @@ def runs_in_memory(
 
 
 def with_moves(rows: Sequence[list[int]], runs: Sequence[Run], component: int, instance: int) -> list[list[int]]:
-    """Instructions that carry values to the slots of these runs, the memory written by them, too; none where that is
-    not done by copies alone."""
+    """Return instructions that carry values to the slots of these runs, and write the memory;
+    none where that takes more than copies."""
     moved = []
     left = sum(run.size for run in runs)
     for row in rows:

@@ -52,7 +52,7 @@ def place_component(network: Network, component: str, exchanged: Exchanged, slot
 
 
 def _by_function(network: Network, component: str, exchanged: Exchanged) -> list[list[Variable]]:
-    """Variables by the function of EXCHANGES that sets or gets them."""
+    """Return variables by the function of EXCHANGES that sets or gets them."""
     variables: list[list[Variable]] = [[] for _ in EXCHANGES]
     for variable in network.fmus[component].variables.values():
         kind = TYPE_KIND.get(variable.type, len(EXCHANGES))
@@ -85,7 +85,7 @@ def _locate_tuned(
 
 
 def _place_recorded(network: Network, component: str, exchanged: Exchanged, slots: Slots) -> list[tuple[int, int, int]]:
-    """Slots of variables that are recorded and not exchanged."""
+    """Return slots of variables that are recorded and not exchanged."""
     if not exchanged.named:
         return []
     fmu = network.fmus[component]

@@ -27,7 +27,7 @@ class TransferPlacing:
     def place(
         self, component: str, transfers: ComponentTransfers, texts: Sequence[Sequence[tuple[Sequence[Variable], int]]]
     ) -> None:
-        """Complete the transfers of a component, whose parameters are there already.
+        """Complete the transfers of a component, whose parameters are placed already.
 
         ``texts`` are its Strings and Binaries with their first rows, inputs and outputs.
         """

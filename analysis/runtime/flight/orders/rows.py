@@ -38,11 +38,11 @@ class Unloaded:
     is_self_contained = True
 
     def function_addresses(self) -> list[int]:
-        """None has an address."""
+        """Return 0 for every function: none has an address."""
         return [0] * len(FUNCTION_NAMES)
 
     def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
-        """Nowhere."""
+        """Return 0: the memory is not accessible."""
         return 0
 
 

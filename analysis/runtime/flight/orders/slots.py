@@ -31,7 +31,7 @@ class Slots:
     bases: dict[tuple[str, str], int] = field(default_factory=dict)
 
     def add(self, name: str, reference: int, initial: float, type_name: str, unit: str | None) -> None:
-        """One more slot."""
+        """Add a slot."""
         self.numbers[name] = len(self.references)
         self.types[name] = type_name
         self.units[name] = unit

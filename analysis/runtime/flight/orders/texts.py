@@ -81,7 +81,7 @@ class Texts:
         return np.array([len(content) for content in self._initial], dtype=np.uint64)
 
     def memory(self) -> arrays.Texts:
-        """Arrays for the loop."""
+        """Return arrays for the loop."""
         count = len(self._references)
         initial = np.zeros((count, self.longest), dtype=np.uint8)
         for row, content in zip(initial, self._initial, strict=True):

@@ -69,7 +69,7 @@ class TransferTable:
         return self.rows[transfer][codes.KIND]
 
     def slots(self, transfer: int) -> tuple[int, int]:
-        """First and count of a transfer's slots; none of texts."""
+        """Return first and count of a transfer's slots; none of texts."""
         row = self.rows[transfer]
         return (row[codes.FIRST_VALUE], row[codes.VALUES]) if row[codes.KIND] < codes.STRING else (0, 0)
 
@@ -103,7 +103,7 @@ def whole(variables: Iterable[Variable], selected: Collection[str]) -> list[Vari
 
 
 def groups(variables: Iterable[Variable]) -> list[list[Variable]]:
-    """Variables by representation."""
+    """Return variables by representation."""
     parted: dict[str, list[Variable]] = {}
     for each in variables:
         parted.setdefault(each.representation.name, []).append(each)

@@ -180,7 +180,7 @@ class _Reader:
         self.system.connections.append(Connection(start, end, False, transformation, line, tuple(added)))
 
     def connect_variables(self, ends: list[etree._Element], connection: etree._Element) -> None:
-        """Two variables, or those of two groups pair by pair in the order of their model descriptions."""
+        """Connect two variables, or those of two groups pair by pair in the order of their model descriptions."""
         sides = [self.points(end) for end in ends]
         if len(sides[0]) != len(sides[1]):
             problem = f"groups of {len(sides[0])} and {len(sides[1])} variables"

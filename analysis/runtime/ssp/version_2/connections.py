@@ -42,7 +42,8 @@ def merge_connections(system: etree._Element, arrays: Arrays) -> None:
 
 
 def _end(connection: etree._Element, side: str, arrays: Arrays) -> tuple[str, str, Shape]:
-    """Element, connector and index of an end of a connection; without an index where it is no element of an array."""
+    """Return element, connector and index of an end of a connection; without an index where it
+    is no element of an array."""
     element, name = connection.get(f"{side}Element", ""), connection.get(f"{side}Connector", "")
     match = ELEMENT.fullmatch(name)
     if match and (element, match["array"]) in arrays:

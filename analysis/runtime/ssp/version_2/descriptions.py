@@ -76,7 +76,7 @@ def _convert_system(system: etree._Element, arrays_of: ArraysOf, bound: list[Bou
 
 
 def _elements(system: etree._Element) -> Iterator[etree._Element]:
-    """Components and systems inside a system."""
+    """Yield components and systems inside a system."""
     elements = child(system, "ssd:Elements")
     for element in elements if elements is not None else ():
         if tag(element) in ("Component", "System"):

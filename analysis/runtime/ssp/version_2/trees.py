@@ -37,7 +37,7 @@ def remove(element: etree._Element) -> None:
 
 
 def group_elements(elements: Iterable[etree._Element], shapes: Mapping[str, Shape]) -> Groups:
-    """Elements of arrays among connectors or parameters, by their names, of those arrays that ``shapes`` has."""
+    """Return elements of arrays among connectors or parameters, by their names, of those arrays that ``shapes`` has."""
     groups: Groups = {}
     for element in elements:
         match = ELEMENT.fullmatch(element.get("name", ""))

@@ -69,7 +69,7 @@ def _connectors(shapes: Shapes, path: str, connectors: Mapping[str, Connector]) 
 
 
 def _connections(description: Description, shapes: Shapes, path: str, connection: Connection) -> list[Connection]:
-    """One connection for each element that one connects, elements of both ends in the order of their indices."""
+    """Return one connection for each element that one connects, elements of both ends in the order of their indices."""
     starts, part = _part(description, shapes, path, connection, connection.start, connection.start_indices)
     ends, other = _part(description, shapes, path, connection, connection.end, connection.end_indices)
     if part != other:

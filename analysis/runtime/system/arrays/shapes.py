@@ -114,7 +114,7 @@ def name_of(path: str, point: Point) -> str:
 
 
 def _elements(system: System, path: str = "") -> Iterator[tuple[str, Element]]:
-    """All elements with what stands before the names of their connectors."""
+    """Yield all elements with the prefix of the names of their connectors."""
     for outer, inner in walk(system, path):
         yield outer, inner
         for element in inner.elements.values():
