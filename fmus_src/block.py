@@ -21,7 +21,7 @@ __all__ = ["Block", "ExternalState", "Input", "Inputs", "Output", "Outputs", "Pa
 
 
 def snake_case(name: str) -> str:
-    """``AstarGuidance`` -> ``astar_guidance``."""
+    """Convert a class name: ``AstarGuidance`` -> ``astar_guidance``."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
 
 
@@ -135,7 +135,7 @@ class Block(DataFiles, HasExternalState):
 
     @classmethod
     def direct_inputs(cls, output: Output) -> list[str]:
-        """Names of the inputs that ``output`` depends on within one communication point."""
+        """Return names of the inputs that ``output`` depends on within one communication point."""
         if isinstance(output.direct, tuple):
             return list(output.direct)
         if not output.direct:
@@ -144,7 +144,7 @@ class Block(DataFiles, HasExternalState):
 
     @classmethod
     def summary(cls) -> str:
-        """First line of the docstring."""
+        """Return first line of the docstring."""
         return (cls.__doc__ or "").strip().splitlines()[0]
 
 

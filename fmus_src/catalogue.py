@@ -38,7 +38,7 @@ def is_shipped(block_class: type[Block]) -> bool:
 
 
 def catalogue() -> dict[str, type[Block]]:
-    """Every block of the repository by FMU name, in order of kind and file.
+    """Return every block of the repository by FMU name, in order of kind and file.
 
     Raises ValueError when two blocks have one FMU name.
     """

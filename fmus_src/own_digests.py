@@ -29,7 +29,7 @@ _built_here: set[str] = set()  # digests that no list could be written of
 
 
 def digest_of(path: Path) -> str:
-    """SHA-256 of a file, in hexadecimal digits."""
+    """Return SHA-256 of a file, in hexadecimal digits."""
     return _digest(path.read_bytes())
 
 
@@ -87,7 +87,8 @@ def _line(digest: str, path: Path) -> bytes:
 
 
 def _version(path: Path) -> tuple[int, int]:
-    """Time of change (ns) and size (bytes) of a list, by which a new version is recognised; 0, 0 without the file."""
+    """Return time of change (ns) and size (bytes) of a list, by which a new version is
+    recognised; 0, 0 without the file."""
     try:
         stat = path.stat()
     except FileNotFoundError:

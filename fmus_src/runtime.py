@@ -80,7 +80,7 @@ class Component:
         self.tuned: dict[tuple[int, ...], list[int]] = {}  # tunable parameters among references, by place in the list
 
     def accesses(self, references: list[int]) -> list[Access]:
-        """Variables behind value references, in order; those of which all elements are named come as wholes."""
+        """Return variables behind value references, in order; those of which all elements are named come as wholes."""
         key = tuple(references)
         accesses = self.known.get(key)
         if accesses is None:
@@ -131,7 +131,7 @@ class Component:
         return values
 
     def values(self) -> list:
-        """All values in order of value references, as they are."""
+        """Return all values in order of value references, as they are."""
         return self.read(list(range(len(self.elements))))
 
     def set(self, references: list[int], values: list) -> None:
@@ -273,7 +273,8 @@ class Component:
             )
 
     def get_state(self) -> dict[str, Any]:
-        """Complete state: every variable and the life-cycle counters. Raises StateError for a block with more."""
+        """Return complete state: every variable and the life-cycle counters. Raises StateError for a block with
+        more."""
         if self.block.external:
             names = ", ".join(self.block.external)
             raise StateError(f"{names} of {self.block.fmu_name} is external state, which cannot be saved")

@@ -162,7 +162,8 @@ class Variable:
         return "Enumeration" if self.enumeration is not None else self.type_name
 
     def element_names(self) -> list[str]:
-        """FMI names of the elements: ``name``; ``name[1]``, ``name[2]``, ...; or ``name[1,1]``, ``name[1,2]``, ..."""
+        """Return FMI names of the elements: ``name``; ``name[1]``, ``name[2]``, ...; or
+        ``name[1,1]``, ``name[1,2]``, ..."""
         if not self.is_array:
             return [self.name]
         if self.record is not None:

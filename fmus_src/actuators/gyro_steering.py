@@ -63,7 +63,7 @@ class GyroSteering(Block, interface=True):
         """Set gimbal_rates (rad/s) and status for a rate of the momentum (1/s, in units of one rotor's)."""
 
     def sample(self, time: float) -> None:
-        """Rates for the torque and angles of ``time`` (s)."""
+        """Set rates for the torque and angles of ``time`` (s)."""
         momentum_rate = -self.torque_command / self.rotor_momentum
         if all_below(momentum_rate, LARGEST) and all_below(self.gimbal_angles, LARGEST):
             self.singularity = singularity_measure(self.gimbal_angles)
@@ -75,7 +75,7 @@ class GyroSteering(Block, interface=True):
             self.gimbal_rates = vector(0.0, 0.0, 0.0, 0.0)
 
     def turn(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
-        """Rates within their limit for gimbal angles (rad)."""
+        """Set rates within their limit for gimbal angles (rad)."""
         self.status = GyroSteeringStatus.GOOD
         self.steer(angles, momentum_rate, time)
         self.limit()

@@ -51,7 +51,7 @@ class PulseAllocation(Block):
         self.allocate()
 
     def pulse(self, k: int) -> None:
-        """Length and rest of axis k."""
+        """Set length and rest of axis k."""
         self.rests[k] = self.rests[k] + self.torque_command[k] * self.sample_period / self.jet_torque[k]
         length = abs(self.rests[k])
         if length >= self.sample_period:
@@ -79,7 +79,7 @@ class PulseAllocation(Block):
         self.mean_torque = vector(x, y, z)
 
     def allocate(self) -> None:
-        """Pulses for the demand of this tick."""
+        """Set pulses for the demand of this tick."""
         self.pulse_count = self.pulse_count + 1
         self.status = PulseStatus.GOOD
         for k in range(3):

@@ -117,7 +117,7 @@ class ThrustAllocation(Allocation):
         return shortened
 
     def pass_direction(self) -> None:
-        """Direction and timing as demanded, with their leads."""
+        """Pass direction and timing as demanded, with their leads."""
         self.thrust_direction = self.demanded_direction
         self.thrust_direction_rate = self.demanded_direction_rate
         # counted from earlier, the direction is further on at any time

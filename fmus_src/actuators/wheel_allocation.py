@@ -75,7 +75,7 @@ class WheelAllocation(Block, interface=True):
         self.allocate()
 
     def null_torque(self) -> Vector4:
-        """Torque (N m) along the null direction, no more than what every motor has left."""
+        """Return torque (N m) along the null direction, within the rest of every motor's limit."""
         amount = 0.0
         for j in range(WHEELS):
             amount = amount + self.null[j] * self.speed_change[j]
@@ -95,7 +95,7 @@ class WheelAllocation(Block, interface=True):
         return amount * self.null
 
     def allocate(self) -> None:
-        """Motor torques for the command of now."""
+        """Set motor torques for the present command."""
         self.motor_torques = vector(0.0, 0.0, 0.0, 0.0)
         if not self.invertible:
             self.status = WheelAllocationStatus.NO_INVERSE

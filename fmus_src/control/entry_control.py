@@ -53,7 +53,7 @@ class EntryControl(Block, interface=True):
         return angle - 2.0 * math.pi * float(math.floor(angle / (2.0 * math.pi) + 0.5))
 
     def bank_error(self) -> float:
-        """Measured bank less the reference (rad), within error_limit."""
+        """Return measured bank less the reference (rad), within error_limit."""
         return clip(self.wrap_angle(self.measured_bank - self.reference.bank), -self.error_limit, self.error_limit)
 
     def beyond(self, demand: float, level: float) -> float:

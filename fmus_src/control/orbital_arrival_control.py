@@ -33,7 +33,7 @@ class OrbitalArrivalControl(OrbitalControl):
         return self.turn_angle - rate * back, -rate
 
     def torque_about(self, k: int, error: float, led: float, rate: float, time: float) -> float:
-        """Torque (N m) about axis k for an angle's error (rad), the rate it is led at and its own (rad/s)."""
+        """Return torque (N m) about axis k for an angle's error (rad), the rate it is led at and its own (rad/s)."""
         left = self.arrival_time - time
         if left < self.least_time:
             left = self.least_time

@@ -58,7 +58,7 @@ class OrbitalControl(OrbitalBody, interface=True):
         """Set torque_command for the estimate, ``time`` (s) after the start."""
 
     def command(self, time: float) -> None:
-        """Torque and status, ``time`` (s) after the start."""
+        """Set torque and status, ``time`` (s) after the start."""
         self.status = OrbitalControlStatus.GOOD
         self.torque_command = vector(0.0, 0.0, 0.0)
         if not self.usable:

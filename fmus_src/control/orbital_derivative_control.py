@@ -44,7 +44,7 @@ class OrbitalDerivativeControl(OrbitalControl):
     last_time = State(0.0, unit="s", frozen=True, description="of the tick before, after the start")
 
     def decay(self, poles: Matrix) -> Matrix:
-        """S of a level: minus the poles (1/s) on the diagonal, and the coupling."""
+        """Return S of a level: minus the poles (1/s) on the diagonal, and the coupling."""
         s = -poles
         s[ROLL, PITCH] = -self.coupling
         s[PITCH, ROLL] = self.coupling

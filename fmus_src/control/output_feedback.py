@@ -30,7 +30,7 @@ class OutputFeedback(EntryControl):
     )
 
     def gain_row(self, i: int, fraction: float) -> Vector3:
-        """Row i of gains, a fraction of the way to that of the next pressure."""
+        """Return row i of gains, a fraction of the way to that of the next pressure."""
         low = self.gains[i, :]
         return low + fraction * (self.gains[i + 2, :] - low)
 

@@ -27,7 +27,7 @@ class StandardControl(EntryControl):
     signs = State([0.0, 0.0, 0.0], vector=False, unit="1", description="of the relays, 0 open")
 
     def relay(self, k: int, x: float) -> float:
-        """Demand (N m) of relay k for its signal."""
+        """Return demand (N m) of relay k for its signal."""
         if self.signs[k] * x < 0.5 * self.thresholds[k]:
             self.signs[k] = 0.0
         if abs(x) > self.thresholds[k]:

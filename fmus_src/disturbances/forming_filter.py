@@ -40,7 +40,7 @@ class FormingFilter(Block):
         self.disturbance_rate = w * sigma * second
 
     def transition(self, h: float) -> Vector4:
-        """exp(A h), 2 x 2 in row order, for the state (y, y')."""
+        """Return exp(A h), 2 x 2 in row order, for the state (y, y')."""
         w = self.natural_frequency
         decay = self.damping * w
         square = self.damping * self.damping - 1.0

@@ -27,13 +27,13 @@ def write_zip(path: Path, files: Mapping[str, bytes]) -> None:
 
 
 def read_zip(path: Path) -> dict[str, bytes]:
-    """Every file of an archive by name."""
+    """Read every file of an archive by name."""
     with zipfile.ZipFile(path) as archive:
         return {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
 
 
 def content_guid(files: dict[str, bytes]) -> str:
-    """GUID of an FMU: a hash of its files, modelDescription.xml without GUID among them."""
+    """Return the GUID of an FMU: a hash of its files, modelDescription.xml without GUID among them."""
     digest = hashlib.sha256()
     for name in sorted(files):
         digest.update(name.encode() + b"\0" + hashlib.sha256(files[name]).digest())

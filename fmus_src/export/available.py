@@ -57,7 +57,7 @@ def _list_shipped(name: str, flavours: Iterable[str]) -> Iterator[Path]:
 
 
 def fmu_flavours() -> dict[str, dict[str, Path | None]]:
-    """All FMUs by name, with the flavours there are; a file is None until it is asked for and built."""
+    """Return all FMUs by name, with the flavours there are; a file is None until it is asked for and built."""
     files: dict[str, dict[str, Path | None]] = {}
     for flavour in FLAVOURS:
         if not IS_CHECKOUT and flavour == "python":

@@ -162,7 +162,7 @@ def _check_siblings(node: ast.ImportFrom, path: Path) -> None:
 
 @cache  # all blocks share most of their files
 def _read_import(text: bytes, module: str, path: Path, allowed: frozenset[str]) -> tuple[str, ...]:
-    """Modules of the source package that a file imports, as dotted names below it."""
+    """Return modules of the source package that a file imports, as dotted names below it."""
     package = module.rsplit(".", 1)[0].split(".") if "." in module else []
     modules: list[str] = []
     for node in ast.walk(ast.parse(text)):

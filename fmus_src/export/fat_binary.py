@@ -14,7 +14,7 @@ ALIGNMENT = 14  # power of 2: the pages of arm64, 16 KiB, a multiple of those of
 
 
 def fat_binary(libraries: Sequence[bytes]) -> bytes:
-    """One library of 64-bit Mach-O libraries, each of another processor; raises ValueError for anything else."""
+    """Join 64-bit Mach-O libraries, each of another processor, in one; raises ValueError for anything else."""
     header = struct.pack(">II", FAT_MAGIC, len(libraries))
     body = b""
     processors = set()

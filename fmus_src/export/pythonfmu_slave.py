@@ -49,7 +49,7 @@ class BlockSlave(Fmi2Slave):
         self.set_real = self.set_integer = self.set_boolean = self.set_values
 
     def get_values(self, references: list[int]) -> list:
-        """Values by reference; a failing initialisation is logged and raised."""
+        """Return values by reference; a failing initialisation is logged and raised."""
         try:
             return self.component.get(references)
         except Exception:

@@ -42,7 +42,7 @@ def system_files(folder: Path) -> dict[str, Path]:
 
 
 def list_fmus(folder: Path) -> dict[str, str]:
-    """FMUs that the SSDs of a system name and its folder does not hold: source -> the SSD that names it first."""
+    """List FMUs that the SSDs of a system name and its folder does not hold: source -> the SSD that names it first."""
     files = system_files(folder)
     sources: dict[str, str] = {}
     for name in [name for name in files if name.endswith(".ssd")]:

@@ -51,7 +51,7 @@ class AstarGuidance(AstarProgramme):
         return 0.0
 
     def newton_time(self, dr: Vector3, dv: Vector3) -> float:
-        """Time-to-go (s) from what is to gain, or 0, and the status where it is."""
+        """Return time-to-go (s) from the remaining gain, or 0, and set the status where it is."""
         speed = norm(self.velocity)
         self.status = TerminalStatus.NO_SOLUTION
         start = self.last_root

@@ -19,7 +19,7 @@ class AstarModifiedGuidance(AstarProgramme):
     exhaust_speed = Parameter(3100.0, unit="m/s", minimum=1.0, description="effective exhaust speed of the engine")
 
     def formula_time(self, dr: Vector3, dv: Vector3) -> float:
-        """Time-to-go (s) from what is to gain, and the status: good, or no solution and 0."""
+        """Return time-to-go (s) from the remaining gain, and set the status: good, or no solution and 0."""
         g = self.gravity
         distance = norm(dr)
         speed_sum = norm(self.velocity) + norm(self.target_velocity)

@@ -23,7 +23,7 @@ class AstarProgramme(TerminalGuidance, interface=True):
     clamp_count = Output(0, direct=True, description="arcsine arguments clamped so far, in repeated solves too")
 
     def angle(self, sine: float) -> float:
-        """Arcsine, clamped and counted outside [-1, 1] (1e-12 allowed for rounding)."""
+        """Return the arcsine, clamped and counted outside [-1, 1] (1e-12 allowed for rounding)."""
         if abs(sine) > 1.000000000001:
             self.clamp_count = self.clamp_count + 1
             self.status = TerminalStatus.CLAMPED

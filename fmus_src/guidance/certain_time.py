@@ -36,7 +36,7 @@ class CertainTime(TerminalGuidance, interface=True):
         self.least_effort = False
 
     def time_left(self, dr: Vector3, dv: Vector3) -> float:
-        """Time-to-go (s) from what is to gain, and with it least_effort; 0 where there is none."""
+        """Return time-to-go (s) from the remaining gain, and set least_effort; 0 where there is none."""
         if self.plan_frozen():
             self.least_effort = True
             return self.frozen_time_to_go

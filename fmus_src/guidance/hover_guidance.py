@@ -120,7 +120,7 @@ class HoverGuidance(HoverPlan):
         self.command.command_time = time
 
     def rest(self, time: float) -> None:
-        """No command."""
+        """Withdraw the command."""
         if self.in_charge:
             self.drop_plan()
         self.in_charge = False
@@ -169,7 +169,7 @@ class HoverGuidance(HoverPlan):
         return self.mode == HoverMode.DESCEND and self.status == HoverStatus.GOOD
 
     def sink_speed(self, t: float) -> float:
-        """Speed (m/s) of the descent at the time t (s) after its start."""
+        """Return speed (m/s) of the descent at the time t (s) after its start."""
         speed = self.descent_acceleration * t
         if speed > self.descent_speed:
             return self.descent_speed
@@ -189,7 +189,7 @@ class HoverGuidance(HoverPlan):
             self.reference_velocity = -speed * self.up
 
     def reference_thrust(self, begin: float, end: float) -> float:
-        """Mean of the plan's thrust over mass (m/s2) between two times (s); local gravity from its end on.
+        """Return the mean of the plan's thrust over mass (m/s2) between two times (s); local gravity from its end on.
 
         A descent is all end: feedback alone follows its reference, which makes it soft.
         """

@@ -83,7 +83,7 @@ class HoverPlan(Block, interface=True):
     transfer = State(Transfer)
 
     def gravity_at(self, position: Vector3) -> float:
-        """Size of gravity (m/s2) at a position (m)."""
+        """Return size of gravity (m/s2) at a position (m)."""
         if self.uniform_gravity > 0.0:
             return self.uniform_gravity
         centred = from_centre(position, self.moon_radius)
@@ -99,7 +99,7 @@ class HoverPlan(Block, interface=True):
         return vertical_at(position, self.moon_radius)
 
     def drop_plan(self) -> None:
-        """No plan: hold at the target from here on."""
+        """Drop the plan: hold at the target from here on."""
         self.status = HoverStatus.GOOD
         self.plan_kind = PlanKind.NONE
         self.duration = 0.0
@@ -121,7 +121,7 @@ class HoverPlan(Block, interface=True):
         return fine
 
     def give_up(self) -> None:
-        """No plan is possible: hold where it is."""
+        """Give up planning: hold in the present place."""
         self.drop_plan()
         self.status = HoverStatus.NO_PLAN
         if is_finite(self.position):
@@ -226,11 +226,11 @@ class HoverPlan(Block, interface=True):
             self.give_up()
 
     def lift(self) -> Vector3:
-        """Thrust over mass (m/s2) that holds the plan's gravity."""
+        """Return thrust over mass (m/s2) that holds the plan's gravity."""
         return self.plan_gravity * self.up
 
     def plan_motion(self, t: float) -> Translation:
-        """Motion of the plan at the time t (s) after its start."""
+        """Return motion of the plan at the time t (s) after its start."""
         rest = vector(0.0, 0.0, 0.0)
         if t >= self.duration:
             return Translation(position=self.goal, velocity=rest)
@@ -244,7 +244,7 @@ class HoverPlan(Block, interface=True):
         return Translation(position=place, velocity=s.x_rate * self.along + s.y_rate * self.up)
 
     def plan_direction(self, t: float) -> TurningDirection:
-        """Thrust direction of the plan at the time t (s) after its start."""
+        """Return thrust direction of the plan at the time t (s) after its start."""
         rest = vector(0.0, 0.0, 0.0)
         if t >= self.duration:
             return TurningDirection(direction=self.up, rate=rest)
@@ -258,12 +258,13 @@ class HoverPlan(Block, interface=True):
         return TurningDirection(direction=direction, rate=-turn.rate * (sine * self.up + cosine * self.along))
 
     def plan_rate(self, t: float) -> Vector3:
-        """Angular rate (rad/s) of the thrust axis of the plan at the time t (s) after its start."""
+        """Return angular rate (rad/s) of the thrust axis of the plan at the time t (s) after its start."""
         turning = self.plan_direction(t)
         return cross(turning.direction, turning.rate)
 
     def plan_impulse(self, begin: float, end: float) -> float:
-        """Integral (m/s) of the plan's thrust over mass between two times (s) after its start, within its duration."""
+        """Return integral (m/s) of the plan's thrust over mass between two times (s) after its
+        start, within its duration."""
         if self.plan_kind != PlanKind.POLYNOMIAL:
             return thrust_impulse(self.shape, self.vehicle, begin, end)
         first = thrust_along(self.transfer, begin, self.duration, self.lift())

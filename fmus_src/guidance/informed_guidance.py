@@ -58,7 +58,7 @@ class InformedGuidance(TerminalGuidance, interface=True):
         return STANDARD_GRAVITY * self.specific_impulse
 
     def glide_height(self, offset: Vector3) -> float:
-        """Height (m) above the cone of the glide slope at an ``offset`` (m) from the target."""
+        """Return height (m) above the cone of the glide slope at an ``offset`` (m) from the target."""
         level = math.sqrt(offset.x * offset.x + offset.y * offset.y)
         return offset.z + self.glide_offset - tan(self.glide_slope) * level
 

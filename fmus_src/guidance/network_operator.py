@@ -74,7 +74,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
         self.estimate_time()
 
     def estimate_time(self) -> None:
-        """time_to_go from the rocket equation."""
+        """Estimate time_to_go from the rocket equation."""
         excess = norm(self.velocity) - self.handover_speed
         exhaust_speed = STANDARD_GRAVITY * self.specific_impulse
         self.time_to_go = 0.0

@@ -80,10 +80,10 @@ class NetworkOperatorLaw(Block, interface=True):
         evaluate(self.matrix, self.edges, self.edge_count, exp_saturation, self.nodes)
 
     def law_angle(self) -> float:
-        """Angle from the local vertical to the thrust, rad."""
+        """Return angle from the local vertical to the thrust, rad."""
         return clip(self.nodes[14], 0.0, math.pi)
 
     def law_thrust(self) -> float:
-        """Thrust, N."""
+        """Return thrust, N."""
         above = clip(KILOGRAM_FORCE * self.nodes[15], -self.thrust_variation, self.thrust_variation)
         return clip(self.nominal_thrust + above, 0.0, math.inf)

@@ -37,7 +37,7 @@ class PlanarNetworkOperator(NetworkOperatorLaw):
         self.command()
 
     def command(self) -> None:
-        """Thrust and angle for what is measured."""
+        """Set thrust and angle for the measured inputs."""
         if self.status != LawStatus.BAD_LAW:
             self.evaluate_law(self.measured_path_angle, self.measured_altitude, self.final_altitude)
             self.thrust_angle = self.law_angle()

@@ -70,7 +70,7 @@ class PoweredGuidance(ZemZevGuidance):
                 self.steering = iterate_steering(self.steering, self.problem(self.steering.time))
 
     def begin_steering(self) -> None:
-        """First iterations, from the time of about constant thrust."""
+        """Iterate for the first time, from the time of about constant thrust."""
         self.steering = SteeringState(
             time=0.0,
             thrust=FIRST_THRUST * self.maximum_thrust,

@@ -101,7 +101,7 @@ class RendezvousGuidance(Block):
         self.publish(0.0)
 
     def make_plan(self) -> None:
-        """Acceleration of phase 1, splines of phase 3 and the turn."""
+        """Plan the acceleration of phase 1, splines of phase 3 and the turn."""
         self.turn_axis, angle = rotation_between(vector(1.0, 0.0, 0.0), self.spin_axis)
         self.plan_turn(angle)
         spin = norm(self.spin_axis)
@@ -124,7 +124,7 @@ class RendezvousGuidance(Block):
         spline(0.0, 0.0, angle, 0.0, self.turn_end - self.turn_start, 6, self.turn_polynomial)
 
     def motion(self, time: float) -> Translation:
-        """Planned motion."""
+        """Return planned motion."""
         if self.status != RendezvousStatus.GOOD:
             return Translation(position=vector(0.0, 0.0, 0.0), velocity=vector(0.0, 0.0, 0.0))
         if time <= self.turn_start:
@@ -138,7 +138,7 @@ class RendezvousGuidance(Block):
         return Translation(position=self.place + since * self.target_velocity, velocity=self.target_velocity)
 
     def approach(self, time: float) -> Translation:
-        """Motion on the splines."""
+        """Return motion on the splines."""
         duration = self.arrival_time - self.turn_end
         s = (time - self.turn_end) / duration
         position = [0.0] * 3
@@ -152,7 +152,7 @@ class RendezvousGuidance(Block):
         return Translation(position=vector(*position), velocity=vector(*velocity))
 
     def turn(self, time: float) -> None:
-        """Planned attitude, its rate, and its acceleration half a period of attitude control later."""
+        """Set planned attitude, its rate, and its acceleration half a period of attitude control later."""
         duration = self.turn_end - self.turn_start
         angle = 0.0
         rate = 0.0

@@ -14,7 +14,7 @@ class SlewBangCoast(SlewGuidance):
     """
 
     def peak_rate(self) -> float:
-        """Largest rate (rad/s) that the turn reaches."""
+        """Return largest rate (rad/s) that the turn reaches."""
         reachable = math.sqrt(self.slew_angle * self.acceleration_limit)
         if reachable < self.rate_limit:
             return reachable

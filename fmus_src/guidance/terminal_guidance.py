@@ -104,7 +104,7 @@ class TerminalGuidance(Block, interface=True):
         """Set the command, time_to_go and status from position and velocity."""
 
     def remaining(self) -> tuple[Vector3, Vector3]:
-        """Position (m) and velocity (m/s) still to gain, landing-site frame."""
+        """Return position (m) and velocity (m/s) still to gain, landing-site frame."""
         return self.remaining_over(self.expected_time)
 
     def remaining_over(self, time: float) -> tuple[Vector3, Vector3]:
@@ -190,7 +190,7 @@ class TerminalGuidance(Block, interface=True):
             self.go_on(t, h)
 
     def rest(self) -> None:
-        """No command, and nothing remembered."""
+        """Deactivate: withdraw the command and forget all states."""
         self.under_way = False
         self.started = False
         self.commanding = False
@@ -271,7 +271,7 @@ class TerminalGuidance(Block, interface=True):
             self.end(time)
 
     def end(self, time: float) -> None:
-        """At ``time`` (s): the last burn where it is due, or the end where less than a cycle is left."""
+        """End at ``time`` (s): with the last burn where it is due, or at once where less than a cycle is left."""
         if self.terminal_step == TerminalStep.EXACT:
             self.command.burn_duration = UNLIMITED
             if self.time_to_go <= self.hold_time():

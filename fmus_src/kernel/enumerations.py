@@ -41,6 +41,6 @@ class Enumeration:
 
     @classmethod
     def describe(cls, about: str) -> str:
-        """``about: 0 good, 1 rate limited``; the members alone where ``about`` is empty."""
+        """Return ``about: 0 good, 1 rate limited``; the members alone where ``about`` is empty."""
         members = ", ".join(f"{number} {meaning}" for number, meaning in cls.meanings.items())
         return f"{about}: {members}" if about else members

@@ -48,7 +48,7 @@ def _check_result(function: Callable[[float], float], if_infinite: str) -> Calla
 
 
 def _check_power(function: Callable[[float, float], float]) -> Callable[[float, float], float]:
-    """x^y, which raises where it is NaN, or infinite, of finite arguments."""
+    """Return x^y, which raises where it is NaN, or infinite, of finite arguments."""
 
     @functools.wraps(function)
     def call(x: float, y: float) -> float:

@@ -24,7 +24,7 @@ def diagonal(v: Vector) -> Matrix:
 
 
 def outer(v: Vector, w: Vector) -> Matrix:
-    """v w'."""
+    """Return v w'."""
     a = zeros(len(v), len(w))
     for i in range(len(v)):
         for j in range(len(w)):
@@ -33,7 +33,7 @@ def outer(v: Vector, w: Vector) -> Matrix:
 
 
 def mirror(a: Matrix, size: int) -> None:
-    """Below the diagonal of the first ``size`` rows and columns, what stands above it."""
+    """Mirror the upper triangle of the first ``size`` rows and columns below the diagonal."""
     for i in range(size):
         for j in range(i + 1, size):
             a[j, i] = a[i, j]
@@ -73,10 +73,10 @@ def largest_eigenvalue(a: Matrix) -> float:
 
 
 def inverse_quadratic_form(p: Matrix, e: Matrix) -> float:
-    """e' p^-1 e by a factorisation p = l d l'; -1 where p is not positive definite.
+    """Return e' p^-1 e by a factorisation p = l d l'; -1 where p is not positive definite.
 
-    ``e`` is a column, ``p`` a symmetric matrix, of which the lower triangle is read.
-    Source: Golub and Van Loan 2013, section 4.1.2.
+    ``e`` is a column, ``p`` a symmetric matrix, of which the lower triangle is read. Source: Golub and Van Loan 2013,
+    section 4.1.2.
     """
     lower = zeros(len(p), len(p))
     d = [0.0] * len(p)
@@ -100,7 +100,7 @@ def inverse_quadratic_form(p: Matrix, e: Matrix) -> float:
 
 
 def inverse(a: Matrix) -> tuple[Matrix, bool]:
-    """a^-1 by elimination with row exchanges, and whether there is one: a is finite and no pivot is 0.
+    """Return a^-1 by elimination with row exchanges, and True if it exists: a is finite and no pivot is 0.
 
     Without one the matrix is not to be used. Source: Golub and Van Loan 2013, section 3.4.
     """
@@ -132,7 +132,7 @@ def inverse(a: Matrix) -> tuple[Matrix, bool]:
 
 
 def exponential(a: Matrix, t: float) -> Matrix:
-    """exp(a t), a finite: the series of a t/2^k, whose norm is below 1/2, squared k times.
+    """Return exp(a t), a finite: the series of a t/2^k, whose norm is below 1/2, squared k times.
 
     Source: Moler and Van Loan 2003, method 3.
     """

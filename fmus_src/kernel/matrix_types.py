@@ -40,7 +40,7 @@ class Matrix:
         return cls([list(elements[k : k + columns]) for k in range(0, len(elements), columns)])
 
     def elements(self) -> tuple:
-        """All elements in row order."""
+        """Return all elements in row order."""
         return tuple(chain.from_iterable(self.rows))
 
     @property
@@ -177,7 +177,7 @@ def identity(n: int) -> Matrix:
 
 
 def add_product(q: Matrix, a: Matrix, b: Matrix) -> Matrix:
-    """q + a @ b, each sum starting from q's element."""
+    """Return q + a @ b, each sum starting from q's element."""
     columns = list(zip(*b.rows, strict=True))
     return Matrix(_sums_from(len(columns[0]))(q.rows, a.rows, columns))
 
@@ -193,7 +193,8 @@ def _refuse_size(given: Any, wanted: Any) -> NoReturn:
 
 
 def _of_three(x: float, y: float, z: float) -> Vector3:
-    """`vector` without its choice of a size: columns of three are most of the time of filters and of rigid bodies."""
+    """Return `vector` without its choice of a size: columns of three are most of the time of
+    filters and of rigid bodies."""
     made = Vector3()
     made.x = x
     made.y = y

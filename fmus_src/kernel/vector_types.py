@@ -42,7 +42,7 @@ class Vector:
         return f"vector{self.elements()}"
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        """numpy's functions give arrays, but a number of numpy's times a vector is a vector."""
+        """Return arrays of numpy's functions, but a vector of one of its numbers times a vector."""
         result = getattr(ufunc, method)(
             *[list(each) if isinstance(each, Vector) else each for each in inputs], **options
         )

@@ -9,7 +9,7 @@ from ..kernel.matrices import Matrix
 
 
 def curvatures(values: Matrix, row: int, n: int, step: float, clamped: bool, result: Matrix) -> None:
-    """result[row, :] = second derivatives at the knots of one curve, by Thomas's elimination; n <= 20."""
+    """Set result[row, :] to second derivatives at the knots of one curve, by Thomas's elimination; n <= 20."""
     upper = [0.0] * 20
     right = [0.0] * 20
     if clamped:

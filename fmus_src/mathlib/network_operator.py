@@ -48,7 +48,7 @@ def is_binary(operation: int) -> bool:
 
 
 def sign(z: float) -> float:
-    """-1 below zero, +1 from zero on."""
+    """Return -1 below zero, +1 from zero on."""
     if z < 0.0:
         return -1.0
     return 1.0

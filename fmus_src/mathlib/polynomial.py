@@ -17,7 +17,7 @@ def evaluate(c: list, x: float) -> float:
 
 
 def quadratic_roots(c0: float, c1: float, c2: float, roots: list) -> int:
-    """Real roots of c0 + c1 x + c2 x^2, ascending, without cancellation; returns their number, 0 to 2."""
+    """Find real roots of c0 + c1 x + c2 x^2, ascending, without cancellation; return their number, 0 to 2."""
     discriminant = c1 * c1 - 4.0 * c2 * c0
     if not discriminant >= 0.0:
         return 0
@@ -100,10 +100,10 @@ def crosses(rising: bool, value: float) -> bool:
 
 
 def positive_roots(c: list, turning: list, turnings: int, roots: list) -> int:
-    """Positive roots at which the polynomial changes sign, ascending; returns their number.
+    """Find positive roots at which the polynomial changes sign, ascending; return their number.
 
-    ``turning`` holds the ``turnings`` turning points, ascending; those that are not positive are
-    passed over. ``roots`` takes up to four.
+    ``turning`` holds the ``turnings`` turning points, ascending; those that are not positive are passed over. ``roots``
+    takes up to four.
     """
     count = 0
     low = 0.0

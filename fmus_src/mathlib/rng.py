@@ -26,7 +26,7 @@ def nearest(x: float) -> float:
 
 
 def reduce_modulo(high: float, low: float, m: float) -> float:
-    """(65536 high + low) mod m, the residue nearest to 0, for whole numbers below 2^52, without losing a bit."""
+    """Return (65536 high + low) mod m, the residue nearest to 0, for whole numbers below 2^52, without losing a bit."""
     inverse = 1.0 / m
     v = high - nearest(high * inverse) * m
     v = 65536.0 * v + low
@@ -34,12 +34,13 @@ def reduce_modulo(high: float, low: float, m: float) -> float:
 
 
 def high_words(v: Vector3) -> Vector3:
-    """v / 65536 in whole numbers. What is left of v has 16 bits: products of it with numbers of 32 bits are exact."""
+    """Return v / 65536 in whole numbers. The rest of v has 16 bits: products of it with numbers of 32 bits are
+    exact."""
     return vector(nearest(v.x / 65536.0), nearest(v.y / 65536.0), nearest(v.z / 65536.0))
 
 
 def combine(s: Vector3, a: Vector3, b: Vector3, c: Vector3, m: float) -> Vector3:
-    """(s.x a + s.y b + s.z c) mod m, for whole numbers of at most 2^32."""
+    """Return (s.x a + s.y b + s.z c) mod m, for whole numbers of at most 2^32."""
     words = high_words(s)
     low_words = s - 65536.0 * words
     high = words.x * a + words.y * b + words.z * c

@@ -15,7 +15,7 @@ Derivation: docs/systems/robot_rendezvous.md.
 def spline(
     value: float, slope: float, end_value: float, end_slope: float, duration: float, degree: int, c: list
 ) -> None:
-    """c[7] = coefficients of the spline; slopes are per unit of time, duration > 0, degree 5 or 6."""
+    """Set c[7] to coefficients of the spline; slopes are per unit of time, duration > 0, degree 5 or 6."""
     d = end_value - value - slope * duration
     e = (end_slope - slope) * duration
     c[0] = value
@@ -39,14 +39,14 @@ def spline_value(c: list, s: float) -> float:
 
 
 def spline_rate(c: list, s: float, duration: float) -> float:
-    """Its derivative by time at s."""
+    """Return its derivative by time at s."""
     slope = 6.0 * c[6] * s + 5.0 * c[5]
     slope = ((slope * s + 4.0 * c[4]) * s + 3.0 * c[3]) * s + 2.0 * c[2]
     return (slope * s + c[1]) / duration
 
 
 def spline_acceleration(c: list, s: float, duration: float) -> float:
-    """Its second derivative by time at s."""
+    """Return its second derivative by time at s."""
     curvature = 30.0 * c[6] * s + 20.0 * c[5]
     curvature = (curvature * s + 12.0 * c[4]) * s + 6.0 * c[3]
     return (curvature * s + 2.0 * c[2]) / (duration * duration)

@@ -25,12 +25,12 @@ __all__ = [
 
 
 def dot(a: Vector3, b: Vector3) -> float:
-    """Scalar product."""
+    """Return the scalar product."""
     return a.x * b.x + a.y * b.y + a.z * b.z
 
 
 def norm(a: Vector3) -> float:
-    """Euclidean length."""
+    """Return the Euclidean length."""
     return math.sqrt(a.x * a.x + a.y * a.y + a.z * a.z)
 
 

@@ -33,7 +33,7 @@ class OrbitalBody(Block, interface=True):
         return invertible
 
     def motion(self, s: AttitudeState, torque: Vector3) -> AttitudeState:
-        """Rates of the attitude under a torque (N m, body): docs/systems/orbital_attitude.md, motion."""
+        """Return rates of the attitude under a torque (N m, body): docs/systems/orbital_attitude.md, motion."""
         a = evaluate_angles(s.angles)
         w = s.angular_velocity
         return AttitudeState(
@@ -42,11 +42,11 @@ class OrbitalBody(Block, interface=True):
         )
 
     def derivatives(self, t: float, s: AttitudeState, torque: Vector3) -> AttitudeState:
-        """Rates of the attitude as they are integrated."""
+        """Return rates of the attitude as they are integrated."""
         return self.motion(s, torque)
 
     def torque_at(self, pulses: Vector3, time: float) -> Vector3:
-        """Torque (N m, body) of the jets after ``time`` (s) of the pulses (s)."""
+        """Return torque (N m, body) of the jets after ``time`` (s) of the pulses (s)."""
         x = 0.0
         y = 0.0
         z = 0.0

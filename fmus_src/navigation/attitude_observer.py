@@ -89,7 +89,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         """Set the estimate for the present sample."""
 
     def mean_torque(self, pulses: Vector3) -> Vector3:
-        """Torque (N m, body) over the tick in the mean."""
+        """Return the mean torque (N m, body) over the tick."""
         return self.jet_torque * pulses / self.sample_period + self.held_torque
 
     def carry(self, split: bool) -> AttitudeState:
@@ -100,7 +100,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         return runge_kutta_4(self.derivatives, 0.0, self.estimate, self.sample_period, torque)
 
     def take_measured(self, yaw: float) -> None:
-        """Roll, pitch and rates as measured, with an estimated yaw (rad)."""
+        """Take roll, pitch and rates as measured, with an estimated yaw (rad)."""
         self.estimate = AttitudeState(
             angles=vector(self.measured_roll, yaw, self.measured_pitch), angular_velocity=self.measured_angular_velocity
         )

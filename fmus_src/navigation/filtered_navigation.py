@@ -102,7 +102,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         """Predict the covariance h (s) ahead under the specific force."""
 
     def weigh(self, row: Matrix, variance: float) -> float:
-        """Variance of the innovation of a scalar, whose derivatives by the states are a row."""
+        """Return variance of the innovation of a scalar, whose derivatives by the states are a row."""
         return 0.0
 
     def take_in(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
@@ -139,7 +139,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         return up, 0.0
 
     def altitude(self, row: Matrix) -> float:
-        """Estimated altitude (m); row = its derivatives by the states."""
+        """Return the estimated altitude (m); set row to its derivatives by the states."""
         up = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(up)
         if distance > 0.0:

@@ -17,13 +17,13 @@ class FullAttitudeObserver(AttitudeObserver, interface=True):
     gain = State([0.0] * 30, columns=5, description="of angles and rates (SI) over roll, pitch and rates measured")
 
     def compose(self, m: Matrix, row: list) -> None:
-        """gain = m (C' + e row): m 6 x 6, row of five."""
+        """Set gain = m (C' + e row): m 6 x 6, row of five."""
         for i in range(6):
             for j in range(5):
                 self.gain[i, j] = m[i, index_of_measured(j)] + m[i, YAW] * row[j]
 
     def correction(self, s: AttitudeState, roll: float, pitch: float, rates: Vector3) -> AttitudeState:
-        """gain (m - C x): what a sample m (roll, pitch, rates) gives to a state x."""
+        """Return gain (m - C x): the correction of a state x by a sample m (roll, pitch, rates)."""
         missing = [0.0] * 5
         missing[0] = roll - s.angles.x
         missing[1] = pitch - s.angles.z

@@ -64,7 +64,7 @@ class InertialNavigation(Navigation, interface=True):
             self.assumed_increment = self.assumed_increment + h * self.last_force
 
     def pass_over(self) -> None:
-        """No specific force; a new inertial sample is not used."""
+        """Set no specific force; a new inertial sample is not used."""
         self.force = vector(0.0, 0.0, 0.0)
         self.last_force = self.force
         self.assumed_increment = self.force

@@ -49,7 +49,7 @@ class OrbitalFilter(AttitudeObserver):
         self.covariance = predict(self.covariance, f, q)
 
     def advance(self, w: Vector3) -> None:
-        """Angles and covariance a tick ahead, at the mean angular velocity w (rad/s, body)."""
+        """Advance angles and covariance a tick, at the mean angular velocity w (rad/s, body)."""
         half = 0.5 * self.sample_period
         angles = self.estimate.angles
         middle = angles + half * angle_rates(evaluate_angles(angles), w, self.orbital_rate)

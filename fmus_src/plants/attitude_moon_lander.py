@@ -64,13 +64,13 @@ class AttitudeMoonLander(MoonLander):
         self.look()
 
     def height(self, position: Vector3) -> float:
-        """Altitude (m) at a position (m)."""
+        """Return altitude (m) at a position (m)."""
         if self.uniform_gravity > 0.0:
             return position.z
         return altitude_of(position, self.moon_radius)
 
     def gravity(self, position: Vector3) -> Vector3:
-        """Gravity (m/s2) at a position (m)."""
+        """Return gravity (m/s2) at a position (m)."""
         if self.uniform_gravity > 0.0:
             return vector(0.0, 0.0, -self.uniform_gravity)
         return central_gravity(position, self.moon_radius, self.gravitational_parameter)
@@ -89,7 +89,7 @@ class AttitudeMoonLander(MoonLander):
         self.angular_rate = s.rate
 
     def impulse(self, h: float, commanded: float) -> float:
-        """Impulse (N s) of h (s) under a command (N)."""
+        """Return impulse (N s) of h (s) under a command (N)."""
         thrust = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
         return thrust.impulse
 
@@ -129,7 +129,8 @@ class AttitudeMoonLander(MoonLander):
         return gained
 
     def go_back(self, h: float, acceleration: Vector3) -> None:
-        """From below the ground to it, by no more than h (s), with the mean acceleration (m/s2) of that time."""
+        """Go back from below the ground to it, by no more than h (s), with the mean acceleration (m/s2) of that
+        time."""
         below = self.position
         last = self.velocity
         back = 0.0

@@ -36,7 +36,7 @@ class DriftingTarget(Block):
         self.place(0.0)
 
     def place(self, time: float) -> None:
-        """State ``time`` (s) after the start."""
+        """Set the state ``time`` (s) after the start."""
         rotation = vector(0.0, 0.0, 0.0)
         length = norm(self.spin_axis)
         angle = fmod(self.spin_rate * time, math.tau)

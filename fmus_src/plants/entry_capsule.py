@@ -173,7 +173,7 @@ class EntryCapsule(Block):
         return air(h)
 
     def spatial_angle(self, v: Vector3) -> float:
-        """Angle (rad) between the axis of symmetry and the velocity v against the air (body)."""
+        """Return angle (rad) between the axis of symmetry and the velocity v against the air (body)."""
         return atan2(math.sqrt(v.y * v.y + v.z * v.z), v.x)
 
     def air_force(self, v: Vector3, gas: Air) -> Vector3:
@@ -190,7 +190,7 @@ class EntryCapsule(Block):
         return pushed * vector(-axial, -normal * v.y / across, -normal * v.z / across)
 
     def derivatives(self, t: float, s: EntryState, torque: Vector3) -> EntryState:
-        """Rates of the state under a torque of the jets (N m, body): docs/systems/entry_attitude.md, motion."""
+        """Return rates of the state under a torque of the jets (N m, body): docs/systems/entry_attitude.md, motion."""
         functions = evaluate_path(s)
         axes = body_axes(s.attitude)
         v = in_body(axes, vector(s.speed, 0.0, 0.0) - self.wind)
@@ -218,7 +218,7 @@ class EntryCapsule(Block):
         )
 
     def jet(self, positive: int, negative: int, length: float, time: float) -> float:
-        """Torque (N m) of an axis' two jets, by index, after ``time`` (s) of a pulse (s, with its sign)."""
+        """Return torque (N m) of an axis' two jets, by index, after ``time`` (s) of a pulse (s, with its sign)."""
         if length > time:
             return self.jet_factor[positive] * self.jet_torque[positive]
         if length < -time:

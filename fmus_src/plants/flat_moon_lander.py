@@ -41,7 +41,8 @@ class FlatMoonLander(Block):
         self.velocity = self.initial_velocity
 
     def acceleration(self, t: float) -> Vector3:
-        """r'' = W d/|d| - g k at time t (m/s2), with thrust over mass W and d = thrust_direction moved on to t."""
+        """Return r'' = W d/|d| - g k at time t (m/s2), with thrust over mass W and d = thrust_direction moved on to
+        t."""
         direction = self.thrust_direction + (t - self.command_time) * self.thrust_direction_rate
         length = norm(direction)
         scale = 0.0

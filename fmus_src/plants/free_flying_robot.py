@@ -92,11 +92,11 @@ class FreeFlyingRobot(Block):
         self.angular_momentum = to_reference(self.quaternion, body)
 
     def measure_gyros(self) -> None:
-        """gyro_momentum from the gimbal angles."""
+        """Set gyro_momentum from the gimbal angles."""
         self.gyro_momentum = self.rotor_momentum * cluster_momentum(self.gimbal_angles)
 
     def rate(self, q: Vector4, momentum: Vector3) -> Vector3:
-        """Angular velocity (rad/s, body) for attitude and momentum G at the gyros' present state."""
+        """Return angular velocity (rad/s, body) for attitude and momentum G at the gyros' present state."""
         return (to_body(q, momentum) - self.gyro_momentum) / self.inertia
 
     def turn_gimbals(self, h: float) -> None:
@@ -105,14 +105,14 @@ class FreeFlyingRobot(Block):
         self.measure_gyros()
 
     def derivatives(self, s: RobotRotation) -> RobotRotation:
-        """q' = q w/2 and G' = R(q) M, at the gyros' present state."""
+        """Return q' = q w/2 and G' = R(q) M, at the gyros' present state."""
         return RobotRotation(
             quaternion=multiply(s.quaternion, quaternion(0.0, 0.5 * self.rate(s.quaternion, s.angular_momentum))),
             angular_momentum=to_reference(s.quaternion, self.jet_torque),
         )
 
     def force(self, s: RobotRotation) -> Vector3:
-        """R(q) P = m r'' (N, inertial)."""
+        """Return R(q) P = m r'' (N, inertial)."""
         return to_reference(s.quaternion, self.jet_force)
 
     def move(self, h: float) -> None:

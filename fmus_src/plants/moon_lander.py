@@ -90,11 +90,11 @@ class MoonLander(Block, interface=True):
         self.longest_step = self.internal_step / parts
 
     def height(self, position: Vector3) -> float:
-        """Altitude (m) at a position (m)."""
+        """Return altitude (m) at a position (m)."""
         return altitude_of(position, self.moon_radius)
 
     def gravity(self, position: Vector3) -> Vector3:
-        """Gravity (m/s2) at a position (m)."""
+        """Return gravity (m/s2) at a position (m)."""
         return central_gravity(position, self.moon_radius, self.gravitational_parameter)
 
     def turn(self, t: float, h: float) -> None:

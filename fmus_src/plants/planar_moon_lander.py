@@ -72,7 +72,7 @@ class PlanarMoonLander(Block):
         self.publish()
 
     def derivatives(self, t: float, s: PlanarMotion, force: float, flow: float) -> PlanarMotion:
-        """Rates under a thrust (N), ``t`` (s) after mass began to flow out (kg/s)."""
+        """Return rates under a thrust (N), ``t`` (s) after mass began to flow out (kg/s)."""
         acceleration = force / (self.mass - t * flow)
         radius = self.moon_radius + s.altitude
         ratio = self.moon_radius / radius
@@ -87,7 +87,7 @@ class PlanarMoonLander(Block):
         )
 
     def move(self, h: float) -> None:
-        """Motion and mass h (s) later."""
+        """Move; set motion and mass h (s) later."""
         force = self.thrust_factor * self.thrust
         flow = force / (STANDARD_GRAVITY * self.specific_impulse)
         if self.mass <= flow * h:

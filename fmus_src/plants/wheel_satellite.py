@@ -76,11 +76,11 @@ class WheelSatellite(SpinningWheels):
         self.angular_momentum = to_reference(self.quaternion, momentum)
 
     def rate(self, s: SatelliteMotion) -> Vector3:
-        """Angular velocity (rad/s, body)."""
+        """Return angular velocity (rad/s, body)."""
         return self.inverse_inertia @ (to_body(s.quaternion, s.angular_momentum) - self.axes @ s.spin)
 
     def derivatives(self, t: float, s: SatelliteMotion, motors: Vector4) -> SatelliteMotion:
-        """q' = q w/2, G' = R(q) L and h' = us under motor torques (N m)."""
+        """Return q' = q w/2, G' = R(q) L and h' = us under motor torques (N m)."""
         w = self.rate(s)
         return SatelliteMotion(
             quaternion=multiply(s.quaternion, quaternion(0.0, 0.5 * w)),

@@ -56,7 +56,7 @@ class HoverPhases(LandingSequence, interface=True):
         return close and norm(self.sampled_velocity) <= self.settled_speed
 
     def choose(self, ahead: float, chosen_since: float) -> bool:
-        """Hover over a site that is being chosen from ``chosen_since`` (s) on; whether that is over."""
+        """Hover over a site that is chosen from ``chosen_since`` (s) on; return True if that is over."""
         waited = ahead - chosen_since + ROUNDING
         if waited >= self.hover_time and self.is_settled():
             return True
@@ -83,7 +83,7 @@ class HoverPhases(LandingSequence, interface=True):
         self.site = redesignate(self.site, allowed, self.moon_radius)
 
     def begin_transfer(self, time: float) -> None:
-        """Down to the second hover, over the site of the first re-designation."""
+        """Begin the descent to the second hover, over the site of the first re-designation."""
         self.first_site = self.site
         reach = self.reach_over_drop * (self.preliminary_altitude - self.final_altitude)
         self.move_site(self.sampled_move_1, reach, time)
@@ -91,7 +91,7 @@ class HoverPhases(LandingSequence, interface=True):
         self.request_plan(HoverMode.PROGRAMME)
 
     def transfer(self, ahead: float) -> bool:
-        """Until the plan is over; without a re-designation where it would need too much."""
+        """Transfer until the plan is over; without a re-designation where it would need too much."""
         if self.is_answered() and not self.plan_judged:
             self.plan_judged = True
             if self.sampled_mass - self.sampled_propellant - self.reserve < self.dry_mass:
@@ -108,7 +108,7 @@ class HoverPhases(LandingSequence, interface=True):
         self.request_plan(HoverMode.HOLD)
 
     def begin_approach(self, time: float) -> None:
-        """Slowly down to the last hover, over the site of the second re-designation."""
+        """Begin the slow descent to the last hover, over the site of the second re-designation."""
         self.move_site(self.sampled_move_2, self.second_reach, time)
         self.target_position = above_site(self.site, self.cutoff_altitude, self.moon_radius)
         self.request_plan(HoverMode.SLOW)
@@ -130,11 +130,11 @@ class HoverPhases(LandingSequence, interface=True):
         return False
 
     def begin_contact(self) -> None:
-        """No thrust."""
+        """Begin contact without thrust."""
         self.take_over(CommandSource.OWN, False)
 
     def face_up(self, time: float) -> None:
-        """Own command: the local vertical, without thrust."""
+        """Command the local vertical, without thrust."""
         up = vertical_at(self.sampled_position, self.moon_radius)
         self.command.thrust_direction = up
         self.command.thrust_direction_rate = across(self.sampled_velocity, up) / norm(

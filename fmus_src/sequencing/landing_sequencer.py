@@ -142,7 +142,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
                 self.is_sampled = False
 
     def decide(self, t: float, ahead: float, length: float) -> None:
-        """From the inputs of ``t`` (s), what holds from ``ahead`` (s) on for a cycle's ``length`` (s)."""
+        """Decide from the inputs of ``t`` (s) on the outputs from ``ahead`` (s) on for a cycle's ``length`` (s)."""
         if not self.mass_is_known:
             self.mass_is_known = True
             self.phase_mass[self.phase - 1] = self.sampled_mass

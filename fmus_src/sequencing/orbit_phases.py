@@ -70,7 +70,7 @@ class OrbitPhases(LandingSequence, interface=True):
     elsewhere = State(False, description="braking goes on to an end far from the site")
 
     def face_back(self, time: float) -> None:
-        """Own command: against the horizontal velocity, without thrust."""
+        """Command against the horizontal velocity, without thrust."""
         turning = against_horizontal(self.sampled_position, self.sampled_velocity, self.moon_radius)
         self.command.thrust_direction = turning.direction
         self.command.thrust_direction_rate = turning.rate
@@ -79,7 +79,7 @@ class OrbitPhases(LandingSequence, interface=True):
         self.command.burn_duration = 0.0
 
     def begin_deorbit(self) -> None:
-        """Own command; the first step gives its direction."""
+        """Begin an own command; the first step sets its direction."""
         self.take_over(CommandSource.OWN, False)
 
     def deorbit(self, t: float, ahead: float) -> int:
@@ -119,7 +119,7 @@ class OrbitPhases(LandingSequence, interface=True):
         return central_angle(self.sampled_position, self.moon_radius) <= place
 
     def coast(self, t: float, ahead: float) -> int:
-        """Until the site is near."""
+        """Coast until the site is near."""
         self.face_back(t)
         before_site = self.sampled_position.z > -self.moon_radius
         left = ground_range(self.sampled_position, self.moon_radius) - self.braking_range

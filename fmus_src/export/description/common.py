@@ -40,15 +40,15 @@ def start_description(
 
 
 def add_units(root: etree._Element, variables: Iterable[Variable]) -> None:
-    """UnitDefinitions with the units of the variables, none where these have no units."""
+    """Add UnitDefinitions with the units of the variables, none where these have no units."""
     define_units(root, (unit for variable in variables for unit in variable.units() if unit))
 
 
 def define_units(
     root: etree._Element, names: Iterable[str], others: Mapping[str, UnitDefinition] | None = None
 ) -> None:
-    """UnitDefinitions of the units with these names; those that are no products of known units, nor among ``others``,
-    are names alone."""
+    """Add UnitDefinitions of the units with these names; those that are no products of known
+    units, nor among ``others``, are names alone."""
     used = sorted(set(names))
     if used:
         definitions = etree.SubElement(root, "UnitDefinitions")
@@ -86,7 +86,7 @@ def add_items(parent: etree._Element, enumeration: type[Enumeration]) -> None:
 
 
 def add_log_categories(root: etree._Element) -> None:
-    """LogCategories of native and Python FMUs."""
+    """Add LogCategories of native and Python FMUs."""
     categories = etree.SubElement(root, "LogCategories")
     for name, description in LOG_CATEGORIES.items():
         etree.SubElement(categories, "Category", name=name, description=description)

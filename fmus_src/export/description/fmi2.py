@@ -33,7 +33,7 @@ def model_description(
     sources: Sequence[str] = (),
     native_memory: bool = False,
 ) -> bytes:
-    """modelDescription.xml of a block.
+    """Return modelDescription.xml of a block.
 
     ``origin`` has the attributes of `origin.origin`. ``sources`` lists the C files under ``sources/`` that an importer
     compiles; ``native_memory`` says that the FMU uses the importer's memory functions. Value references number the

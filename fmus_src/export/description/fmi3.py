@@ -26,11 +26,10 @@ FMI_VERSION = "3.0"  # of all of 3.0.x, as fmi3GetVersion has it
 
 
 def model_description(block_class: type[Block], *, token: str, origin: Mapping[str, str]) -> bytes:
-    """modelDescription.xml of a block's native FMU for co-simulation.
+    """Return modelDescription.xml of a block's native FMU for co-simulation.
 
     ``origin`` has the attributes of `origin.origin`. Value references number the variables in order of declaration,
-    arrays as wholes; the last is time. Raises ValueError
-    for a variable ``time``, and for two enumerations of one name.
+    arrays as wholes; the last is time. Raises ValueError for a variable ``time``, and for two enumerations of one name.
     """
     root = etree.Element(
         "fmiModelDescription",

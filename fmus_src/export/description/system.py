@@ -71,7 +71,7 @@ def system_description(
     sources: Sequence[str],
     units: Mapping[str, UnitDefinition],
 ) -> bytes:
-    """modelDescription.xml; value references number the ``variables`` in order.
+    """Return modelDescription.xml; value references number the ``variables`` in order.
 
     ``dependencies`` are the inputs that outputs depend on directly, ``origin`` the attributes of `origin.origin`,
     ``experiment`` those of DefaultExperiment, ``units`` those of the system's own description.

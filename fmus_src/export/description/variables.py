@@ -80,5 +80,5 @@ def list_variables(block_class: type[Block]) -> list[ArrayVariable]:
 
 
 def _whole_name(declared: Variable, element: str) -> str:
-    """``motion.attitude`` of a record's ``motion.attitude[1]``; the variable's name of what has no record."""
+    """Return ``motion.attitude`` of a record's ``motion.attitude[1]``; the variable's name where there is no record."""
     return declared.name if declared.record is None else element.partition("[")[0]

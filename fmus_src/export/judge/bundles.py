@@ -50,7 +50,7 @@ class _WriteOut(ast.NodeTransformer):
         return [self.assign_member(node, stored.names[member], read.names[member]) for member in stored.names]
 
     def assign_member(self, node: ast.Assign, stored: str, read: str) -> ast.AST:
-        """``self.STORED = self.READ`` in the place of the assignment of a bundle."""
+        """Return ``self.STORED = self.READ`` in place of the assignment of a bundle."""
         target = self.variable(node.targets[0], stored, ast.Store())
         return ast.copy_location(ast.Assign([target], self.variable(node.value, read, ast.Load())), node)
 
@@ -67,6 +67,6 @@ class _WriteOut(ast.NodeTransformer):
         return self.variable(node, bundle.names[node.attr], node.ctx)
 
     def variable(self, node: ast.expr, name: str, context: ast.expr_context) -> ast.Attribute:
-        """``self.NAME`` in the place of a node."""
+        """Return ``self.NAME`` in place of a node."""
         me = ast.copy_location(ast.Name("self", ast.Load()), node)
         return ast.copy_location(ast.Attribute(me, name, context), node)

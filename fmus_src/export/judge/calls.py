@@ -52,7 +52,7 @@ class CallTypes(ExpressionTypes):
         self.resolve = resolve
 
     def infer_call(self, node: ast.Call) -> Type | None:
-        """Type of a call used as a value; calls without a value are statements."""
+        """Infer the type of a call used as a value; calls without a value are statements."""
         returned = self._value_of(node)
         if not isinstance(returned, Several):
             return returned
@@ -60,7 +60,7 @@ class CallTypes(ExpressionTypes):
         return None
 
     def infer_several(self, node: ast.expr) -> Type | Several | None:
-        """Type of what is returned or assigned to several targets, which may be several values."""
+        """Infer the type of a returned value, or one assigned to several targets, which may be several values."""
         if not isinstance(node, ast.Call):
             return self.infer(node)
         self.function.types[node] = returned = self._value_of(node)
@@ -121,7 +121,7 @@ class CallTypes(ExpressionTypes):
         return None
 
     def _infer_argument(self, node: ast.expr) -> None:
-        """Type of an argument, which may be a function or a method of the block to be called."""
+        """Infer the type of an argument, which may be a function or a method of the block to be called."""
         if is_self_attribute(node) and self.function.source.owner is not None:
             assert isinstance(node, ast.Attribute)
             method = find_method(self.function.block_class, node.attr)

@@ -182,7 +182,7 @@ class _Effects:
         return inside | own_outcome(self.function, node)
 
     def _in_order(self, nodes: list[ast.expr], conditional: bool, always: bool = False) -> Outcomes:
-        """Operands evaluated from left to right; those that must not wait for later ones are hoisted."""
+        """Visit operands from left to right; those that must not wait for later ones are hoisted."""
         outcomes = [self.visit(node, conditional) for node in nodes]
         for position, node in enumerate(nodes):
             mine = outcomes[position]

@@ -320,7 +320,7 @@ class ExpressionTypes(MatrixTypes):
 
 
 def type_of_variable(variable: Variable) -> Type:
-    """Type of a declared variable."""
+    """Return the type of a declared variable."""
     if variable.record is not None:
         return RecordType(variable.record)
     scalar = SCALARS[type(variable.elements[0])]

@@ -27,7 +27,7 @@ class FlowCheck:
             self.kernel.report(self.function.source, node, "missing return", name=self.function.name)
 
     def block(self, statements: Iterable[ast.stmt], assigned: frozenset[str] | None) -> frozenset[str] | None:
-        """Names assigned after the statements, or NEVER."""
+        """Return names assigned after the statements, or NEVER."""
         for statement in statements:
             if assigned is NEVER:
                 return NEVER
@@ -35,7 +35,7 @@ class FlowCheck:
         return assigned
 
     def statement(self, node: ast.stmt, assigned: frozenset[str]) -> frozenset[str] | None:
-        """Names assigned after one statement, or NEVER."""
+        """Return names assigned after one statement, or NEVER."""
         if isinstance(node, ast.If):
             self.reads(node.test, assigned)
             return meet(self.block(node.body, assigned), self.block(node.orelse, assigned))
@@ -72,7 +72,7 @@ class FlowCheck:
 
 
 def meet(left: frozenset[str] | None, right: frozenset[str] | None) -> frozenset[str] | None:
-    """Names assigned after either of two branches."""
+    """Return names assigned after either of two branches."""
     if left is NEVER or right is NEVER:
         return right if left is NEVER else left
     return left & right

@@ -25,7 +25,7 @@ class MatrixTypes(RecordTypes):
     def operate_on_matrices(
         self, node: ast.AST, operator: ast.operator, left: Type | Several, right: Type | Several
     ) -> Type | None:
-        """Type of ``left operator right``, where one is a matrix of floats or the operator is ``@``."""
+        """Infer the type of ``left operator right``, where one is a matrix of floats or the operator is ``@``."""
         if isinstance(left, Matrix) and left.element is FLOAT:
             if isinstance(right, Matrix) and right.element is FLOAT:
                 return self._operate_on_two(node, operator, left, right)
@@ -53,14 +53,14 @@ class MatrixTypes(RecordTypes):
         return None
 
     def transpose(self, node: ast.Attribute, kind: Matrix) -> Type | None:
-        """Type of ``p.T``."""
+        """Infer the type of ``p.T``."""
         if node.attr != "T":
             self.report(node, "component", name=node.attr, kind=kind, names="T, copy() and p[i, j]")
             return None
         return Matrix(kind.columns, kind.rows, kind.element)
 
     def part_of_matrix(self, node: ast.Subscript, kind: Matrix) -> Type | None:
-        """Type of ``p[i, j]``, ``p[POSITION, j]``, ``p[POSITION, :]``."""
+        """Infer the type of ``p[i, j]``, ``p[POSITION, j]``, ``p[POSITION, :]``."""
         indices = node.slice.elts if isinstance(node.slice, ast.Tuple) else []
         if len(indices) != 2:
             self.report(node, "matrix index", name=ast.unparse(node.value))
@@ -106,7 +106,7 @@ class MatrixTypes(RecordTypes):
         return value if isinstance(value, slice) else None
 
     def make_matrix(self, node: ast.Call, callee: Any) -> Type | None:
-        """Type of a call that makes a matrix; None where it is another call, or a wrong one."""
+        """Infer the type of a call that creates a matrix; None where it is another call, or a wrong one."""
         name = MAKERS.get(callee) if callee is not None else None
         if name is None:
             return self._copy(node)
@@ -127,7 +127,7 @@ class MatrixTypes(RecordTypes):
         return kind
 
     def _literal(self, node: ast.Call) -> Matrix | None:
-        """``matrix([a, b], [c, d])``."""
+        """Infer the type of ``matrix([a, b], [c, d])``."""
         if not node.args or node.keywords or not all(isinstance(row, ast.List) for row in node.args):
             return None
         rows: list[list[ast.expr]] = [row.elts for row in node.args]  # type: ignore[attr-defined]
@@ -137,7 +137,7 @@ class MatrixTypes(RecordTypes):
         return Matrix(len(rows), len(rows[0]))
 
     def _sum(self, node: ast.Call) -> Matrix | None:
-        """``add_product(q, a, b)``."""
+        """Infer the type of ``add_product(q, a, b)``."""
         kinds = [self.infer(argument) for argument in node.args]
         if len(kinds) != 3 or node.keywords or not all(isinstance(kind, Matrix) for kind in kinds):
             return None
@@ -146,7 +146,7 @@ class MatrixTypes(RecordTypes):
         return q if fits else None  # type: ignore[return-value]
 
     def _copy(self, node: ast.Call) -> Type | None:
-        """``p.copy()``."""
+        """Infer the type of ``p.copy()``."""
         function = node.func
         if not isinstance(function, ast.Attribute) or function.attr != "copy" or node.args or node.keywords:
             return None

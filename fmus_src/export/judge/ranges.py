@@ -67,7 +67,7 @@ class _Ranges:
                         changed = True
 
     def _assign(self, node: ast.AST) -> list[tuple[str, Interval]]:
-        """Ints that a statement assigns to variables, with their ranges."""
+        """Return ints that a statement assigns to variables, with their ranges."""
         if isinstance(node, ast.For) and isinstance(node.target, ast.Name) and isinstance(node.iter, ast.Call):
             return [(node.target.id, self.loop_range(node.iter))]
         if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
@@ -79,7 +79,7 @@ class _Ranges:
         return []
 
     def loop_range(self, call: ast.Call) -> Interval:
-        """Values that a loop variable takes."""
+        """Return values that a loop variable takes."""
         bounds = [self.of(argument) for argument in call.args[:2]]
         first = bounds[0] if len(bounds) == 2 else Interval(0, 0)
         stop = bounds[-1]
@@ -160,7 +160,8 @@ class _Ranges:
             )
 
     def _judge_mixed(self, node: ast.Compare | ast.BinOp, use: str) -> None:
-        """Python compares an int with a float, and divides ints, without rounding the int first; C rounds it."""
+        """Report mixed operands: Python compares an int with a float, and divides ints, without
+        rounding the int first; C rounds it."""
         operands = [node.left, node.right if isinstance(node, ast.BinOp) else node.comparators[0]]
         kinds = [self.function.types.get(operand) for operand in operands]
         exact = all(
@@ -191,7 +192,8 @@ def indices_of(function: Function, node: ast.Subscript) -> list[tuple[ast.expr, 
 
 
 def _loops_of_reads(function: Function) -> dict[ast.expr, ast.Call]:
-    """For each read of a loop's variable inside the loop, where nothing else assigns it there: the loop's range."""
+    """Return for each read of a loop's variable inside the loop, where nothing else assigns it there, the loop's
+    range."""
     by_read: dict[ast.expr, ast.Call] = {}
     loops = [node for node in ast.walk(function.source.node) if isinstance(node, ast.For)]
     for loop in loops:  # outer loops first, so that inner ones overwrite them
@@ -205,7 +207,7 @@ def _loops_of_reads(function: Function) -> dict[ast.expr, ast.Call]:
 
 
 def _clamp(interval: Interval) -> Interval:
-    """Values beyond 64 bits end the call, so no variable ever holds them."""
+    """Cut a range to 64 bits: values beyond end the call, so no variable ever holds them."""
     return Interval(min(max(interval.low, INT64.low), INT64.high), max(min(interval.high, INT64.high), INT64.low))
 
 

@@ -104,7 +104,7 @@ def find_global(function: FunctionType, name: str) -> Any:
 
 
 def origin_of_constant(function: FunctionType, name: str) -> str:
-    """Full name of the module that defines a constant which the function's module may only import."""
+    """Return the full name of the module that defines a constant which the function's module may only import."""
     tree = _tree(Path(function.__code__.co_filename))
     for node in tree.body:
         if isinstance(node, ast.ImportFrom):
@@ -128,7 +128,7 @@ def label(path: Path) -> str:
 
 
 def comments_of(path: Path) -> dict[int, str]:
-    """Comments that stand on a line of their own, by line number, without the ``#``."""
+    """Return comments on separate lines, by line number, without the ``#``."""
     return _comments(path.read_text(encoding="utf-8"))
 
 

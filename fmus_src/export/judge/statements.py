@@ -30,7 +30,7 @@ ANY_MATRIX = Matrix(0, 0)  # declared as Matrix
 
 
 def local_names(node: ast.FunctionDef) -> set[str]:
-    """Names that a function assigns, which makes them local throughout it."""
+    """Return names that a function assigns, which makes them local throughout it."""
     return {part.id for part in ast.walk(node) if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)}
 
 

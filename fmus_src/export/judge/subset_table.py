@@ -57,7 +57,7 @@ MATH_FUNCTIONS: dict[str, MathFunction] = {
 
 
 def _read_rules(text: str) -> dict[str, Rule]:
-    """Rules by name, from two lines each: ``name: what is refused``, and indented what to write instead."""
+    """Read rules by name, from two lines each: ``name: what is refused``, and indented what to write instead."""
     lines = text.strip().splitlines()
     rules = {}
     for first, remedy in zip(lines[::2], lines[1::2], strict=True):

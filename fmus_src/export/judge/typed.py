@@ -182,7 +182,8 @@ def _fits(given: Type, declared: Value | str) -> bool:
 
 
 def _annotation(source: Source, node: ast.expr | None) -> Value | str | None:
-    """``float`` as Scalar, ``Vector3`` as Vector, a record's class as RecordType; else one of the texts of `OTHERS`."""
+    """Return ``float`` as Scalar, ``Vector3`` as Vector, a record's class as RecordType; else
+    one of the texts of `OTHERS`."""
     if isinstance(node, ast.Subscript):
         node = node.value
     if not isinstance(node, ast.Name):

@@ -47,7 +47,7 @@ class VectorTypes(ABC):
     def operate_on_vectors(
         self, node: ast.AST, operator: ast.operator, left: Type | Several, right: Type | Several
     ) -> Type | None:
-        """Type of ``left operator right``, at least one of which is a vector."""
+        """Infer the type of ``left operator right``, at least one of which is a vector."""
         name = type(operator).__name__
         if isinstance(left, List) or isinstance(right, List):
             self.report(node, "list for vector", left=left, right=right)
@@ -67,7 +67,7 @@ class VectorTypes(ABC):
         return None
 
     def component(self, node: ast.Attribute, kind: Vector) -> Type | None:
-        """Type of ``v.x``."""
+        """Infer the type of ``v.x``."""
         names = VECTORS[kind.size].names
         if node.attr not in names:
             self.report(node, "component", name=node.attr, kind=kind, names=", ".join(names))
@@ -95,7 +95,7 @@ class VectorTypes(ABC):
         return end - first  # type: ignore[operator]
 
     def part_of_vector(self, node: ast.Subscript, container: Type | None) -> Type | None:
-        """Type of ``v[1:4]`` as a value, which only vectors have."""
+        """Infer the type of ``v[1:4]`` as a value, which only vectors have."""
         if isinstance(container, List):
             self.report(node, "part of a list", part=ast.unparse(node))
             return None
@@ -108,7 +108,7 @@ class VectorTypes(ABC):
         return Vector(size)
 
     def make_vector(self, node: ast.Call) -> Type | None:
-        """Type of ``vector(x, y, z)`` or ``vector(*wrench[0:3])``."""
+        """Infer the type of ``vector(x, y, z)`` or ``vector(*wrench[0:3])``."""
         if node.keywords:
             self.report(node, "keyword")
             return None
@@ -156,7 +156,7 @@ class RecordTypes(VectorTypes):
     def operate_on_records(
         self, node: ast.AST, operator: ast.operator, left: Type | Several, right: Type | Several
     ) -> Type | None:
-        """Type of ``left operator right``, at least one of which is a record."""
+        """Infer the type of ``left operator right``, at least one of which is a record."""
         kind = left if isinstance(left, RecordType) else right
         assert isinstance(kind, RecordType)
         both = left == right and isinstance(operator, ast.Add | ast.Sub)
@@ -168,7 +168,7 @@ class RecordTypes(VectorTypes):
         return None
 
     def field(self, node: ast.Attribute, kind: RecordType) -> Type | None:
-        """Type of ``s.speed``."""
+        """Infer the type of ``s.speed``."""
         if node.attr not in kind.record.fields:
             self.report(node, "field", name=node.attr, kind=kind, names=", ".join(kind.record.fields))
             return None
@@ -176,7 +176,7 @@ class RecordTypes(VectorTypes):
         return kind.field(node.attr)
 
     def make_record(self, node: ast.Call, made: Any) -> Type | None:
-        """Type of ``Motion(position=p, speed=v)`` or ``replace(s, speed=v)``."""
+        """Infer the type of ``Motion(position=p, speed=v)`` or ``replace(s, speed=v)``."""
         if isinstance(made, FunctionType):
             kind = self.infer(node.args[0]) if len(node.args) == 1 and is_variable(node.args[0]) else None
             if not isinstance(kind, RecordType):

@@ -137,7 +137,7 @@ class CallWriter(ABC):
         return f"({C_TYPES[target]}){self.write(argument, UNARY)}", UNARY
 
     def _whole(self, node: ast.Call, name: str, checked: str) -> tuple[str, int]:
-        """math.floor, math.ceil or int of a float, as int or as float."""
+        """Write math.floor, math.ceil or int of a float, as int or as float."""
         if self.function.is_total:
             cast = "(int64_t)" if checked == "py_whole_int" else ""
             return f"{cast}{self.call(WHOLE[name], self.write(node.args[0]))}", UNARY

@@ -53,7 +53,7 @@ class ExpressionWriter(CallWriter):
     matrices: MatrixText
 
     def write(self, node: ast.expr, outer: int = CONDITIONAL) -> str:
-        """C text of an expression, in parentheses where the operator around it binds tighter."""
+        """Write the C text of an expression, in parentheses where the operator around it binds tighter."""
         if makes_matrix(self.function, node) and not isinstance(self.function.calls.get(node), KernelCall):  # type: ignore[call-overload]
             return parenthesise(self.matrices.write(node), outer)
         text, precedence = self._write_by_syntax(node)
@@ -119,7 +119,7 @@ class ExpressionWriter(CallWriter):
         return f"{member}[{index or self.index(node)}]"
 
     def write_tuple(self, node: ast.Tuple) -> tuple[str, int]:
-        """Several return values."""
+        """Write several return values."""
         kind = self.function.types[node]
         assert isinstance(kind, Several)
         return f"({c_type(kind)}){{{', '.join(self.write(part) for part in node.elts)}}}", ATOM

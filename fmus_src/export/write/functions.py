@@ -46,7 +46,7 @@ def write_function(function: Function, names: Names, block_type: str) -> list[st
 
 
 def _find_unused(function: Function) -> list[str]:
-    """C names of the arguments that the function does not use."""
+    """Return C names of the arguments that the function does not use."""
     read = {part.id for part in ast.walk(function.source.node) if isinstance(part, ast.Name)}
     valued = [name for name, kind in function.parameters.items() if not isinstance(kind, Bound)]
     unused = [identifier(name) for name in valued if name not in read]

@@ -25,7 +25,7 @@ class Lines:
         self.depth = depth
 
     def add(self, text: str, python_line: int = 0) -> None:
-        """One statement, broken where it is too long, with the Python line at the right of its end."""
+        """Add one statement, broken where it is too long, with the Python line at the right of its end."""
         *heads, text = text.split("\n")
         self.text += [INDENT * self.depth + head for head in heads]
         parts = textwrap.wrap(

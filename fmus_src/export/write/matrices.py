@@ -26,7 +26,7 @@ class MatrixWriter(MatrixEntries):
         return self.materialise(node), ATOM
 
     def write_part(self, node: ast.Subscript) -> str:
-        """``p[i, j]`` as a number, ``p[i, 0:3]`` as a vector."""
+        """Write ``p[i, j]`` as a number, ``p[i, 0:3]`` as a vector."""
         rows, columns = self.function.blocks[node]
         if rows is None and columns is None:
             return f"{self.holder(node.value)}[{self.place(node)}]"
@@ -35,7 +35,7 @@ class MatrixWriter(MatrixEntries):
         return self.expressions.vector([entry(k, 0)[0] if rows else entry(0, k)[0] for k in range(size)])
 
     def assign(self, statement: ast.stmt, target: ast.expr, expression: ast.expr) -> None:
-        """``target = expression``, of a matrix, or of a block, row or column."""
+        """Write ``target = expression``, of a matrix, or of a block, row or column."""
         if isinstance(target, ast.Subscript):
             self._assign_block(target, expression)
             return
@@ -119,7 +119,7 @@ class MatrixWriter(MatrixEntries):
         self._each(kind, False, write)
 
     def _each(self, kind: Matrix, small: bool, write: Callable[[Index, Index], list[str]]) -> None:
-        """Statements for each element: written out, or in loops."""
+        """Write statements for each element: written out, or in loops."""
         if small:
             for i in range(kind.rows):
                 for j in range(kind.columns):

@@ -117,7 +117,7 @@ class MatrixEntries:
         )
 
     def _elementwise(self, node: ast.BinOp) -> Entry:
-        """``+`` and ``-`` of matrices, ``*`` and ``/`` with a number."""
+        """Return ``+`` and ``-`` of matrices, ``*`` and ``/`` with a number."""
         if isinstance(node.op, ast.Add | ast.Sub):
             left, right = self.prepare(node.left), self.prepare(node.right)
             sign = "+" if isinstance(node.op, ast.Add) else "-"
@@ -163,9 +163,9 @@ class MatrixEntries:
         return entry
 
     def factors(self, node: ast.expr) -> tuple[Entry | None, Entry, Entry]:
-        """Elements of what a product is added to, and of both factors.
+        """Return elements of the addend of a product, and of both factors.
 
-        Factors are in a matrix of their own where an element is used more than once and takes computing.
+        Factors are in a separate matrix where an element is used more than once and takes computing.
         """
         *addend, first, second = terms_of(node)
         kind, right = self.function.types[first], self.function.types[second]

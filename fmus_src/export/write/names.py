@@ -75,7 +75,7 @@ def identifier(name: str) -> str:
 
 
 def module_prefix(module: str) -> str:
-    """``perilune.fmus_src.mathlib.rng`` -> ``rng``."""
+    """Return the prefix of a module: ``perilune.fmus_src.mathlib.rng`` -> ``rng``."""
     return re.sub(r"\W", "_", module.split(".")[-1])
 
 
@@ -88,7 +88,7 @@ class Names:
 
 
 def names_of(kernel: Kernel) -> Names:
-    """Names for all of a kernel, no two of them the same."""
+    """Return names for all of a kernel, no two of them the same."""
     constants = [constant for function in kernel.functions for constant in function.constants.values()]
     return Names(_function_names(kernel.functions), _constant_names(constants))
 
@@ -133,7 +133,8 @@ def block_type_name(name: str) -> str:
 
 
 def _constant_names(constants: list[Constant]) -> dict[Constant, str]:
-    """``UNLIMITED`` of terminal_guidance -> ``TERMINAL_GUIDANCE_UNLIMITED``; with folders where that is not enough.
+    """Return C names of constants: ``UNLIMITED`` of terminal_guidance -> ``TERMINAL_GUIDANCE_UNLIMITED``; with folders
+    where needed.
 
     Members of several enumerations of one module may share a name; then they are numbered.
     """
@@ -161,7 +162,7 @@ def literal(value: float | int | bool) -> str:
 
 
 def c_type(kind: Value | Several) -> str:
-    """``double``, ``Vector3``, ``Motion``; ``DoubleVector3`` for a float and a vector."""
+    """Return the C type: ``double``, ``Vector3``, ``Motion``; ``DoubleVector3`` for a float and a vector."""
     if isinstance(kind, RecordType):
         return f"{kind.record.__name__}Record"
     if isinstance(kind, Matrix):
@@ -172,7 +173,7 @@ def c_type(kind: Value | Several) -> str:
 
 
 def declaration(kind: Type, name: str, constant: bool = False) -> str:
-    """``double x`` for a scalar, ``const double *x`` for a list or matrix argument that is not changed."""
+    """Return ``double x`` for a scalar, ``const double *x`` for a list or matrix argument that is not changed."""
     if isinstance(kind, List):
         qualifier = "const " if constant else ""
         return f"{qualifier}{C_TYPES[kind.element]} *{name}"
@@ -205,5 +206,5 @@ def _field_path(record: type[Record], position: int) -> str:
 
 
 def comment(text: str) -> str:
-    """Text that is safe inside a C comment."""
+    """Return text that is safe inside a C comment."""
     return text.replace("*/", "* /").replace("/*", "/ *")

@@ -37,7 +37,7 @@ class Placement:
         return name in self.with_value.get(node, ())
 
     def _plain_loops(self, root: ast.FunctionDef) -> None:
-        """Loops over a variable that nothing else assigns and that is not read after the loop."""
+        """Find loops over a variable that nothing else assigns and that is not read after the loop."""
         loops = [node for node in ast.walk(root) if isinstance(node, ast.For)]
         by_name: dict[str, list[ast.For]] = {}
         for loop in loops:
@@ -103,6 +103,6 @@ def _is_use(node: ast.AST, name: str, context: type[ast.expr_context]) -> bool:
 
 
 def list_assigned(statements: list[ast.stmt]) -> set[str]:
-    """Names that statements assign, loops inside them included."""
+    """Return names that statements assign, loops inside them included."""
     parts = (part for statement in statements for part in ast.walk(statement))
     return {part.id for part in parts if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)}

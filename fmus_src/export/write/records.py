@@ -20,7 +20,7 @@ OPERATIONS: dict[str, tuple[str, str, str]] = {
 
 
 def write_records(kernel: Kernel) -> list[str]:
-    """Definitions of the records that a kernel has, each after those of its fields."""
+    """Write definitions of the records of a kernel, each after those of its fields."""
     return [_definition(kind) for kind in records_of(kernel)]
 
 
@@ -63,7 +63,7 @@ def _write_operation(lines: Lines, kind: RecordType, head: str, write: Callable[
 
 
 def _write_checked_division(lines: Lines, kind: RecordType) -> None:
-    """Division by what may be zero."""
+    """Write the division by a number that may be zero."""
     name = c_type(kind)
     lines.open(
         f"static inline {name} py_divide_{name}(Fault *fault, const char *file, int line, {name} a, double k)\n{{"

@@ -30,7 +30,7 @@ class StatementWriter(FunctionWriter):
         self.matrices = self.expressions.matrices = MatrixWriter(self, self.expressions)
 
     def block(self, statements: list[ast.stmt]) -> None:
-        """Statements in order, with the comments that stand before each."""
+        """Write statements in order, with the comments that stand before each."""
         outer_names = set(self.used)
         for statement in statements:
             self.comments_before(statement)
@@ -88,7 +88,7 @@ class StatementWriter(FunctionWriter):
         self.assign(node, node.target, node.value)
 
     def assign(self, node: ast.stmt, target: ast.expr, value: ast.expr) -> None:
-        """``target = value``; a local variable's first assignment declares it where its uses allow."""
+        """Write ``target = value``; a local variable's first assignment declares it where its uses allow."""
         if is_list_binding(value):
             assert isinstance(target, ast.Name)
             self.bind_list(node, target.id, value)
@@ -155,7 +155,7 @@ class StatementWriter(FunctionWriter):
         return isinstance(call, KernelCall) and call.callee.changes_anything
 
     def bind_list(self, node: ast.stmt, name: str, value: ast.expr) -> None:
-        """``name = [a, b]`` or ``name = [a] * n``."""
+        """Write ``name = [a, b]`` or ``name = [a] * n``."""
         kind = self.function.locals[name]
         assert isinstance(kind, List)
         declares = self.placement.declares(node, name)
@@ -253,7 +253,7 @@ class StatementWriter(FunctionWriter):
         self.lines.close("}")
 
     def _bounds(self, node: ast.For, call: ast.Call) -> list[str]:
-        """First and last bound; in variables of their own where evaluating them again could differ."""
+        """Return first and last bound; in separate variables where evaluating them again could differ."""
         changed = list_assigned([node])
         stop = call.args[:2][-1]
         texts = []

@@ -22,7 +22,7 @@ ROLES = {"parameter": "ROLE_PARAMETER", "input": "ROLE_INPUT", "output": "ROLE_O
 
 
 def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) -> str:
-    """Facts for the wrapper: GUID, declared starts, and tables by value reference."""
+    """Write the tables of the wrapper: GUID, declared starts, and variables by value reference."""
     starts = Lines()
     starts.open("static const Block STARTS = {")
     elements = Lines()
@@ -96,7 +96,8 @@ def write_ranges(rows: Iterable[tuple[int, int, float, float]]) -> list[str]:
 
 
 def _references(block_class: type[Block], fmi: int) -> list[str]:
-    """Names by value reference: of elements in FMI 2.0, of whole variables in FMI 3.0, which has a table of these."""
+    """Return names by value reference: of elements in FMI 2.0, of whole variables in FMI 3.0,
+    which has a table of these."""
     lines = Lines()
     if fmi == 3:
         lines.comment("In order of value references.")
@@ -126,7 +127,7 @@ def _initialise(start: Any) -> str:
 
 
 def _alike(traits: list[str]) -> list[int]:
-    """For each element how many from it on have its traits: members of one kind lie side by side in the struct."""
+    """Count for each element those from it on with its traits: members of one kind are contiguous in the struct."""
     counts: list[int] = []
     for number in range(len(traits) - 1, -1, -1):
         goes_on = counts and traits[number] == traits[number + 1]

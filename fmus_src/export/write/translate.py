@@ -108,7 +108,7 @@ def _matrices(kernel: Kernel) -> list[str]:
 
 
 def _struct(block_class: type[Block], type_name: str) -> str:
-    """One member per variable, with causality, unit, frame and description."""
+    """Write a struct of one member per variable, with causality, unit, frame and description."""
     lines = Lines()
     lines.comment("Variables in order of declaration.")
     lines.open(f"typedef struct {type_name} {{")
@@ -166,7 +166,7 @@ def _several(kernel: Kernel) -> list[str]:
 
 
 def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
-    """Every function, callees first, under the name of its Python file."""
+    """Write every function, callees first, under the name of its Python file."""
     definitions = []
     file = ""
     for function in _by_file(kernel.functions):
@@ -190,7 +190,7 @@ def _define_checked(function: Function, c_name: str, error: str) -> str:
 
 
 def _by_file(functions: list[Function]) -> list[Function]:
-    """Callees before callers still, with those of one file together where that is possible."""
+    """Sort callees before callers still, with those of one file together where that is possible."""
     waiting = list(functions)
     ordered: list[Function] = []
     while waiting:

@@ -16,7 +16,7 @@ START_TIME = Port(0.0, unit="s", description="start of the flight")
 
 
 def random_stream() -> tuple[Parameter, Parameter]:
-    """seed and stream of a block's random numbers."""
+    """Return seed and stream of a block's random numbers."""
     seed = Parameter(1, minimum=0, description="random numbers: seed")
     stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
     return seed, stream

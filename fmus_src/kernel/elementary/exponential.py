@@ -29,21 +29,21 @@ EXP_8 = 2.511504794193503e-08
 
 
 def exp_polynomial(r: float, z: float) -> float:
-    """q(r) = (exp(r) - 1 - r - r^2/2)/r^3 for |r| <= ln 2/2 and z = r^2."""
+    """Return q(r) = (exp(r) - 1 - r - r^2/2)/r^3 for |r| <= ln 2/2 and z = r^2."""
     return (EXP_0 + r * EXP_1) + z * (
         (EXP_2 + r * EXP_3) + z * ((EXP_4 + r * EXP_5) + z * ((EXP_6 + r * EXP_7) + z * EXP_8))
     )
 
 
 def scale(y: float, n: float) -> float:
-    """y 2^n, infinite where that is too large."""
+    """Return y 2^n, infinite where that is too large."""
     if n > 1000.0:
         return math.ldexp(y, int(n) - 1) * 2.0
     return math.ldexp(y, int(n))
 
 
 def expm1_two(r: float, tail: float) -> tuple[float, float]:
-    """exp(r + tail) - 1 as a sum of two doubles, for |r| <= ln 2/2 and a tail below r's last place."""
+    """Return exp(r + tail) - 1 as a sum of two doubles, for |r| <= ln 2/2 and a tail below r's last place."""
     z = r * r
     half = 0.5 * z
     s = r + half
@@ -53,7 +53,7 @@ def expm1_two(r: float, tail: float) -> tuple[float, float]:
 
 
 def exp_two(x: float, tail: float) -> tuple[float, float, float]:
-    """high, low and n of exp(x + tail) = (high + low) 2^n, for |x| below 800."""
+    """Return high, low and n of exp(x + tail) = (high + low) 2^n, for |x| below 800."""
     n = x * LOG2_E + ROUND - ROUND
     a = x - n * LN2_HIGH
     b = n * LN2_LOW
@@ -66,7 +66,7 @@ def exp_two(x: float, tail: float) -> tuple[float, float, float]:
 
 
 def exp(x: float) -> float:
-    """e^x."""
+    """Return e^x."""
     if x > OVERFLOW:
         return math.inf
     if x < UNDERFLOW:
@@ -82,7 +82,7 @@ def exp(x: float) -> float:
 
 
 def exp2(x: float) -> float:
-    """2^x."""
+    """Return 2^x."""
     if x >= 1024.0:
         return math.inf
     if x < -1075.0:
@@ -97,7 +97,7 @@ def exp2(x: float) -> float:
 
 
 def expm1(x: float) -> float:
-    """e^x - 1, without losing digits for small x."""
+    """Return e^x - 1, without losing digits for small x."""
     if x > OVERFLOW:
         return math.inf
     if x < -38.0:

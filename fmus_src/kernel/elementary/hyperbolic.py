@@ -29,7 +29,7 @@ COSH_6 = 4.8472408711593995e-14
 
 
 def sinh(x: float) -> float:
-    """Hyperbolic sine."""
+    """Return the hyperbolic sine."""
     a = abs(x)
     if a <= 1.0:
         z = x * x
@@ -40,7 +40,7 @@ def sinh(x: float) -> float:
 
 
 def cosh(x: float) -> float:
-    """Hyperbolic cosine."""
+    """Return the hyperbolic cosine."""
     a = abs(x)
     if a <= 1.0:
         z = x * x
@@ -51,7 +51,7 @@ def cosh(x: float) -> float:
 
 
 def half_exponentials(a: float, sign: float) -> float:
-    """(exp(a) + sign exp(-a))/2 for a above 1."""
+    """Return (exp(a) + sign exp(-a))/2 for a above 1."""
     if a > OVERFLOW:
         return math.inf
     if a != a:
@@ -66,7 +66,7 @@ def half_exponentials(a: float, sign: float) -> float:
 
 
 def tanh(x: float) -> float:
-    """Hyperbolic tangent: expm1(2 x)/(expm1(2 x) + 2)."""
+    """Return the hyperbolic tangent: expm1(2 x)/(expm1(2 x) + 2)."""
     a = abs(x)
     if a > 22.0:
         return math.copysign(1.0, x)

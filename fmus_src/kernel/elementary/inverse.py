@@ -47,7 +47,7 @@ ASIN_11 = 0.031958908734616515
 
 
 def atan_polynomial(t: float) -> float:
-    """atan(t) - t for |t| <= 7/16."""
+    """Return atan(t) - t for |t| <= 7/16."""
     z = t * t
     w = z * z
     odd = w * (ATAN_1 + w * (ATAN_3 + w * (ATAN_5 + w * (ATAN_7 + w * ATAN_9))))
@@ -56,7 +56,7 @@ def atan_polynomial(t: float) -> float:
 
 
 def asin_polynomial(x: float, z: float) -> float:
-    """asin(x) - x for |x| <= 1/2 and z = x^2."""
+    """Return asin(x) - x for |x| <= 1/2 and z = x^2."""
     w = z * z
     odd = w * (ASIN_1 + w * (ASIN_3 + w * (ASIN_5 + w * (ASIN_7 + w * (ASIN_9 + w * ASIN_11)))))
     even = z * (ASIN_0 + w * (ASIN_2 + w * (ASIN_4 + w * (ASIN_6 + w * (ASIN_8 + w * ASIN_10)))))
@@ -64,7 +64,7 @@ def asin_polynomial(x: float, z: float) -> float:
 
 
 def nearest_angle(q: float, tail: float) -> tuple[float, float, float]:
-    """high, low and t of atan(q + tail) = high + low + atan(t), q >= 0, about the nearest tabled angle."""
+    """Return high, low and t of atan(q + tail) = high + low + atan(t), q >= 0, about the nearest tabled angle."""
     low = tail / (1.0 + q * q)
     if q < 0.4375:
         return 0.0, low, q
@@ -78,7 +78,7 @@ def nearest_angle(q: float, tail: float) -> tuple[float, float, float]:
 
 
 def atan(x: float) -> float:
-    """Arc tangent."""
+    """Return the arc tangent."""
     a = abs(x)
     if a < SMALL or x != x:
         return x
@@ -138,7 +138,7 @@ def angle_of_edge(a: float, b: float, x: float) -> float:
 
 
 def asin(x: float) -> float:
-    """Arc sine."""
+    """Return the arc sine."""
     a = abs(x)
     if not a <= 1.0:
         return math.nan
@@ -154,7 +154,7 @@ def asin(x: float) -> float:
 
 
 def acos(x: float) -> float:
-    """Arc cosine."""
+    """Return the arc cosine."""
     a = abs(x)
     if not a <= 1.0:
         return math.nan
@@ -171,7 +171,7 @@ def acos(x: float) -> float:
 
 
 def root_error(z: float, s: float) -> float:
-    """sqrt(z) - s for the double s = sqrt(z)."""
+    """Return sqrt(z) - s for the double s = sqrt(z)."""
     if s == 0.0:
         return 0.0
     p = s * s

@@ -35,7 +35,7 @@ LOG_TAIL_6 = 0.06594041550265131
 
 
 def split(x: float) -> tuple[float, float]:
-    """m and k of x = 2^k m, m from sqrt(1/2) to sqrt(2)."""
+    """Return m and k of x = 2^k m, m from sqrt(1/2) to sqrt(2)."""
     m, k = math.frexp(x)
     if m < SQRT_HALF:
         return m + m, float(k - 1)
@@ -52,7 +52,7 @@ def without_logarithm(x: float) -> float:
 
 
 def log_sum(f: float, k: float, tail: float) -> float:
-    """log(1 + f) + k ln 2 + tail."""
+    """Return log(1 + f) + k ln 2 + tail."""
     s = f / (2.0 + f)
     z = s * s
     w = z * z
@@ -62,7 +62,7 @@ def log_sum(f: float, k: float, tail: float) -> float:
 
 
 def log(x: float) -> float:
-    """Natural logarithm."""
+    """Return the natural logarithm."""
     if x <= 0.0 or x - x != 0.0:
         return without_logarithm(x)
     m, k = split(x)
@@ -70,7 +70,7 @@ def log(x: float) -> float:
 
 
 def log1p(x: float) -> float:
-    """log(1 + x), without losing digits for small x."""
+    """Return log(1 + x), without losing digits for small x."""
     if x <= -1.0 or x - x != 0.0:
         return without_logarithm(1.0 + x)
     if abs(x) < 1e-17:
@@ -114,7 +114,7 @@ def log_two(x: float) -> tuple[float, float]:
 
 
 def log2(x: float) -> float:
-    """Logarithm to base 2."""
+    """Return the logarithm to base 2."""
     if x <= 0.0 or x - x != 0.0:
         return without_logarithm(x)
     high, low = log_two(x)
@@ -123,7 +123,7 @@ def log2(x: float) -> float:
 
 
 def log10(x: float) -> float:
-    """Logarithm to base 10."""
+    """Return the logarithm to base 10."""
     if x <= 0.0 or x - x != 0.0:
         return without_logarithm(x)
     high, low = log_two(x)

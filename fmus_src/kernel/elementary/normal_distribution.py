@@ -43,7 +43,7 @@ TAIL_23 = -9.20948716225107e-10
 
 
 def scaled_complement(t: float) -> float:
-    """(1 + 2 z) exp(z^2) erfc(z) for t = (z - CENTRE)/(z + CENTRE)."""
+    """Return (1 + 2 z) exp(z^2) erfc(z) for t = (z - CENTRE)/(z + CENTRE)."""
     u = t * t * t * t
     c0 = TAIL_0 + t * (TAIL_1 + t * (TAIL_2 + t * TAIL_3))
     c1 = TAIL_4 + t * (TAIL_5 + t * (TAIL_6 + t * TAIL_7))
@@ -90,7 +90,7 @@ def normal_quantile(p: float) -> float:
 
 
 def central_quantile(r: float) -> float:
-    """x/q for q = p - 1/2 and r = 0.425^2 - q^2."""
+    """Return x/q for q = p - 1/2 and r = 0.425^2 - q^2."""
     r4 = r * r * r * r
     n0 = 3.3871328727963665 + r * (133.14166789178438 + r * (1971.5909503065513 + r * 13731.69376550946))
     n1 = 45921.95393154987 + r * (67265.7709270087 + r * (33430.57558358813 + r * 2509.0809287301227))
@@ -100,7 +100,7 @@ def central_quantile(r: float) -> float:
 
 
 def tail_quantile(r: float) -> float:
-    """|x| for r = sqrt(-ln p) - 1.6 up to 3.4."""
+    """Return |x| for r = sqrt(-ln p) - 1.6 up to 3.4."""
     r4 = r * r * r * r
     n0 = 1.4234371107496835 + r * (4.630337846156546 + r * (5.769497221460691 + r * 3.6478483247632045))
     n1 = 1.2704582524523684 + r * (0.2417807251774506 + r * (0.022723844989269184 + r * 0.0007745450142783414))
@@ -110,7 +110,7 @@ def tail_quantile(r: float) -> float:
 
 
 def far_quantile(r: float) -> float:
-    """|x| for r = sqrt(-ln p) - 5."""
+    """Return |x| for r = sqrt(-ln p) - 5."""
     r4 = r * r * r * r
     n0 = 6.657904643501103 + r * (5.463784911164114 + r * (1.7848265399172913 + r * 0.29656057182850487))
     n1 = 0.026532189526576124 + r * (0.0012426609473880784 + r * (2.7115555687434876e-05 + r * 2.0103343992922881e-07))

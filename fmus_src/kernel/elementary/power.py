@@ -26,7 +26,7 @@ def is_whole(y: float) -> bool:
 
 
 def power_of_edge(a: float, y: float) -> float:
-    """a^y for a of 0 or infinity, or an infinite y."""
+    """Return a^y for a of 0 or infinity, or an infinite y."""
     if a == 1.0:
         return 1.0
     if (a > 1.0) == (y > 0.0):
@@ -35,7 +35,7 @@ def power_of_edge(a: float, y: float) -> float:
 
 
 def pow(x: float, y: float) -> float:
-    """x^y; of a negative x for whole y only."""
+    """Return x^y; of a negative x for whole y only."""
     if y == 0.0 or x == 1.0:
         return 1.0
     if x != x or y != y:

@@ -77,7 +77,7 @@ TWO_OVER_PI_DIGITS = (
 
 
 def reduce_angle(x: float) -> tuple[int, float, float]:
-    """n, r and tail of x = n pi/2 + r + tail, |r| <= pi/4 but for rounding; n modulo 4, 0 to 3; x finite."""
+    """Return n, r and tail of x = n pi/2 + r + tail, |r| <= pi/4 but for rounding; n modulo 4, 0 to 3; x finite."""
     if abs(x) >= LIMIT:
         return reduce_large(x)
     n = x * TWO_OVER_PI + ROUND - ROUND
@@ -97,7 +97,7 @@ def reduce_angle(x: float) -> tuple[int, float, float]:
 
 
 def reduce_large(x: float) -> tuple[int, float, float]:
-    """As `reduce_angle`, of any size."""
+    """Reduce as `reduce_angle`, of any size."""
     z, exponent = math.frexp(abs(x))
     digits = [0.0] * 3
     for i in range(3):

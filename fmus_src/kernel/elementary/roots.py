@@ -19,7 +19,7 @@ CBRT_4 = -0.13466062925225922
 
 
 def cbrt(x: float) -> float:
-    """Cube root."""
+    """Return the cube root."""
     if x == 0.0 or x - x != 0.0:
         return x
     m, k = math.frexp(abs(x))
@@ -40,7 +40,7 @@ def cbrt(x: float) -> float:
 
 
 def hypot(x: float, y: float) -> float:
-    """sqrt(x^2 + y^2), without overflow on the way."""
+    """Return sqrt(x^2 + y^2), without overflow on the way."""
     a = abs(x)
     b = abs(x)
     if abs(y) > abs(x):

@@ -27,7 +27,7 @@ COS_5 = -1.135967171215903e-11
 
 
 def sin_reduced(r: float, tail: float) -> float:
-    """sin(r + tail) for |r| <= pi/4."""
+    """Return sin(r + tail) for |r| <= pi/4."""
     z = r * r
     v = z * r
     w = z * z
@@ -36,7 +36,7 @@ def sin_reduced(r: float, tail: float) -> float:
 
 
 def cos_reduced(r: float, tail: float) -> float:
-    """cos(r + tail) for |r| <= pi/4."""
+    """Return cos(r + tail) for |r| <= pi/4."""
     z = r * r
     w = z * z
     half = 0.5 * z
@@ -46,7 +46,7 @@ def cos_reduced(r: float, tail: float) -> float:
 
 
 def sin(x: float) -> float:
-    """Sine."""
+    """Return the sine."""
     if abs(x) <= QUARTER_PI:
         if abs(x) < SMALL:
             return x
@@ -64,7 +64,7 @@ def sin(x: float) -> float:
 
 
 def cos(x: float) -> float:
-    """Cosine."""
+    """Return the cosine."""
     if abs(x) <= QUARTER_PI:
         return cos_reduced(x, 0.0)
     if x - x != 0.0:
@@ -80,7 +80,7 @@ def cos(x: float) -> float:
 
 
 def tan(x: float) -> float:
-    """Tangent: the quotient of sine and cosine, each in two doubles."""
+    """Return the tangent: the quotient of sine and cosine, each in two doubles."""
     if abs(x) < SMALL:
         return x
     if x - x != 0.0:

@@ -21,7 +21,7 @@ LEAST_SQUARE = 1e-12  # of a and b: nearer to a pair's surface y = 2 or z = 2 co
 
 
 def cluster_momentum(angles: Vector4) -> Vector3:
-    """Momentum of the cluster over that of one rotor."""
+    """Return momentum of the cluster over that of one rotor."""
     first, second, third, fourth = angles
     return vector(
         cos(first) + cos(second) + cos(third) + cos(fourth),
@@ -72,7 +72,7 @@ def distribute_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[boo
 
 
 def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
-    """Angles of a pair from its momentum along x and across, nearest to those of ``near``."""
+    """Return angles of a pair from its momentum along x and across, nearest to those of ``near``."""
     half = 0.5 * math.sqrt(along * along + across * across)
     if half > 1.0:
         half = 1.0  # by a rounding error

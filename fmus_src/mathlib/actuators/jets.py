@@ -42,7 +42,7 @@ class JetStrength(Record):
 
 
 def jet_strength(tilt: float, azimuth: float, arm: Vector3) -> JetStrength:
-    """Strength of jets with these angles (rad) and arm = (bx, by, bz) (m)."""
+    """Return strength of jets with these angles (rad) and arm = (bx, by, bz) (m)."""
     axis = vector(cos(tilt) * cos(azimuth), cos(tilt) * sin(azimuth), sin(tilt))
     reach = abs(arm.x) + abs(arm.y) + abs(arm.z)
     return JetStrength(
@@ -69,7 +69,7 @@ def signed_sum(signs: tuple, thrust: list) -> float:
 
 
 def jet_wrench(strength: JetStrength, thrust: list) -> Wrench:
-    """B thrust."""
+    """Return B thrust."""
     return Wrench(
         force=strength.force * vector(signed_sum(X, thrust), signed_sum(Y, thrust), signed_sum(Z, thrust)),
         torque=strength.torque * vector(signed_sum(YZ, thrust), signed_sum(ZX, thrust), signed_sum(XY, thrust)),
@@ -221,7 +221,7 @@ def nearest_levels(strength: Vector3, force: Vector3, quantum: float, highest: f
 
 
 def thrust_of_levels(levels: Vector3, quantum: float, thrust: list) -> None:
-    """thrust = the least propellant for a point of the lattice, in whole quanta (N)."""
+    """Set thrust to the least propellant for a point of the lattice, in whole quanta (N)."""
     largest = -math.inf
     minimum = math.inf
     u = [0.0] * 4

@@ -15,7 +15,7 @@ class LaggedThrust(Record):
 
 
 def lagged_thrust(delivered: float, commanded: float, lag: float, h: float) -> LaggedThrust:
-    """Thrust over h (s) under a command (N).
+    """Return thrust over h (s) under a command (N).
 
     Thrust is ``delivered`` at the start, and the command at once where the lag (s) is 0.
     """

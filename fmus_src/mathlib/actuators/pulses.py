@@ -4,7 +4,8 @@ from ..vectors import Vector3, vector
 
 
 def next_switch_off(pulses: Vector3, time: float, end: float) -> float:
-    """When the first of the pulses ends after ``time``, or ``end`` where none does before; s from their start."""
+    """Return the time of the first end of a pulse after ``time``, or ``end`` where none is before; s from their
+    start."""
     first = end
     for i in range(3):
         length = abs(pulses[i])
@@ -28,5 +29,5 @@ def left_after(pulses: Vector3, h: float) -> Vector3:
 
 
 def lengths_of(pulses: Vector3) -> Vector3:
-    """Their lengths without signs (s)."""
+    """Return their lengths without signs (s)."""
     return vector(abs(pulses.x), abs(pulses.y), abs(pulses.z))

@@ -34,7 +34,8 @@ def largest_size(v: Vector4) -> float:
 
 
 def drag_torque(speed: float, viscous: float, coulomb: float, band: float) -> float:
-    """Friction (N m) against the speed (rad/s) of a wheel: viscous, and Coulomb's, in proportion within the band."""
+    """Return friction (N m) against the speed (rad/s) of a wheel: viscous, and Coulomb's, in
+    proportion within the band."""
     return -viscous * speed - coulomb * clip(speed / band, -1.0, 1.0)
 
 
@@ -95,5 +96,5 @@ def minimax_shift(u: Vector4, n: Vector4) -> float:
 
 
 def body_torque(a: Matrix, u: Vector4) -> Vector3:
-    """Torque (N m, body) on the body of motors that turn the wheels by torques u."""
+    """Return torque (N m, body) on the body of motors that turn the wheels by torques u."""
     return -(a @ u)

@@ -63,7 +63,7 @@ def pursuit_rate(
 def pursue(
     direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
 ) -> Pursuit:
-    """One step of Runge-Kutta's fourth order from time s to s + h."""
+    """Advance one step of Runge-Kutta's fourth order from time s to s + h."""
     goal = goal_at(base, rate, s, direction)
     angle, k1 = turning(direction, goal, response, limit)
     turned = runge_kutta_4_from(k1, pursuit_rate, s, direction, h, base, rate, goal, response, limit)

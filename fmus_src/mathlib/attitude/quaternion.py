@@ -29,12 +29,12 @@ def multiply(a: Vector4, b: Vector4) -> Vector4:
 
 
 def conjugate(q: Vector4) -> Vector4:
-    """q*, the inverse rotation of a unit quaternion."""
+    """Return q*, the inverse rotation of a unit quaternion."""
     return vector(q.w, -q.x, -q.y, -q.z)
 
 
 def normalise(q: Vector4) -> Vector4:
-    """q brought to length one; no rotation where its length is 0 or no number."""
+    """Return q scaled to length one; no rotation where its length is 0 or NaN."""
     largest = 0.0
     for i in range(4):
         size = abs(q[i])
@@ -55,18 +55,18 @@ def is_attitude(q: Vector4) -> bool:
 
 
 def turn(scalar: float, e: Vector3, v: Vector3) -> Vector3:
-    """v turned by the unit quaternion (scalar, e): v + 2 e0 (e x v) + 2 e x (e x v)."""
+    """Return v turned by the unit quaternion (scalar, e): v + 2 e0 (e x v) + 2 e x (e x v)."""
     twice = 2.0 * cross(e, v)
     return v + scalar * twice + cross(e, twice)
 
 
 def to_reference(q: Vector4, v: Vector3) -> Vector3:
-    """q v q*: a vector in body components, expressed in the reference frame."""
+    """Return q v q*: a vector in body components, expressed in the reference frame."""
     return turn(q.w, vector(q.x, q.y, q.z), v)
 
 
 def to_body(q: Vector4, v: Vector3) -> Vector3:
-    """q* v q: a vector in reference components, expressed in the body frame."""
+    """Return q* v q: a vector in reference components, expressed in the body frame."""
     return turn(q.w, vector(-q.x, -q.y, -q.z), v)
 
 
@@ -80,7 +80,7 @@ def from_rotation_vector(rotation: Vector3) -> Vector4:
 
 
 def to_rotation_vector(q: Vector4) -> Vector3:
-    """Axis times angle (rad) of q, the shorter way round: no longer than pi."""
+    """Return axis times angle (rad) of q, the shorter way round: no longer than pi."""
     sine = norm(q[1:4])
     sign = 1.0
     if q.w < 0.0:
@@ -100,13 +100,13 @@ def difference(reference: Vector4, q: Vector4) -> Vector4:
 
 
 def angle_error(reference: Vector4, q: Vector4) -> Vector3:
-    """2 e0 e of (e0, e) = reference* q (rad, body): the axis times the sine of the angle."""
+    """Return 2 e0 e of (e0, e) = reference* q (rad, body): the axis times the sine of the angle."""
     rotation = difference(reference, q)
     return 2.0 * rotation.w * rotation[1:4]
 
 
 def to_rodrigues(q: Vector4) -> Vector3:
-    """e tan(angle/4): modified Rodrigues parameters, the shorter way round."""
+    """Return e tan(angle/4): modified Rodrigues parameters, the shorter way round."""
     sign = 1.0
     if q.w < 0.0:
         sign = -1.0

@@ -35,7 +35,7 @@ def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vec
 
 
 def rotation_between(start: Vector3, goal: Vector3) -> tuple[Vector3, float]:
-    """Axis (unit) and angle (rad) of the shortest rotation from one direction to another.
+    """Return axis (unit) and angle (rad) of the shortest rotation from one direction to another.
 
     Parallel directions turn about an axis perpendicular to them. Neither may have length 0.
     """

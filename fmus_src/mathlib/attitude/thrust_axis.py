@@ -25,7 +25,8 @@ def axis_derivatives(t: float, s: AxisState, acceleration: Vector3, limit: float
 
 
 def turn_axis(s: AxisState, acceleration: Vector3, limit: float, h: float) -> AxisState:
-    """Axis and angular rate h (s) later under a constant acceleration: one step of Runge-Kutta's fourth order."""
+    """Return axis and angular rate h (s) later under a constant acceleration: one step of Runge-Kutta's fourth
+    order."""
     end = runge_kutta_4(axis_derivatives, 0.0, s, h, acceleration, limit)
     length = norm(end.axis)
     if not length > 0.0:

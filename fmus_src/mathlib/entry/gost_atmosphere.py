@@ -18,7 +18,7 @@ ROWS = 14
 
 
 def tabulated_density(h: float) -> float:
-    """Density (kg/m3) at heights h (m) from 94 km on, held beyond 130 km."""
+    """Return density (kg/m3) at heights h (m) from 94 km on, held beyond 130 km."""
     height = [94.0, 95.0, 96.0, 98.0, 100.0, 104.0, 106.0, 108.0, 110.0, 113.0, 116.0, 120.0, 125.0, 130.0]  # km
     density = [
         1.67840e-6, 1.40510e-6, 1.16617e-6, 7.99924e-7, 5.54951e-7, 2.75614e-7, 1.86514e-7,

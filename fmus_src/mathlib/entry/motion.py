@@ -73,7 +73,7 @@ def in_body(axes: BodyAxes, v: Vector3) -> Vector3:
 
 
 def evaluate_path(s: EntryState) -> PathFunctions:
-    """Functions of the angles of a state, which the rates below share."""
+    """Evaluate functions of the angles of a state, which the rates below share."""
     return PathFunctions(
         sin_path=sin(s.flight_path_angle),
         cos_path=cos(s.flight_path_angle),
@@ -86,7 +86,7 @@ def evaluate_path(s: EntryState) -> PathFunctions:
 
 
 def earth_forces(s: EntryState, a: PathFunctions, gravitational_parameter: float, earth_rate: float) -> Vector3:
-    """Gravity and the terms of the Earth's rotation (m/s2, velocity axes)."""
+    """Return gravity and the terms of the Earth's rotation (m/s2, velocity axes)."""
     gravity = gravitational_parameter / (s.radius * s.radius)
     coriolis = 2.0 * s.speed * earth_rate
     transport = earth_rate * earth_rate * s.radius * a.cos_latitude
@@ -114,7 +114,7 @@ def path_rate(s: EntryState, a: PathFunctions, acceleration: Vector3) -> PathRat
 
 
 def velocity_axes_rate(s: EntryState, a: PathFunctions, rate: PathRate, earth_rate: float) -> Vector3:
-    """Absolute angular velocity (rad/s) of the velocity axes, in themselves."""
+    """Return absolute angular velocity (rad/s) of the velocity axes, in themselves."""
     over = s.speed * a.cos_path / s.radius
     u = rate.heading + over * a.cos_heading * a.tan_latitude
     return vector(
@@ -125,7 +125,8 @@ def velocity_axes_rate(s: EntryState, a: PathFunctions, rate: PathRate, earth_ra
 
 
 def attitude_rates(attitude: Vector3, n: Vector3) -> Vector3:
-    """Rates (rad/s) of bank, sideslip and attack for an angular velocity n (rad/s, body) against the velocity axes."""
+    """Return rates (rad/s) of bank, sideslip and attack for an angular velocity n (rad/s, body)
+    against the velocity axes."""
     sa = sin(attitude.z)
     ca = cos(attitude.z)
     along = n.x * ca - n.y * sa

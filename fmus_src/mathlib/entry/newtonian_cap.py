@@ -16,7 +16,7 @@ HEAT_RATIO = 1.4
 
 
 def stagnation_coefficient(mach: float) -> float:
-    """Pressure coefficient at the stagnation point behind a normal shock, mach > 1."""
+    """Return the pressure coefficient at the stagnation point behind a normal shock, mach > 1."""
     g, square = HEAT_RATIO, mach * mach
     ratio = ((g + 1.0) ** 2 * square / (4.0 * g * square - 2.0 * (g - 1.0))) ** (g / (g - 1.0))
     return 2.0 / (g * square) * (ratio * (1.0 - g + 2.0 * g * square) / (g + 1.0) - 1.0)
@@ -25,7 +25,8 @@ def stagnation_coefficient(mach: float) -> float:
 def cap_tables(
     base_radius: float, cap_radius: float, machs: list[float], degrees: list[float]
 ) -> tuple[list[float], list[float]]:
-    """Cx and Cy of a cap (radii in m) over Mach numbers and spatial angles of attack (deg), rows of one Mach number.
+    """Return Cx and Cy of a cap (radii in m) over Mach numbers and spatial angles of attack (deg), rows of one Mach
+    number.
 
     Rounded to six decimals, as the published table is.
     """

@@ -18,7 +18,7 @@ SMALL = 1e-6  # rad, below which the factors of [turn] are those of no turn
 
 
 def transition(turn: Vector3, h: float) -> Matrix:
-    """F (6 x 6) over h (s), in which the body turns by ``turn`` (rad).
+    """Return F (6 x 6) over h (s), in which the body turns by ``turn`` (rad).
 
     The rotation turns back with the body; a bias adds -h (1 - (1 - cos a)/a^2 [turn] + (a - sin a)/a^3 [turn]^2) times
     itself, a = |turn|.
@@ -41,7 +41,8 @@ def transition(turn: Vector3, h: float) -> Matrix:
 
 
 def random_walks(gyro: float, bias: float, h: float) -> Matrix:
-    """Q (6 x 6) of an angle random walk (rad/sqrt(s)) and a random walk of the bias (rad/s/sqrt(s)) over h (s)."""
+    """Return Q (6 x 6) of an angle random walk (rad/sqrt(s)) and a random walk of the bias (rad/s/sqrt(s)) over h
+    (s)."""
     q = zeros(6, 6)
     q[ROTATION, ROTATION] = (gyro * gyro * h + bias * bias * h * h * h / 3.0) * identity(3)
     q[ROTATION, BIAS] = -0.5 * bias * bias * h * h * identity(3)
@@ -51,7 +52,7 @@ def random_walks(gyro: float, bias: float, h: float) -> Matrix:
 
 
 def predict_attitude(p: Matrix, turn: Vector3, gyro: float, bias: float, h: float) -> Matrix:
-    """Covariance (6 x 6) after h (s)."""
+    """Predict the covariance (6 x 6) after h (s)."""
     return predict(p, transition(turn, h), random_walks(gyro, bias, h))
 
 

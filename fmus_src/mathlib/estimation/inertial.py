@@ -23,11 +23,11 @@ SENSOR = block(6, 9)
 def dead_reckon(
     position: Vector3, velocity: Vector3, force: Vector3, before: Vector3, radius: float, mu: float, h: float
 ) -> tuple[Vector3, Vector3]:
-    """Position and velocity h (s) later, from the mean specific forces of this step and of the one before.
+    """Return position and velocity h (s) later, from the mean specific forces of this step and of the one before.
 
-    Gravity by the trapezoidal rule. The specific force is taken as linear in time, with the slope
-    between the two means: as constant in each step it would put the position wrong by h^2/12 times
-    its change since the start, which is 7 mm over a landing with steps of 0.1 s.
+    Gravity by the trapezoidal rule. The specific force is taken as linear in time, with the slope between the two
+    means: as constant in each step it would put the position wrong by h^2/12 times its change since the start, which is
+    7 mm over a landing with steps of 0.1 s.
     """
     here = central_gravity(position, radius, mu)
     ahead = central_gravity(position + h * velocity, radius, mu)
@@ -36,14 +36,15 @@ def dead_reckon(
 
 
 def sensor_addition(bias: Vector3, scale_factor: Vector3, rotation: Vector3, f: Vector3) -> Vector3:
-    """b + diag(k) f + w x f, with bias b (m/s2), scale factors k and rotation w (rad)."""
+    """Return b + diag(k) f + w x f, with bias b (m/s2), scale factors k and rotation w (rad)."""
     return add_cross(bias + scale_factor * f, rotation, f)
 
 
 def propagate(
     position: Vector3, velocity: Vector3, added: Vector3, up: Vector3, gradient: float, h: float
 ) -> tuple[Vector3, Vector3]:
-    """Errors of position and velocity h (s) later, where the sensor's errors have ``added`` to the specific force."""
+    """Return errors of position and velocity h (s) later, where the sensor's errors have
+    ``added`` to the specific force."""
     a = added
     if gradient > 0.0:
         a = a - gravity_difference(position + 0.5 * h * velocity, up, gradient)
@@ -51,7 +52,7 @@ def propagate(
 
 
 def start_errors(position: float, velocity: float, bias: float, scale_factor: float, rotation: float) -> Matrix:
-    """Covariance P (15 x 15) from standard deviations of the states, each the same for three."""
+    """Return covariance P (15 x 15) from standard deviations of the states, each the same for three."""
     p = zeros(STATES, STATES)
     p[POSITION, POSITION] = position * position * identity(3)
     p[VELOCITY, VELOCITY] = velocity * velocity * identity(3)
@@ -64,14 +65,14 @@ def start_errors(position: float, velocity: float, bias: float, scale_factor: fl
 def predict_errors(
     p: Matrix, f: Vector3, sensing: bool, walk: float, drift: float, up: Vector3, gradient: float, h: float
 ) -> None:
-    """Covariance P (15 x 15) of inertial navigation h (s) ahead under the specific force f (m/s2).
+    """Predict the covariance P (15 x 15) of inertial navigation h (s) ahead under the specific force f (m/s2).
 
-    States: position, velocity, and what the inertial sensor adds to the specific force: bias b,
-    scale factors k and a small rotation w, b + diag(k) f + w x f, constant but for a random walk of b of density
-    ``drift`` (m2/s5). Velocity increments have white errors of density ``walk`` (m2/s3) besides. Where ``sensing`` is
-    false no specific force is measured, and none of these errors acts. A ``gradient`` of gravity (1/s2, along the unit
-    vector ``up``) adds gradient (3 up up' - 1) times the position error half a step on to the acceleration, which is
-    what it does to dead reckoning by the trapezoidal rule; 0 leaves it out.
+    States: position, velocity, and the errors of the inertial sensor's specific force: bias b, scale factors k and a
+    small rotation w, b + diag(k) f + w x f, constant but for a random walk of b of density ``drift`` (m2/s5). Velocity
+    increments have white errors of density ``walk`` (m2/s3) besides. Where ``sensing`` is false no specific force is
+    measured, and none of these errors acts. A ``gradient`` of gravity (1/s2, along the unit vector ``up``) adds
+    gradient (3 up up' - 1) times the position error half a step on to the acceleration, as in dead reckoning by the
+    trapezoidal rule; 0 leaves it out.
 
     P = F P F' + Q, where F is `propagate`, applied to each column of P and then to the rows that are not yet F P F'.
     """

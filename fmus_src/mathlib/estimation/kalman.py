@@ -10,12 +10,12 @@ from ...kernel.matrices import Matrix, add_product
 
 
 def predict(p: Matrix, f: Matrix, q: Matrix) -> Matrix:
-    """F P F' + Q; the estimate becomes F x, and a known input is added to it."""
+    """Return F P F' + Q; the estimate becomes F x, and a known input is added to it."""
     return add_product(q, f @ p, f.T)
 
 
 def innovation_variance(p: Matrix, h: Matrix, variance: float) -> float:
-    """S = h P h' + variance, that of a scalar's innovation."""
+    """Return S = h P h' + variance, that of a scalar's innovation."""
     ph = p @ h.T
     s = variance
     for i in range(len(p)):
@@ -24,7 +24,7 @@ def innovation_variance(p: Matrix, h: Matrix, variance: float) -> float:
 
 
 def take_in(p: Matrix, h: Matrix, s: float, variance: float) -> tuple[Matrix, Matrix]:
-    """Gain K = P h' / S and covariance after a scalar with the variance S > 0 of `innovation_variance`.
+    """Return the gain K = P h' / S and covariance after a scalar with the variance S > 0 of `innovation_variance`.
 
     x becomes x + K innovation. The covariance takes Joseph's form, P = (1 - K h) P (1 - K h)' + K variance K', which
     stays symmetric and positive whatever the gain's rounding.
@@ -36,7 +36,7 @@ def take_in(p: Matrix, h: Matrix, s: float, variance: float) -> tuple[Matrix, Ma
 
 
 def update(x: Matrix, p: Matrix, h: Matrix, variance: float, z: float) -> tuple[Matrix, Matrix, float]:
-    """x and P with the scalar measurement z = h x + error taken in; normalised innovation squared.
+    """Return x and P updated by the scalar measurement z = h x + error, and the normalised innovation squared.
 
     ``variance`` is that of the error (> 0).
     """

@@ -16,7 +16,8 @@ DISTURBANCE = 2
 
 
 def predict_pair(p: Matrix, r: float, h: float) -> Matrix:
-    """Covariance of value and rate after h (s), under white noise of density r (value^2/s^3) on the rate's change."""
+    """Return covariance of value and rate after h (s), under white noise of density r
+    (value^2/s^3) on the rate's change."""
     f = matrix([1.0, h], [0.0, 1.0])
     q12 = r * h * h / 2.0
     q = matrix([r * h * h * h / 3.0, q12], [q12, r * h])
@@ -24,7 +25,8 @@ def predict_pair(p: Matrix, r: float, h: float) -> Matrix:
 
 
 def predict_triple(p: Matrix, r: float, d: float, h: float) -> Matrix:
-    """Covariance with a disturbance after h (s), under white noise of density d (value^2/s^5) on its change, too."""
+    """Return covariance with a disturbance after h (s), under white noise of density d
+    (value^2/s^5) on its change, too."""
     f = matrix([1.0, h, 0.5 * h * h], [0.0, 1.0, h], [0.0, 0.0, 1.0])
     q11 = r * h * h * h / 3.0 + d * h * h * h * h * h / 20.0
     q12 = r * h * h / 2.0 + d * h * h * h * h / 8.0
@@ -36,7 +38,7 @@ def predict_triple(p: Matrix, r: float, d: float, h: float) -> Matrix:
 
 
 def measure_chain(p: Matrix, variance: float) -> tuple[Matrix, Matrix, float]:
-    """Gain, what an innovation adds per unit; covariance after the value was measured with a variance (> 0).
+    """Return the gain, an innovation's effect per unit; covariance after the value was measured with a variance (> 0).
 
     And the innovation's variance.
     """

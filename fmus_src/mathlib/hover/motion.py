@@ -41,17 +41,18 @@ class ThrustSpan(Record):
 
 
 def without_motion() -> PlaneMotion:
-    """No motion: at the start, at rest."""
+    """Return no motion: at the start, at rest."""
     return PlaneMotion(x=0.0, x_rate=0.0, y=0.0, y_rate=0.0, exists=False)
 
 
 def propellant(s: HoverShape, vehicle: HoverVehicle, t: float) -> float:
-    """Propellant spent until t (s, up to the end of the shape s) over the mass at the start."""
+    """Return propellant spent until t (s, up to the end of the shape s) over the mass at the start."""
     return (vehicle.least * t + (vehicle.full - vehicle.least) * burnt(s, t)) / vehicle.exhaust
 
 
 def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: float) -> float:
-    """Integral (m/s) of thrust over mass from one time to another (s), by the rocket equation; 0 where it has none."""
+    """Return integral (m/s) of thrust over mass from one time to another (s), by the rocket
+    equation; 0 where it has none."""
     before = 1.0 - propellant(s, vehicle, begin)
     after = 1.0 - propellant(s, vehicle, end)
     if not (before > 0.0 and after > 0.0):
@@ -135,7 +136,7 @@ def earlier(time: float, begin: float, end: float) -> float:
 
 
 def nodes(node: list, weight: list) -> None:
-    """Places and weights of Gauss-Legendre quadrature of eight nodes over [0, 1]."""
+    """Set abscissas and weights of Gauss-Legendre quadrature of eight nodes over [0, 1]."""
     place = [0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363]
     fraction = [0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763]
     for k in range(4):

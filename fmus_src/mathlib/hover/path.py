@@ -99,7 +99,7 @@ def solve_farther(
 
 
 def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> ReachedProgramme:
-    """From the vertical programme p to the one without first burn to x, or as near as there is."""
+    """Move from the vertical programme p to the one without first burn to x, or as near as there is."""
     place = x
     if place > -NEAR * y:
         place = -NEAR * y
@@ -127,7 +127,8 @@ def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgra
 
 
 def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """From p in steps to the programme with first burn that ends at ``end`` (s); the last where that is not reached."""
+    """Stretch p in steps to the programme with first burn that ends at ``end`` (s); the last where that is not
+    reached."""
     part = LARGEST_STRETCH * p.t7
     for _ in range(LARGEST_PATH):
         left = end - p.t7
@@ -144,7 +145,7 @@ def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgr
 
 
 def further(reached: ReachedProgramme, x: float, y: float, vehicle: HoverVehicle) -> HoverSolution:
-    """From a programme without first burn to one with it to x.
+    """Extend a programme without first burn to one with it to x.
 
     Nearer, where a first burn begins, then longer, then farther.
     """

@@ -36,7 +36,7 @@ class Bracket(Record):
 
 
 def nothing_planned() -> PlannedProgramme:
-    """There is no programme."""
+    """Return that there is no programme."""
     return PlannedProgramme(kind=PlanKind.NONE, programme=without_programme())
 
 
@@ -74,7 +74,7 @@ def begin_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramm
 
 
 def grow_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """From p without first burn to longer ones, as long as that takes less propellant.
+    """Grow the first burn of p from none to longer ones, as long as that takes less propellant.
 
     The end follows from the width: it may be earlier, change fast with the width, and turn back.
     """
@@ -128,14 +128,14 @@ def is_usable(value: float) -> bool:
 
 
 def propellant_of(solution: HoverSolution, vehicle: HoverVehicle) -> float:
-    """Propellant of a programme over the mass at its start; infinite where it is not feasible."""
+    """Return propellant of a programme over the mass at its start; infinite where it is not feasible."""
     if not solution.is_feasible:
         return math.inf
     return propellant_fraction(solution.programme, vehicle)
 
 
 def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverProgramme:
-    """From the programme p with first burn to the one whose end takes least propellant: golden section."""
+    """Return the programme, from p with first burn, whose end takes least propellant: golden section."""
     later = descend(1.0, x, y, vehicle, p)
     p = later.programme
     low = later.before

@@ -66,12 +66,12 @@ class Pitch(Record):
 
 
 def without_programme() -> HoverProgramme:
-    """No programme: all its times are 0."""
+    """Return no programme: all its times are 0."""
     return HoverProgramme(t2=0.0, t5=0.0, width=0.0, last_burn=0.0, t7=0.0)
 
 
 def without_shape() -> PlannedShape:
-    """No shape: all its times are 0."""
+    """Return no shape: all its times are 0."""
     shape = HoverShape(
         t1=0.0,
         t2=0.0,
@@ -169,7 +169,7 @@ def full_thrust(s: HoverShape, t: float) -> bool:
 
 
 def burnt(s: HoverShape, t: float) -> float:
-    """Time at full thrust (s) from the start to t (s)."""
+    """Return time at full thrust (s) from the start to t (s)."""
     time = 0.0
     if t > s.first_burn_begin:
         time = s.first_burn_end - s.first_burn_begin

@@ -43,7 +43,7 @@ class Residual(Record):
 
 
 def propellant_fraction(p: HoverProgramme, vehicle: HoverVehicle) -> float:
-    """Propellant of the programme p over the mass at its start; infinite without room for its shape."""
+    """Return propellant of the programme p over the mass at its start; infinite without room for its shape."""
     planned = shape_of(p, vehicle.swing)
     if not planned.exists:
         return math.inf

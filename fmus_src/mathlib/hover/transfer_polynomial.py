@@ -96,27 +96,27 @@ def transfer(
 
 
 def transfer_position(c: Transfer, t: float, duration: float) -> Vector3:
-    """Position (m) at the time t (s)."""
+    """Return position (m) at the time t (s)."""
     s = t / duration
     return ((((((c.c7 * s + c.c6) * s + c.c5) * s + c.c4) * s + c.c3) * s + c.c2) * s + c.c1) * s + c.c0
 
 
 def transfer_velocity(c: Transfer, t: float, duration: float) -> Vector3:
-    """Velocity (m/s)."""
+    """Return velocity (m/s)."""
     s = t / duration
     high = ((7.0 * c.c7 * s + 6.0 * c.c6) * s + 5.0 * c.c5) * s + 4.0 * c.c4
     return (((high * s + 3.0 * c.c3) * s + 2.0 * c.c2) * s + c.c1) / duration
 
 
 def transfer_acceleration(c: Transfer, t: float, duration: float) -> Vector3:
-    """Acceleration (m/s2)."""
+    """Return acceleration (m/s2)."""
     s = t / duration
     high = ((42.0 * c.c7 * s + 30.0 * c.c6) * s + 20.0 * c.c5) * s + 12.0 * c.c4
     return ((high * s + 6.0 * c.c3) * s + 2.0 * c.c2) / duration / duration
 
 
 def transfer_jerk(c: Transfer, t: float, duration: float) -> Vector3:
-    """Jerk (m/s3)."""
+    """Return jerk (m/s3)."""
     s = t / duration
     high = ((210.0 * c.c7 * s + 120.0 * c.c6) * s + 60.0 * c.c5) * s + 24.0 * c.c4
     return (high * s + 6.0 * c.c3) / duration / duration / duration
@@ -130,7 +130,7 @@ def transfer_snap(c: Transfer, t: float, duration: float) -> Vector3:
 
 
 def thrust_along(c: Transfer, t: float, duration: float, lift: Vector3) -> ThrustAlong:
-    """Thrust at the time t (s).
+    """Return thrust at the time t (s).
 
     Where there is no thrust, the direction is that of lift, at rest.
     """
@@ -151,7 +151,7 @@ def thrust_along(c: Transfer, t: float, duration: float, lift: Vector3) -> Thrus
 
 
 def slow_duration(way: float, speed: float, acceleration: float) -> float:
-    """Duration (s) of a transfer from rest over a way (m), within a speed and an acceleration, both > 0."""
+    """Return duration (s) of a transfer from rest over a way (m), within a speed and an acceleration, both > 0."""
     time = SHORTEST
     if FASTEST * way / speed > time:
         time = FASTEST * way / speed

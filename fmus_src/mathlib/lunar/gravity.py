@@ -17,7 +17,7 @@ def from_centre(position: Vector3, radius: float) -> Vector3:
 
 
 def altitude_of(position: Vector3, radius: float) -> float:
-    """Altitude (m) above the sphere of ``radius`` (m)."""
+    """Return altitude (m) above the sphere of ``radius`` (m)."""
     return norm(from_centre(position, radius)) - radius
 
 
@@ -31,7 +31,7 @@ def vertical_at(position: Vector3, radius: float) -> Vector3:
 
 
 def central_gravity(position: Vector3, radius: float, gravitational_parameter: float) -> Vector3:
-    """Gravity (m/s2) of a central field at ``position`` (m); not at the centre itself."""
+    """Return gravity (m/s2) of a central field at ``position`` (m); not at the centre itself."""
     centred = from_centre(position, radius)
     square = dot(centred, centred)
     return -(gravitational_parameter / (square * math.sqrt(square))) * centred

@@ -28,11 +28,10 @@ def impulse_and_miss(dr: Vector3, v: Vector3, dv: Vector3, g: float, time_to_go:
 
 
 def quadratic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
-    """Time-to-go (s) from |A| T = 2 |B| without its cubic term, on the published branch.
+    """Return time-to-go (s) from |A| T = 2 |B| without its cubic term, on the published branch.
 
-    0 where there is none. The branch is that of fast approaches, a2 < 0; for slow or hovering
-    starts above the target (a2 > 0) it gives a negative time. A negative discriminant counts as
-    0, which happens in the last steps.
+    0 where there is none. The branch is that of fast approaches, a2 < 0; for slow or hovering starts above the target
+    (a2 > 0) it gives a negative time. A negative discriminant counts as 0, which happens in the last steps.
     """
     speed = norm(v)
     gain = norm(dv)
@@ -49,7 +48,7 @@ def quadratic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
 
 
 def cubic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
-    """Time-to-go (s) from |A| T = 2 |B| in full, on the published branch; 0 where that has none.
+    """Return time-to-go (s) from |A| T = 2 |B| in full, on the published branch; 0 where that has none.
 
     |A| T - 2 |B| begins below 0. The first root, where it rises through 0, is a thrust that turns
     round on the way: A T = -2 B on a line, 5 W one way to 7 W the other. The branch is the second,
@@ -87,7 +86,8 @@ def steady(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
 
 
 def effort_slope(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight: float, c: list) -> None:
-    """T^4 dJ/dT as a polynomial c of T, where J is the time integral of |a0 + a1 t|^2 plus twice ``weight`` (m2/s4).
+    """Set c to T^4 dJ/dT as a polynomial of T, where J is the time integral of |a0 + a1 t|^2 plus twice ``weight``
+    (m2/s4).
 
     Without weight J = (|A T|^2 + 3 |A T - 2 B|^2)/T^3, and A T - 2 B = (dV + 2 V) T - 2 dr.
     """
@@ -116,7 +116,7 @@ def least_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
 
 
 def weighted_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight: float) -> float:
-    """Time-to-go (s) as `least_effort_time`, with the time itself in the integral with a ``weight`` (m2/s4).
+    """Return time-to-go (s) as `least_effort_time`, with the time itself in the integral with a ``weight`` (m2/s4).
 
     The integrand is |a0 + a1 t|^2/2 + weight. Source: D'Souza 1997, equation 12.
     """

@@ -46,7 +46,7 @@ class AngleFunctions(Record):
 
 
 def evaluate_angles(angles: Vector3) -> AngleFunctions:
-    """Functions of the angles (rad), which all below share."""
+    """Evaluate functions of the angles (rad), which all below share."""
     return AngleFunctions(
         sin_roll=sin(angles.x),
         cos_roll=cos(angles.x),
@@ -64,7 +64,7 @@ def radial_direction(a: AngleFunctions) -> Vector3:
 
 
 def angle_rates(a: AngleFunctions, w: Vector3, w0: float) -> Vector3:
-    """Rates (rad/s) of the angles at the angular velocity w (rad/s, body) and the orbital rate w0 (rad/s)."""
+    """Return rates (rad/s) of the angles at the angular velocity w (rad/s, body) and the orbital rate w0 (rad/s)."""
     q = w.y * a.cos_roll - w.z * a.sin_roll
     r = w.y * a.sin_roll + w.z * a.cos_roll
     return vector(
@@ -95,7 +95,7 @@ def angle_rate_derivatives(a: AngleFunctions, w: Vector3, w0: float) -> tuple[Ma
 def angular_acceleration(
     a: AngleFunctions, w: Vector3, torque: Vector3, inertia: Matrix, inverse_inertia: Matrix, w0: float
 ) -> Vector3:
-    """w' (rad/s2, body) of a rigid body under the gravity gradient and a torque (N m, body).
+    """Return w' (rad/s2, body) of a rigid body under the gravity gradient and a torque (N m, body).
 
     J w' = 3 w0^2 j x (J j) + (J w) x w + torque, j radially up; inertia J (kg m2) and its inverse.
     """
@@ -104,7 +104,7 @@ def angular_acceleration(
 
 
 def gyric_matrix(inertia: Matrix, inverse_inertia: Matrix, v: Vector3) -> Matrix:
-    """J^-1 ([J v] - [v] J): the derivative of J^-1 ((J w) x w) by w at w = v."""
+    """Return J^-1 ([J v] - [v] J): the derivative of J^-1 ((J w) x w) by w at w = v."""
     return inverse_inertia @ (cross_matrix(inertia @ v) - cross_matrix(v) @ inertia)
 
 

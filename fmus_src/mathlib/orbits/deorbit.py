@@ -12,7 +12,8 @@ from ..vectors import Vector3, across, dot, norm, vector
 
 
 def central_angle(position: Vector3, radius: float) -> float:
-    """Angle (rad, 0 to 2 pi) at the Moon's centre from the site's vertical towards +x, in the plane of x and z."""
+    """Return angle (rad, 0 to 2 pi) at the Moon's centre from the site's vertical towards +x, in the plane of x and
+    z."""
     angle = atan2(position.x, position.z + radius)
     if angle < 0.0:
         angle = angle + 2.0 * math.pi
@@ -20,7 +21,7 @@ def central_angle(position: Vector3, radius: float) -> float:
 
 
 def ground_range(position: Vector3, radius: float) -> float:
-    """Arc (m) on the sphere of ``radius`` from below ``position`` to the origin."""
+    """Return arc (m) on the sphere of ``radius`` from below ``position`` to the origin."""
     centred = from_centre(position, radius)
     return radius * atan2(math.sqrt(centred.x * centred.x + centred.y * centred.y), centred.z)
 
@@ -64,12 +65,12 @@ def deorbit_burn(
 
 
 def lowest_altitude(position: Vector3, velocity: Vector3, angle: float, radius: float, mu: float) -> float:
-    """Least altitude (m) of free flight from here over the next ``angle`` (rad) about the Moon's centre.
+    """Return the least altitude (m) of free flight from here over the next ``angle`` (rad) about the Moon's centre.
 
-    With the radial speed w and the angular momentum h, the distance r obeys 1/r(a) = A + B cos a - C sin a, where
-    A = mu/h^2, B = 1/r(0) - A, C = w/h; it is least at the pericentre where that lies ahead, else at one of both ends.
-    Without horizontal velocity the centre is where the fall leads. ``position`` must not be the centre.
-    Source: the conic in polar coordinates, such as Battin 1999, section 3.3.
+    With the radial speed w and the angular momentum h, the distance r obeys 1/r(a) = A + B cos a - C sin a, where A =
+    mu/h^2, B = 1/r(0) - A, C = w/h; it is least at the pericentre where that is ahead, else at one of both ends.
+    Without horizontal velocity the centre is where the fall leads. ``position`` must not be the centre. Source: the
+    conic in polar coordinates, such as Battin 1999, section 3.3.
     """
     centred = from_centre(position, radius)
     distance = norm(centred)
