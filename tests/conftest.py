@@ -76,7 +76,8 @@ def pytest_collection_finish() -> None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_terminal_summary(terminalreporter: Any) -> None:
-    """In the last lines: what was left out for want of a browser or an emulator, and what to do. Times are written."""
+    """Report in the last lines tests skipped for lack of a browser or an emulator, with the remedy. Times are
+    written."""
     write_times(terminalreporter)
     skipped = [str(report.longrepr) for report in terminalreporter.stats.get("skipped", [])]
     for reason, tests, missing, remedy in (

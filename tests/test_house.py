@@ -38,7 +38,7 @@ def test_words_to_be_given_up_become_fewer():
 
 
 def iter_once(sources: list[Source]) -> Iterator[Source]:
-    """One syntax tree in memory at a time."""
+    """Yield sources with one syntax tree in memory at a time."""
     while sources:
         yield sources.pop()
 

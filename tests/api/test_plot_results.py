@@ -13,7 +13,7 @@ from tests.support.pages.comparison_samples import CAMPAIGN, sample_batch, write
 
 @pytest.fixture(scope="module")
 def folders(tmp_path_factory):
-    """Two campaigns with other draws, numbers of trials and variants."""
+    """Write two campaigns with other draws, numbers of trials and variants."""
     base = tmp_path_factory.mktemp("plots")
     write_sample(base / "one", trials=30, variants=("alpha", "beta"))
     write_sample(base / "two", trials=50, variants=("alpha",), seed=9, noise=2.0)

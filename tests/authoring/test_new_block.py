@@ -53,7 +53,7 @@ def errs_as_declared(flight):
 
 
 def is_off_by_the_leak(flight):
-    """By torque over stiffness, J w0^2, about the leak's axis."""
+    """Assert an offset by torque over stiffness, J w0^2, about the leak's axis."""
     offset = [abs(flight.final()[f"monitor.attitude_error[{axis}]"]) for axis in (1, 2, 3)]
     assert offset[0] == pytest.approx(1e-4 / (180.0 * 0.3**2), rel=0.02)
     assert max(offset[1:]) < 0.02 * offset[0]

@@ -57,7 +57,7 @@ def test_its_scene_is_that_of_the_docs(folder):
 
 
 def flown_here():
-    """Angles at the communication points of 0.1 s."""
+    """Return angles at the communication points of 0.1 s."""
     motion, summed, torque, angles = np.array([START, 0.0]), 0.0, 0.0, [START]
     for cycle in range(800):
         summed += PERIOD * motion[0] if cycle else 0.0
@@ -77,7 +77,7 @@ def flown_here():
 
 
 def open_loop():
-    """Minus the transfer around control.torque, sampled."""
+    """Return minus the transfer around control.torque, sampled."""
     plant = control.ss([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0 / INERTIA]], np.eye(2), np.zeros((2, 1)))
     # the sum takes the angle of the same instant: ki T z/(z - 1) = ki T (1 + 1/(z - 1))
     law = control.ss(1.0, [[1.0, 0.0]], KI * PERIOD, [[KP + KI * PERIOD, KD]], PERIOD)

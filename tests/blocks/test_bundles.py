@@ -127,7 +127,7 @@ def test_a_method_with_the_name_of_a_bundle_is_refused() -> None:
             """Has a method two."""
 
             def two(self) -> None:  # type: ignore[override]
-                """Another meaning."""
+                """Write another meaning."""
 
 
 def test_an_input_cannot_become_an_output_by_a_bundle() -> None:

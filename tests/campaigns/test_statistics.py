@@ -22,7 +22,7 @@ ANY = NUMBERS | st.sampled_from([math.inf, -math.inf, math.nan])
 
 
 def statistics(values, unit):
-    """Statistics of a column in one block."""
+    """Return statistics of a column in one block."""
     return of_blocks(lambda: [values], unit)
 
 

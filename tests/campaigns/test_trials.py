@@ -19,7 +19,7 @@ NUMBERS = st.floats(allow_nan=True, allow_infinity=True)
 
 
 def table(misses, first=0):
-    """Trials of these misses, every third of which has failed and has a trace."""
+    """Return trials of these misses, every third of which has failed and has a trace."""
     numbers = np.arange(first, first + len(misses))
     failed = numbers % 3 == 0
     return TrialTable.of(

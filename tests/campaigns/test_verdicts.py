@@ -48,7 +48,7 @@ def flights(count, failures):
 
 
 def decided(requirements, **variants):
-    """After how many of these trials all requirements are decided."""
+    """Return the number of these trials after which all requirements are decided."""
     flown = {
         name: [satisfies(requirement, trials) for requirement in requirements] for name, trials in variants.items()
     }

@@ -45,7 +45,7 @@ expression = "abs(position) < 100"
 
 @pytest.fixture(scope="module")
 def packed(exact_fmus, tmp_path_factory):
-    """Packs the late double integrator with more in its declaration; gives the path."""
+    """Return a packer of the late double integrator with more in its declaration."""
 
     def pack(limits="", loops=""):
         ssd = LATE.ssd.replace("<Point", f"<Limits {limits}/>\n<Point", 1).replace(
@@ -69,7 +69,7 @@ def campaign(tmp_path_factory):
 
 
 def strict(text):
-    """JSON without the numbers that are none."""
+    """Parse JSON and refuse numbers outside the standard."""
 
     def refuse(name):
         raise AssertionError(f"{name} in the JSON")

@@ -22,7 +22,7 @@ INERTIA = np.array([[180.0, -4.0, 2.0], [-4.0, 150.0, 3.0], [2.0, 3.0, 120.0]]) 
 
 
 def momentum(flight):
-    """Angular momentum of body and wheels in inertial axes, N m s, [n, 3]."""
+    """Return angular momentum of body and wheels in inertial axes, N m s, [n, 3]."""
     body = flight["satellite.angular_velocity"] @ INERTIA + flight["satellite.wheel_momentum"]
     return Rotation.from_quat(flight["satellite.quaternion"], scalar_first=True).apply(body)
 

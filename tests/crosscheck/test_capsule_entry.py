@@ -21,7 +21,7 @@ def derivative(rows):
 
 @pytest.fixture(scope="module")
 def flight(fmus):
-    """Position, velocity, quaternion, rate: a row per time."""
+    """Return position, velocity, quaternion, rate: a row per time."""
     table = simulate(STEP)
     return [np.stack([table[name] for name in names], axis=1) for _, names in (POSITION, VELOCITY, ATTITUDE, RATE)]
 

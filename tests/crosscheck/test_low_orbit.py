@@ -24,13 +24,13 @@ def columns(table, kind):
 
 
 def momentum(table, inertia):
-    """Angular momentum (N m s, inertial) by row."""
+    """Return angular momentum (N m s, inertial) by row."""
     attitude = Rotation.from_quat(columns(table, ATTITUDE), scalar_first=True)
     return attitude, attitude.apply(columns(table, RATE) @ np.array(inertia))
 
 
 def tide(position, body, mu):
-    """Potential (J/kg, by row) of a body at positions (m) from a centre that it attracts, too."""
+    """Return potential (J/kg, by row) of a body at positions (m) from a centre that it attracts, too."""
     distance = np.linalg.norm(body, axis=1)
     inverse = 1.0 / np.linalg.norm(body - position, axis=1) - np.sum(body * position, axis=1) / distance**3
     return mu * (inverse - 1.0 / distance)

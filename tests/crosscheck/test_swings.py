@@ -74,7 +74,8 @@ def test_our_flights_are_linear_in_their_modes(fmus, name):
 
 
 def slosh_masses(case):
-    """Mass, centre, inertia, velocity of the centre and axis of rotation of each moving mass by its coordinate."""
+    """Return mass, centre, inertia, velocity of the centre and axis of rotation of each moving mass by its
+    coordinate."""
     still = np.zeros(3)
     lines = zip(case.PARTICLES, case.POSITIONS, case.ALONG, strict=True)
     return [(mass, position, np.zeros((3, 3)), along, still) for mass, position, along in lines]

@@ -28,7 +28,7 @@ HALF_DIGIT = [0.5e-3, 0.5e-2, 0.5e-2, 0.5e-2]
 
 
 def margins_of(loop):
-    """Crossover (rad/s), gain margin (dB), phase margin (deg), delay margin (s)."""
+    """Return crossover (rad/s), gain margin (dB), phase margin (deg), delay margin (s)."""
     margins = loop.classical
     gain, phase = DECIBEL * np.log(margins.gain_margin.value), np.degrees(margins.phase_margin.value)
     return margins.phase_margin.frequency, gain, phase, margins.delay_margin

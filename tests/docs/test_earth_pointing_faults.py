@@ -37,7 +37,7 @@ def fly_without_gate(*faults):
 
 
 def first(flown, condition, since=0.0):
-    """Time (s) at which a condition holds for the first time since another."""
+    """Return time (s) at which a condition holds for the first time since another."""
     return flown.time[np.argmax(condition & (flown.time >= since))] - since
 
 
@@ -110,7 +110,8 @@ def test_the_drift_is_that_of_the_gyros():
 
 
 def change_by_the_spike(before, after):
-    """Largest change of the error of attitude (arcsec) until the stars come back, and that of the rejected samples."""
+    """Return largest change of the error of attitude (arcsec) until the stars come back, and
+    that of the rejected samples."""
     gap = slice(round(4 * SPIKE_AT), round(4 * BACK))
     change = np.linalg.norm((after["monitor.knowledge_error"] - before["monitor.knowledge_error"])[gap], axis=1).max()
     return change / ARCSEC, (after["navigation.rejected"] - before["navigation.rejected"])[gap][-1]

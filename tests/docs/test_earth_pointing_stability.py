@@ -27,7 +27,8 @@ ORBIT = {"satellite.initial_position[1]": 6878137.0}
 
 
 def response(axis, w):
-    """L: the wheels' spin is no inertia of the satellite, and the control counts it as one; their friction slows them.
+    """Return L: the wheels' spin is no inertia of the satellite, and the control counts it as one; their friction slows
+    them.
 
     A torque u of the motors changes the rate by u s/(s + p)/(J s), p the friction over the spin inertia.
     """
@@ -41,13 +42,13 @@ def response(axis, w):
 
 
 def crossover(axis):
-    """Frequency (rad/s) of gain one, and the phase (rad) left there."""
+    """Return frequency (rad/s) of gain one, and the phase (rad) left there."""
     w = brentq(lambda w: abs(response(axis, w)) - 1.0, 0.05, 1.0)
     return w, float(np.angle(-response(axis, w)))
 
 
 def check_channel(channel, axis):
-    """Margins within a thousandth of the closed form, and both methods along it."""
+    """Check margins within a thousandth of the closed form, and both methods along it."""
     w, phase = crossover(axis)
     assert channel.verdict == "pass"
     assert channel.classical.phase_margin.frequency == pytest.approx(w, rel=1e-3)

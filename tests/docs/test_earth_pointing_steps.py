@@ -33,7 +33,8 @@ def fly(options=None, values=EXACT):
 
 
 def largest_differences(coarse, fine):
-    """Largest differences of position (m) and attitude (rad), and of attitude in nadir mode, at the coarse samples."""
+    """Return largest differences of position (m) and attitude (rad), and of attitude in nadir
+    mode, at the coarse samples."""
     every = round((coarse.time[1] - coarse.time[0]) / (fine.time[1] - fine.time[0]))
     np.testing.assert_array_equal(coarse.time, fine.time[::every])
     off = np.linalg.norm(coarse["satellite.position"] - fine["satellite.position"][::every], axis=1)

@@ -44,7 +44,7 @@ def flight():
 
 
 def first_shadow(flown):
-    """Entry and exit (s) through half of the Sun's light, interpolated."""
+    """Return entry and exit (s) through half of the Sun's light, interpolated."""
     light, t = flown["environment.illumination"] - 0.5, flown.time
     (edges,) = np.nonzero(light[:-1] * light[1:] < 0.0)
     return (t[edges] - light[edges] * (t[edges + 1] - t[edges]) / (light[edges + 1] - light[edges]))[:2]
@@ -58,7 +58,8 @@ def nodes(flown):
 
 
 def closed_shadow(flown):
-    """Duration (s) of the shadow of a circle: an arc of 2 acos(sqrt(1 - (R/a)^2)/cos(beta)); beta (deg) amid it."""
+    """Return duration (s) of the shadow of a circle: an arc of 2 acos(sqrt(1 - (R/a)^2)/cos(beta)); beta (deg) amid
+    it."""
     amid = round(first_shadow(flown).mean() / 0.25)
     normal = np.cross(flown["satellite.position"][amid], flown["satellite.velocity"][amid])
     sine = normal @ flown["environment.sun_direction"][amid] / np.linalg.norm(normal)
@@ -67,14 +68,14 @@ def closed_shadow(flown):
 
 
 def from_nadir(flown):
-    """Angle (rad) between the boresight, the body's z axis, and the direction to the Moon's centre."""
+    """Return angle (rad) between the boresight, the body's z axis, and the direction to the Moon's centre."""
     boresight = Rotation.from_quat(flown["satellite.quaternion"], scalar_first=True).apply([0.0, 0.0, 1.0])
     down = -flown["satellite.position"]
     return np.arctan2(np.linalg.norm(np.cross(boresight, down), axis=1), np.sum(boresight * down, axis=1))
 
 
 def gained(flown):
-    """Angular momentum (N m s) that the second revolution adds, and the integral of its disturbance torque."""
+    """Return angular momentum (N m s) that the second revolution adds, and the integral of its disturbance torque."""
     during = slice(round(REVOLUTION / 0.25), round(2.0 * REVOLUTION / 0.25) + 1)
     attitude = Rotation.from_quat(flown["satellite.quaternion"][during], scalar_first=True)
     torque = attitude.apply(flown["satellite.disturbance_torque"][during])

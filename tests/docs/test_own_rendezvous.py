@@ -32,7 +32,7 @@ STEPS = 600
 
 
 def transition(t):
-    """Position and velocity, and what an acceleration held for t (s) adds to them."""
+    """Return position and velocity, and their changes by an acceleration held for t (s)."""
     whole = np.zeros((9, 9))
     whole[:6, :6], whole[3:6, 6:] = RATES, np.eye(3)
     phi = expm(whole * t)
@@ -40,7 +40,7 @@ def transition(t):
 
 
 def measure(x):
-    """Range, azimuth and elevation of the target from the chaser."""
+    """Return range, azimuth and elevation of the target from the chaser."""
     up, along, normal = -x[:3]
     return np.array([np.linalg.norm(x[:3]), np.arctan2(up, along), np.arctan2(normal, np.hypot(up, along))])
 

@@ -55,7 +55,7 @@ def folder(tmp_path_factory, orbit_lines):
 
 
 def calm_time(flight):
-    """When the mode is no longer detumbling, s."""
+    """Return the time at which detumbling ends, s."""
     return flight.time[np.argmax(flight["modes.mode"] > 0)]
 
 
@@ -68,7 +68,7 @@ def with_j2(_, state):
 
 
 def node(state):
-    """Right ascension of the ascending node, rad."""
+    """Return right ascension of the ascending node, rad."""
     normal = np.cross(state[:3], state[3:])
     return math.atan2(normal[0], -normal[1])
 

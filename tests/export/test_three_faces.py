@@ -35,7 +35,7 @@ TYPES = ("Real", "Integer", "Boolean")
 
 
 def by_type(block: type[Block], kinds: tuple[type, ...]) -> dict[str, list[int]]:
-    """Value references of a block's variables of some kinds, by FMI type."""
+    """Return value references of a block's variables of some kinds, by FMI type."""
     actual: dict[str, list[int]] = {name: [] for name in TYPES}
     for reference, (variable, _) in enumerate(elements(block)):
         if isinstance(variable, kinds):

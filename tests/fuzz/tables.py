@@ -65,7 +65,7 @@ def any_series(_fmus: Path, folder: Path) -> Target:
 
 
 def any_draws(_fmus: Path, folder: Path) -> Target:
-    """Draws with other columns, or a bit of the file changed."""
+    """Test draws with other columns, or a bit of the file changed."""
     (folder / "good.toml").write_text(CAMPAIGN)
     campaign = read_campaign(folder / "good.toml")
     path = folder / "hostile.parquet"

@@ -71,7 +71,7 @@ def encrypted() -> bytes:
 
 
 def overlapping() -> bytes:
-    """Two entries of the directory with one content."""
+    """Return two entries of the directory with one content."""
     archive = zipped(("resources/a", b"x" * 1000), ("resources/b", b"x" * 1000))
     second = archive.rindex(CENTRAL)
     first = archive.rindex(CENTRAL, 0, second)

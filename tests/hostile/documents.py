@@ -19,13 +19,13 @@ def with_doctype(text: str, content: str) -> str:
 
 
 def into(text: str, more: str) -> str:
-    """More in front of the end of a document."""
+    """Insert more text before the end of a document."""
     start, end = text.rstrip().rsplit("</", 1)
     return f"{start}{more}</{end}"
 
 
 def numbered(name: str) -> str:
-    """Attributes, 10^5 of them."""
+    """Return 10^5 attributes."""
     return " ".join(f'{name.format(n=number)}="a{number}"' for number in range(100_000))
 
 
@@ -33,7 +33,7 @@ INVALID = ("line", "not valid SSP")
 
 
 def texts(text: str, reference: str, invalid: tuple[str, ...] = INVALID) -> dict[str, tuple[Content, tuple[str, ...]]]:
-    """Hostile forms of a good document; ``reference`` is an attribute's text in it that they replace.
+    """Return hostile forms of a good document; ``reference`` is an attribute's text in it that they replace.
 
     ``invalid`` is said of elements that it should not have.
     """

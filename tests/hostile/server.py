@@ -47,7 +47,7 @@ class Server:
         )
 
     def carry_out(self, arguments: list[str], folder: Path, temporary: Path) -> Outcome:
-        """One command in a folder, with another for temporary files and for the home."""
+        """Carry out one command in a folder, with another for temporary files and for the home."""
         assert self.process.stdin is not None
         assert self.process.stdout is not None
         request = {"arguments": arguments, "folder": str(folder), "temporary": str(temporary)}
@@ -80,7 +80,7 @@ def serve() -> None:
 
 
 def _carry_out(request: dict[str, Any]) -> None:
-    """In the child: the command, then its end."""
+    """Carry out the command in the child, then end it."""
     signal.alarm(DEADLINE)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_AS, (SPACE, SPACE))

@@ -33,7 +33,7 @@ def series(content: Content) -> Write:
 
 
 def draws(make: Callable[[], bytes]) -> Write:
-    """Draws and a campaign that takes them."""
+    """Return a writer of draws and a campaign that takes them."""
 
     def write(folder: Path, fmus: Path) -> None:
         campaign_file(GOOD)(folder, fmus)

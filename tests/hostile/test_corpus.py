@@ -59,12 +59,12 @@ def server():
 
 
 def contents(folder):
-    """Every path of a folder."""
+    """Return every path of a folder."""
     return sorted(folder.rglob("*"))
 
 
 def check_answer(case, status, output, errors):
-    """One line of text, which names what is wrong; nothing else is said. Of what is accepted, only its own lines."""
+    """Check for one line of text, which names the error, and nothing else; of accepted files only their own lines."""
     assert not CONTROLS.search(output + errors)
     if case.accepted:
         assert status == 0, errors[-2000:]

@@ -17,8 +17,8 @@ OPTION = re.compile(r"\w+: [^=]+( = .+)?,$|\w+=.+,$|.*add_argument\(.*")
 
 
 def like_lines(checkout: Checkout) -> Measure:
-    """Pairs of places of the product with six or more successive lines alike, and how many of the longest
-    45 are option lists.
+    """Count pairs of places of the product with six or more successive lines alike, and how many of the longest 45 are
+    option lists.
 
     Compared are lines without indentation and comments, with every string as "" and every number as 0, names as they
     stand; blank lines, docstrings and imports are passed over, and six lines must hold three different ones. Successive

@@ -35,7 +35,7 @@ def whole(name: str) -> str:
 
 
 def words(name: str) -> set[str]:
-    """`keptRows`, `KEPT_ROWS` and `_kept_rows` have the words kept and rows."""
+    """Return the words of a name: `keptRows`, `KEPT_ROWS` and `_kept_rows` have the words kept and rows."""
     return {token.lower() for token in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)}
 
 

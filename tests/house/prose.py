@@ -23,7 +23,7 @@ def read_limits() -> Limits:
 
 
 def openings(checkout: Checkout) -> Measure:
-    """Docstrings whose first word is one of the table [openings], of all docstrings."""
+    """Count docstrings whose first word is one of the table [openings], of all docstrings."""
     docstrings = [(s, line, text) for s in checkout.sources for line, text in iterate_docstrings(s)]
     banned = read_limits()["openings"]
     entries = [f"{s.path}:{line} {text.split()[0]}" for s, line, text in docstrings if first_word(text) in banned]
@@ -31,7 +31,7 @@ def openings(checkout: Checkout) -> Measure:
 
 
 def phrases(checkout: Checkout) -> Measure:
-    """Occurrences of the table [phrases] in docstrings and comments."""
+    """Count occurrences of the table [phrases] in docstrings and comments."""
     pattern = compile_phrases(read_limits()["phrases"])
     entries = [
         f"{source.path}:{line} {match[0]}"

@@ -11,7 +11,8 @@ Measure = tuple[str, list[str]]
 
 
 def analysis(checkout: Checkout) -> Measure:
-    """Lines of all files of `analysis` and `common`, their Python files, and their folders with an `__init__.py`."""
+    """Count lines of all files of `analysis` and `common`, their Python files, and their folders with an
+    `__init__.py`."""
     lines = sum(checkout.text(path).count("\n") for path in checkout.paths if path.parts[0] in USERS)
     files = checkout.below(*USERS)
     packages = [str(s.path.parent) for s in files if s.path.name == "__init__.py"]
@@ -19,20 +20,21 @@ def analysis(checkout: Checkout) -> Measure:
 
 
 def small_files(checkout: Checkout) -> Measure:
-    """Python files of `analysis` and `common` of 35 lines or fewer that are no `__init__.py`; in brackets with them."""
+    """Count Python files of `analysis` and `common` of 35 lines or fewer that are no
+    `__init__.py`; in brackets with them."""
     small = [s for s in checkout.below(*USERS) if s.text.count("\n") <= 35]
     others = [f"{s.path}: {s.text.count(chr(10))}" for s in small if s.path.name != "__init__.py"]
     return f"{len(others)} ({len(small)})", others
 
 
 def longest_file(checkout: Checkout) -> Measure:
-    """Lines of the longest Python file, and how many have over 300 (`--list`)."""
+    """Count lines of the longest Python file, and the files that have over 300 (`--list`)."""
     by_length = sorted(((s.text.count("\n"), str(s.path)) for s in checkout.sources), reverse=True)
     return f"{by_length[0][0]} ({by_length[0][1]})", [f"{path}: {lines}" for lines, path in by_length if lines > 300]
 
 
 def pictures(checkout: Checkout) -> Measure:
-    """Lines of all SVG files in git, which are all generated, and bytes of the largest picture of any kind."""
+    """Count lines of all SVG files in git, which are all generated, and bytes of the largest picture of any kind."""
     kinds = (".svg", ".png", ".jpg", ".gif", ".webp")
     sizes = {path: (checkout.root / path).stat().st_size for path in checkout.paths if path.suffix in kinds}
     lines = sum(checkout.text(path).count("\n") for path in sizes if path.suffix == ".svg")
@@ -42,8 +44,8 @@ def pictures(checkout: Checkout) -> Measure:
 
 
 def campaigns(checkout: Checkout) -> Measure:
-    """Lines of the TOML files of `ssp_systems`, and the fraction of their tables (a header with its lines, without
-    comments and blanks) whose text an earlier table has, in the same file or another."""
+    """Count lines of the TOML files of `ssp_systems`, and the fraction of their tables (a header with its lines,
+    without comments and blanks) whose text an earlier table has, in the same file or another."""
     paths = [path for path in checkout.paths if path.parts[0] == "ssp_systems" and path.suffix == ".toml"]
     tables: Counter[str] = Counter()
     for path in paths:
@@ -58,14 +60,15 @@ def campaigns(checkout: Checkout) -> Measure:
 
 
 def project_only(checkout: Checkout) -> Measure:
-    """Lines below `analysis` and `common`, hence in the wheel, in folders named demo, contestants or reference."""
+    """Count lines below `analysis` and `common`, hence in the wheel, in folders named demo, contestants or
+    reference."""
     only = {"demo", "contestants", "reference"}
     paths = [path for path in checkout.paths if path.parts[0] in USERS and only & {*path.parts}]
     return f"{sum(checkout.text(path).count(chr(10)) for path in paths)} lines", [str(path) for path in paths]
 
 
 def documentation(checkout: Checkout) -> Measure:
-    """Words, as `wc -w` counts them, and number of the Markdown files below docs with the README of the project."""
+    """Count words, as `wc -w` does, and the Markdown files below docs with the README of the project."""
     pages = [p for p in checkout.paths if p.suffix == ".md" and (p.parts[0] == "docs" or str(p) == "README.md")]
     words = {page: len(checkout.text(page).split()) for page in pages}
     return f"{sum(words.values())} words on {len(pages)} pages", [f"{page}: {count}" for page, count in words.items()]

@@ -23,7 +23,7 @@ COMMAND_LINE = {"verbs", "commands", "cli", "cli.py", "examples.py"}
 
 
 def actual(checkout: Checkout) -> Measure:
-    """`found` as a name (`given_names`) in the product; in brackets by top folder of the whole tree."""
+    """Count `found` as a name (`given_names`) in the product; in brackets by top folder of the whole tree."""
     entries = [f"{s.path}:{line}" for s in checkout.sources for name, line in given_names(s) if whole(name) == "found"]
     tops = Counter(entry.split("/")[0] for entry in entries)
     parts = ", ".join(f"{top} {number}" for top, number in tops.most_common())
@@ -31,7 +31,7 @@ def actual(checkout: Checkout) -> Measure:
 
 
 def participles(checkout: Checkout) -> Measure:
-    """Functions and methods of the product whose first word is a past participle, in -ed or of a list of
+    """Count functions and methods of the product whose first word is a past participle, in -ed or of a list of
     irregular ones that differ from the present form. Properties are nouns and do not count."""
     entries = []
     for source in checkout.below(*PRODUCT):
@@ -44,7 +44,7 @@ def participles(checkout: Checkout) -> Measure:
 
 
 def untyped(checkout: Checkout) -> Measure:
-    """`dict[str, Any]`, and `Any` in all (its import apart), as written in `analysis` and `common`."""
+    """Count `dict[str, Any]`, and `Any` in all (its import apart), as written in `analysis` and `common`."""
     nodes = [(source.path, node) for source in checkout.below(*USERS) for node in source.nodes]
     anys = sum(isinstance(node, ast.Name) and node.id == "Any" for _, node in nodes)
     records = [
@@ -54,8 +54,8 @@ def untyped(checkout: Checkout) -> Measure:
 
 
 def flags(checkout: Checkout) -> Measure:
-    """`--flag` in strings of `analysis` and `common`, docstrings apart, outside of the command line: of
-    folders `verbs`, `commands` and `cli`, and of `cli.py` and `examples.py`."""
+    """Count `--flag` in strings of `analysis` and `common`, docstrings apart, outside of the command line: of folders
+    `verbs`, `commands` and `cli`, and of `cli.py` and `examples.py`."""
     entries = []
     for source in checkout.below(*USERS):
         if not COMMAND_LINE & {*source.path.parts}:
@@ -68,8 +68,8 @@ def flags(checkout: Checkout) -> Measure:
 
 
 def used_once(checkout: Checkout) -> Measure:
-    """Functions of `analysis` and `common`, undecorated and of at most six lines below the docstring, whose name occurs
-    once in all Python files (as a name or an attribute; imports and the definition apart)."""
+    """Count functions of `analysis` and `common`, undecorated and of at most six lines below the docstring, whose name
+    occurs once in all Python files (as a name or an attribute; imports and the definition apart)."""
     uses: Counter[str] = Counter()
     for source in checkout.sources:
         uses.update(node.id for node in source.nodes if isinstance(node, ast.Name))
@@ -85,7 +85,7 @@ def used_once(checkout: Checkout) -> Measure:
 
 
 def circles(checkout: Checkout) -> Measure:
-    """Largest sets of files of the product of which each imports each, directly or not. Imports below
+    """Count the largest sets of files of the product of which each imports each, directly or not. Imports below
     `TYPE_CHECKING` and within functions count."""
     files = {_module(source.path): source for source in checkout.below(*PRODUCT)}
     imports = {name: {*_imports(name, source, files)} - {name} for name, source in files.items()}

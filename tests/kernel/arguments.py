@@ -17,7 +17,7 @@ EDGES = [*EDGES, *(-value for value in EDGES), math.nan]
 
 
 def spread(low: int, high: int, signed: bool = True) -> Draw:
-    """Every exponent of 2 from ``low`` to ``high`` as often."""
+    """Draw every exponent of 2 from ``low`` to ``high`` as often."""
 
     def draw(random: Random) -> float:
         value = math.ldexp(random.uniform(1.0, 2.0), random.randint(low, high))
@@ -27,7 +27,7 @@ def spread(low: int, high: int, signed: bool = True) -> Draw:
 
 
 def between(low: float, high: float) -> Draw:
-    """Uniform values."""
+    """Draw uniform values."""
     return lambda random: random.uniform(low, high)
 
 
@@ -38,7 +38,7 @@ def near_quarter_turns(random: Random) -> float:
 
 
 def near_one(random: Random) -> float:
-    """Numbers about 1."""
+    """Draw numbers about 1."""
     return 1.0 + spread(-52, -2)(random)
 
 
@@ -70,13 +70,13 @@ DRAWS: dict[str, tuple[tuple[Draw, ...], ...]] = {
 
 
 def samples(name: str, count: int, random: Random) -> list[tuple[float, ...]]:
-    """``count`` tuples of arguments for a function."""
+    """Draw ``count`` tuples of arguments for a function."""
     kinds = DRAWS[name]
     return [tuple(random.choice(draws)(random) for draws in kinds) for _ in range(count)]
 
 
 def edges(name: str) -> list[tuple[float, ...]]:
-    """Every edge, of two arguments every pair."""
+    """Return every edge, of two arguments every pair."""
     if len(DRAWS[name]) == 1:
         return [(value,) for value in EDGES]
     return [(x, y) for x in EDGES for y in EDGES]

@@ -33,7 +33,7 @@ class Approximation:
             return [float(value) for value in _remez(self)]
 
     def worst_error(self, coefficients: list[float], points: int = 400) -> float:
-        """Largest weighted error of rounded coefficients."""
+        """Return largest weighted error of rounded coefficients."""
         with mp.workdps(DIGITS):
             low, high = (mp.mpmathify(end) for end in self.interval)
             arguments = [low + (high - low) * (k + 0.5) / points for k in range(points)]

@@ -25,7 +25,7 @@ REFERENCE |= {"cbrt": lambda x: mp.sign(x) * mp.cbrt(abs(x))}
 
 
 def error(value: float, exact: mp.mpf) -> float:
-    """Error in units of the last place of the exact result, of the smallest normal's below that."""
+    """Return error in units of the last place of the exact result, of the smallest normal's below that."""
     exponent = max(mp.frexp(exact)[1] - 53, -1074)
     return float(abs(mp.ldexp(mp.mpf(value) - exact, -exponent)))
 

@@ -26,12 +26,12 @@ class Oscillator(Record):
 
 
 def swing(t: float, s: Oscillator, rate: float) -> Oscillator:
-    """Rates."""
+    """Return rates."""
     return Oscillator(place=s.speed, speed=-rate * rate * s.place)
 
 
 def oscillator_error(steps: int) -> float:
-    """At the end of a second of an oscillator of 3 rad/s."""
+    """Return the error at the end of a second of an oscillator of 3 rad/s."""
     s = Oscillator(place=1.0, speed=0.0)
     for n in range(steps):
         s = runge_kutta_4(swing, n / steps, s, 1.0 / steps, 3.0)
@@ -52,7 +52,7 @@ def spring(position: Vector3) -> Vector3:
 
 
 def drive(t: float) -> Vector3:
-    """Under which the spring's body goes round with 2 rad/s: 5 - 9 = -2^2."""
+    """Return the force under which the spring's body goes round with 2 rad/s: 5 - 9 = -2^2."""
     return 5.0 * vector(math.cos(2.0 * t), math.sin(2.0 * t), 0.0)
 
 
@@ -91,7 +91,7 @@ def turned_by_simpson(t: float, s: Translation, h: float) -> Translation:
 
 
 def circle_error(advance: Callable[[float, Translation, float], Translation], rate: float, steps: int) -> float:
-    """At the end of two seconds, of what goes round on the unit circle."""
+    """Return the error at the end of two seconds of a body on the unit circle."""
 
     def exact(t: float) -> Translation:
         c, s = math.cos(rate * t), math.sin(rate * t)

@@ -31,7 +31,7 @@ def motions(profile, count=400):
 
 
 def seven_arcs(angle, limits):
-    """Least time from rest to rest, by which of the limits are reached."""
+    """Return least time from rest to rest, by which of the limits are reached."""
     w, a, j = limits.rate, limits.acceleration, limits.jerk
     if w * j >= a * a:
         if angle >= w * (w / a + a / j):
@@ -50,7 +50,8 @@ def test_without_boundary_rates_it_takes_as_long_as_seven_arcs(angle, limits):
 
 
 def extreme_angles(duration, first, last, limits):
-    """Smallest and largest angle in a time, between rates and within limits; None where there is no such motion."""
+    """Return smallest and largest angle in a time, between rates and within limits; None where there is no such
+    motion."""
     h, one = duration / ARCS, np.eye(ARCS)
     before = np.eye(ARCS, k=-1)
     acceleration = h * np.tril(np.ones((ARCS, ARCS)))

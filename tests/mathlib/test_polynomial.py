@@ -30,7 +30,7 @@ def five(polynomial):
 
 
 def found_roots(polynomial):
-    """By positive_roots, with the turning points by numpy."""
+    """Find roots by positive_roots, with the turning points by numpy."""
     turning = sorted(root.real for root in polynomial.deriv().roots() if abs(root.imag) < 1e-9 * abs(root))
     roots = [0.0] * 4
     count = positive_roots(five(polynomial), turning + [0.0] * (4 - len(turning)), len(turning), roots)

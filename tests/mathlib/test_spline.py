@@ -30,7 +30,7 @@ def coefficients(*arguments):
 
 
 def by_conditions(value, slope, end_value, end_slope, duration, degree):
-    """Coefficients in s from the linear equations of the ends."""
+    """Return coefficients in s from the linear equations of the ends."""
     rows, wanted = [], []
 
     def condition(s, order, what):

@@ -42,7 +42,7 @@ pairs = st.integers(2, 4).flatmap(
 
 
 def bits(values):
-    """Floats as bytes; all NaNs are one."""
+    """Return floats as bytes; all NaNs are one."""
     return [b"nan" if math.isnan(value) else struct.pack("<d", value) for value in values]
 
 

@@ -31,7 +31,7 @@ SET_VALUES = st.one_of(
 
 
 def numbers(declared, kind):
-    """Numbers within the bounds of an option."""
+    """Return numbers within the bounds of an option."""
     option = declared.option
     low = option.minimum if option.minimum is not None else option.above
     if kind is Kind.INTEGER:
@@ -52,7 +52,7 @@ def singles(declared, kind):
 
 
 def values(declared):
-    """Values that a Python caller may give an option."""
+    """Return values that a Python caller may give an option."""
     if declared.kind is Kind.FLAG:
         return st.booleans()
     if declared.kind is Kind.LIST:
@@ -70,7 +70,7 @@ def values(declared):
 
 
 def as_text(value):
-    """Values as a component's parameter gets them, whose type its FMU declares."""
+    """Return values as a component's parameter gets them, whose type its FMU declares."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, list | tuple):

@@ -60,7 +60,7 @@ APART = (18148.0, -1.5)
 
 
 def flown(campaign, **options):
-    """Rows of a campaign."""
+    """Return rows of a campaign."""
     return perilune.batch(SYSTEM, campaign, workers=1, **options).table().to_pylist()
 
 

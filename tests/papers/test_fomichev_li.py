@@ -44,7 +44,7 @@ BANDS = {
 
 
 def successes_within(low, high, trials):
-    """Fewest and most successes of ``trials`` that a rate (%) between low and high leaves likely."""
+    """Return fewest and most successes of ``trials`` that a rate (%) between low and high leaves likely."""
     tail = (1.0 - CONFIDENCE) / 2.0
     return stats.binom.ppf(tail, trials, low / 100.0), stats.binom.ppf(1.0 - tail, trials, high / 100.0)
 

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 
 def elements(position, velocity):
-    """Inclination, node (rad), argument of pericentre (rad), altitudes of pericentre and apocentre (m)."""
+    """Return inclination, node (rad), argument of pericentre (rad), altitudes of pericentre and apocentre (m)."""
     r = AXES @ np.add(position, [0.0, 0.0, RADIUS])
     v = AXES @ np.asarray(velocity)
     momentum = np.cross(r, v)

@@ -16,7 +16,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 
 def metrics(**settings):
-    """Metrics of the seeds with the paper's law and quantised jets."""
+    """Return metrics of the seeds with the paper's law and quantised jets."""
     results = perilune.batch(
         "robot_rendezvous",
         "seeds",

@@ -141,7 +141,7 @@ def test_a_system_without_any_of_what_one_looks_at_first(many, tmp_path):
 
 
 def sections_and_folds(page):
-    """Figures by their labels: those that are open, and those that are folded away."""
+    """Return figures by their labels: those that are open, and those that are folded away."""
     labels = [
         (figure.get("aria-label"), bool(figure.xpath("ancestor::details[not(@open)]")))
         for figure in parse(page).xpath("//*[local-name()='svg'][@aria-label]")

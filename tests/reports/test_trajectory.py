@@ -88,7 +88,7 @@ def test_marked_times(time, expected):
 
 
 def extent_of(note, chart):
-    """Left, bottom, right and top (pt) of a text's digits."""
+    """Return left, bottom, right and top (pt) of a text's digits."""
     corner = [
         (at - axis.ends[0]) / (axis.ends[1] - axis.ends[0]) * size * length
         for at, axis, size, length in zip(note.at, (chart.x, chart.y), SIZE, chart.box[2:], strict=True)

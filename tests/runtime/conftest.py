@@ -22,7 +22,7 @@ if LONG:
 
     @pytest.fixture(autouse=True)
     def flown_again(monkeypatch, request):
-        """Every flight of a simulation in this process from its start to its end is flown by the reference loop too."""
+        """Repeat every flight of a simulation in this process from its start to its end by the reference loop."""
         fly = Simulation.advance
 
         def advance(self, first, last, *excitation, every=1):

@@ -10,7 +10,7 @@ from tests.support.campaigns.show_client import ShowClient
 
 @pytest.fixture(scope="session")
 def campaign_folder(tmp_path_factory):
-    """2100 trials of each of three variants; the last shard of 500 has fewer."""
+    """Write 2100 trials of each of three variants; the last shard of 500 has fewer."""
     folder = tmp_path_factory.mktemp("client") / "results"
     write_many(folder, 2100, 500, ("alpha", "beta", "gamma"))
     return folder

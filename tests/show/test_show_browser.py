@@ -73,7 +73,7 @@ def selected(driver):
 
 
 def ranges(driver):
-    """Exact ends of ranges, by name."""
+    """Return exact ends of ranges, by name."""
     return {name.split()[0]: (low, high) for name, low, high in driver.execute_script(RANGES)}
 
 

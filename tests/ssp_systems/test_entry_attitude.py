@@ -46,7 +46,7 @@ UPPER = ("upper_attack", "upper_sideslip", "upper_bank")
 
 
 def fly(campaign, configurations, **options):
-    """Trials by configuration of a campaign."""
+    """Return trials by configuration of a campaign."""
     trials = {}
     for name in configurations:
         (trials[name],) = perilune.batch(SYSTEM, campaign, configuration=name, **options).trials.values()

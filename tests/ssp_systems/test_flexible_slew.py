@@ -21,7 +21,7 @@ POINTS = {"rigid": (0.0, 0.5, 0), "prompt": (0.1, 0.5, 0), "flexible": (0.1, 0.5
 
 
 def loop_polynomials(inertia, fraction, frequency, delay):
-    """Numerator and denominator in z of the loop of an axis.
+    """Return numerator and denominator in z of the loop of an axis.
 
     The wheels' spin, about the axes of a cube's corners, is no inertia of the satellite; the control counts it as one.
     """
@@ -46,7 +46,7 @@ def loop_polynomials(inertia, fraction, frequency, delay):
 
 @pytest.fixture(scope="module")
 def loops(fmus):
-    """Each loop by point and axis."""
+    """Return each loop by point and axis."""
     study = perilune.stability("flexible_slew").to_json()
     return {(loop["point"], loop["name"]): loop for loop in study["loops"]}
 

@@ -35,7 +35,8 @@ FIRST = {"landing_mission": {"navigation.first_position_sigma": 100, "navigation
 
 
 def flight(system, *sets, seed=1, **values):
-    """All signals of a short flight with parameter sets, in their order, and a seed for every source of noise."""
+    """Return all signals of a short flight with parameter sets, in their order, and a seed for every source of
+    noise."""
     sources = with_streams(prepare_system(system))
     result = perilune.simulate(
         system,

@@ -36,7 +36,7 @@ def ideal():
 
 
 def started(flight, phase):
-    """Row at which a phase begins, or the last one."""
+    """Return the row at which a phase begins, or the last one."""
     time = flight[f"sequencer.phase_time[{phase}]"][-1] if phase < 10 else -1.0
     return np.flatnonzero(flight.time > time - 1e-6)[0] if time >= 0.0 else len(flight.time) - 1
 

@@ -26,7 +26,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 
 def fly(campaign, guidances, trials, **options):
-    """Trials of each guidance by name."""
+    """Return trials of each guidance by name."""
     return perilune.batch(SYSTEM, campaign, compare={"guidance": guidances}, trials=trials, **options).trials
 
 

@@ -48,7 +48,7 @@ NOISY = {
 
 
 def fly(campaign, pairs, trials=None, **options):
-    """Trials by (observer, regulator)."""
+    """Return trials by (observer, regulator)."""
     by_pair = {}
     for pair in pairs:
         batch = perilune.batch(SYSTEM, campaign, configuration="__".join(pair), trials=trials, **options)

@@ -20,7 +20,7 @@ PLACES = [[f"[{row + 1},{column + 1}]" for column in range(9)] for row in range(
 
 
 def draw_case(number):
-    """Inertia (kg m2), tick (s) and poles (1/s)."""
+    """Draw inertia (kg m2), tick (s) and poles (1/s)."""
     random = np.random.default_rng(number)
     root = random.normal(size=(3, 3))
     inertia = 2000.0 * (root @ root.T + 4.0 * np.eye(3))

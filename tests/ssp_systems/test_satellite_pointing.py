@@ -34,7 +34,7 @@ def fly(*sets, stop_time=400.0, use=None, **values):
 
 
 def pointing_error(flight, target):
-    """Angle (rad) between the true attitude and the target at every sample."""
+    """Return angle (rad) between the true attitude and the target at every sample."""
     true = Rotation.from_quat(flight["satellite.quaternion"], scalar_first=True)
     return (target.inv() * true).magnitude()
 

@@ -90,7 +90,8 @@ def assert_routes_agree(loop):
 
 
 def relative_error(curve, response, lowest, highest):
-    """Largest of a curve between two frequencies (rad/s), with the frequencies and the errors there."""
+    """Return the largest relative error of a curve between two frequencies (rad/s), with frequencies and errors
+    there."""
     retained = (curve.frequency > lowest) & (curve.frequency < highest)
     assert np.sum(retained) > 10
     frequency = curve.frequency[retained]

@@ -28,7 +28,7 @@ GAIN_CROSSOVERS = {"late_double_integrator": 1, "resonance": 2, "pendulum": 1}
 
 @pytest.fixture(scope="module")
 def studied(exact_fmus, tmp_path_factory):
-    """Each system with its report, studied once."""
+    """Study each system once; return it with its report."""
     actual = {}
 
     def study(name):
@@ -42,7 +42,7 @@ def studied(exact_fmus, tmp_path_factory):
 
 
 def assert_classical(actual, loop):
-    """Every crossing to 1e-3 dB and 1e-3 deg."""
+    """Assert every crossing to 1e-3 dB and 1e-3 deg."""
     gain, phase, frequency = crossings(loop)
     assert len(actual.gain) == len(gain)
     ratio = np.array([crossing.value for crossing in actual.gain]) / gain

@@ -29,7 +29,7 @@ def element(path):
 
 @pytest.fixture(scope="module")
 def balance(exact_fmus):
-    """Amplitudes, the smaller one first, and period (s) at which 1 + N L = 0."""
+    """Return amplitudes, the smaller one first, and period (s) at which 1 + N L = 0."""
     response = response_of(relay_loop(exact_fmus / "three_level_relay.fmu").loop)
 
     def linear(w):

@@ -53,7 +53,7 @@ def named(loops, name):
 
 
 def state_space(loop):
-    """As docs/stability.md does it."""
+    """Return the state space as docs/stability.md constructs it."""
     names = {
         key: [name.replace(".", "_") for name in np.atleast_1d(loop[f"{key[:-1]}_names"])]
         for key in ("states", "inputs", "outputs")

@@ -36,7 +36,7 @@ ENDS = "input u Real; output y Real"
 
 
 def margins_by_control(loop):
-    """Gain margin upwards (dB), phase margin (deg) and modulus margin, off a fine response."""
+    """Return gain margin upwards (dB), phase margin (deg) and modulus margin, from a fine response."""
     frequency = np.geomspace(0.05, np.pi / PERIOD, 40001)
     value = response_of(loop)(frequency)
     gain, phase = abs(value), np.unwrap(np.angle(value))
@@ -71,7 +71,7 @@ def wheel_satellite(folder, fmus, step, extra=""):
 
 
 def both(report):
-    """Margins without feedthrough and with it."""
+    """Return margins without feedthrough and with it."""
     (without,), (direct,) = report.loops, report.orders.report.loops
     return without, direct
 
@@ -174,7 +174,8 @@ def test_withheld_where_no_flight_with_feedthrough_can_be_studied(folder, exact_
 
 
 def ring_of_lags(folder, *names):
-    """Lags in a ring with a control that answers at once: all of them direct they would close an algebraic loop."""
+    """Write lags in a ring with a control that answers at once: all of them direct they would close an algebraic
+    loop."""
     parts = [component("control", "difference", ENDS, inline("proportional=Real:0.5; derivative=Real:0"))]
     parts += [component(name, "lag", ENDS) for name in names]
     around = ["control", *names, "control"]

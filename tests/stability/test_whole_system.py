@@ -22,7 +22,7 @@ STEP, RATE = 0.05, 1.2
 
 
 def falling(every):
-    """Multipliers of the pendulum alone over ``every`` steps."""
+    """Return multipliers of the pendulum alone over ``every`` steps."""
     plant = control.c2d(control.ss(control.tf(1.0, [1.0, 0.0, -(RATE**2)])), every * STEP, "zoh")
     return max(abs(plant.poles()))
 

@@ -227,7 +227,7 @@ def build_tiny_fmus(folder: Path) -> None:
 
 
 def retouch_tiny_fmus(folder: Path) -> None:
-    """Variants of the FMUs with declarations that our own blocks never make."""
+    """Write variants of the FMUs with declarations that our own blocks never have."""
 
     def enumerate_integers(text: str) -> str:
         items = "".join(f'<Item name="{name}" value="{value}"/>' for name, value in MODES.items())
@@ -268,7 +268,8 @@ def write_zip(path: Path, files: Mapping[str, bytes | str]) -> Path:
 
 
 def connectors(text: str) -> str:
-    """``output y Real m; input u Integer``: kind, name, type and unit; an Enumeration is named by its unit."""
+    """Return connectors of ``output y Real m; input u Integer``: kind, name, type and unit; an
+    Enumeration is named by its unit."""
     collected = []
     for part in filter(None, (piece.strip() for piece in text.split(";"))):
         kind, name, type_name, *unit = part.split()
@@ -291,7 +292,8 @@ def bound(bindings: str) -> str:
 
 
 def connection(start: str, end: str, inner: str = "", attributes: str = "") -> str:
-    """``connection("ramp.y", "gain.u")``; a name without a dot is a connector of the system itself."""
+    """Return a connection, ``connection("ramp.y", "gain.u")``; a name without a dot is a
+    connector of the system itself."""
     ends = []
     for side, name in (("start", start), ("end", end)):
         element, dot, connector = name.partition(".")

@@ -14,7 +14,7 @@ from perilune.common.paths import SYSTEMS, shipped_fmu
 
 @cache
 def newest_source() -> float:
-    """When a source of the FMUs changed last: how a native one comes out depends on the translator, too."""
+    """Return the time of the last change of the FMUs' sources, the translator's among them."""
     sources = Path(fmus_src.__file__).parent.rglob("*")
     return max(source.stat().st_mtime for source in sources if source.suffix in (".py", ".c", ".h", ".csv", ".toml"))
 

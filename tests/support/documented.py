@@ -32,7 +32,7 @@ def commands_in(text: str) -> list[str]:
 
 
 def documented() -> dict[str, list[str]]:
-    """All commands by where they stand: a page's path, or ``VERB --help``."""
+    """Return all commands by their page's path, or ``VERB --help``."""
     collected = {path.relative_to(ROOT).as_posix(): commands_in(path.read_text(encoding="utf-8")) for path in PAGES}
     collected |= {f"{name} --help": [*verb.examples] for name, verb in VERBS.items()}
     return {place: commands for place, commands in collected.items() if commands}

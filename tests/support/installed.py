@@ -27,13 +27,13 @@ class Installed:
     home: Path
 
     def run(self, *arguments: str, cwd: Path, script: bool = False) -> subprocess.CompletedProcess[str]:
-        """`perilune ARGUMENTS`, or with ``script`` Python on them, with nothing of this process's environment."""
+        """Run `perilune ARGUMENTS`, or with ``script`` Python on them, with nothing of this process's environment."""
         command = [str(self.python), *(() if script else ("-m", "perilune")), *arguments]
         environment = {"PATH": str(self.python.parent), "HOME": str(self.home), "MPLBACKEND": "agg"}
         return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True, check=False)
 
     def files(self) -> dict[str, tuple[int, int]]:
-        """All of site-packages: size and date by name."""
+        """Return all of site-packages: size and date by name."""
         collected = {path: path.stat() for path in self.site.rglob("*") if path.is_file()}
         return {str(path.relative_to(self.site)): (stat.st_size, stat.st_mtime_ns) for path, stat in collected.items()}
 

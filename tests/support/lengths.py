@@ -12,7 +12,7 @@ Value = TypeVar("Value")
 
 
 def either(long: Value, short: Value) -> Value:
-    """``long`` under `make long`, else ``short``."""
+    """Return ``long`` under `make long`, else ``short``."""
     return long if LONG else short
 
 

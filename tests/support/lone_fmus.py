@@ -131,9 +131,9 @@ SOURCES = {
 
 
 def build_lone_fmu(name: str, folder: Path, experiment: str = "") -> Path:
-    """One of the FMUs above, with the attributes ``experiment`` as its default experiment.
+    """Build one of the FMUs above, with the attributes ``experiment`` as its default experiment.
 
-    It asks for steps of one size, so that FMPy does not put further ones in at events.
+    It requests steps of one size, so that FMPy does not put further ones in at events.
     """
     script = folder / f"{name.lower()}.py"
     script.write_text(SOURCES[name])

@@ -13,6 +13,6 @@ ONE_LINE = re.compile(r"perilune: (?P<file>[^:]+): (?P<rest>.+); (?P<remedy>[^;]
 
 
 def ssp(tmp_path: Path, tiny: Path, root: str = PLAIN, /, name: str = "broken.ssp", **options) -> Path:
-    """Packs ``root``; ``files`` are further files of the archive, other options those of its description."""
+    """Pack ``root``; ``files`` are further files of the archive, other options those of its description."""
     files = options.pop("files", {})
     return pack(tmp_path / name, tiny, document(root, **options), **files)

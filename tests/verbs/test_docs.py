@@ -22,7 +22,7 @@ def page(tmp_path, monkeypatch):
 
 @pytest.fixture
 def opened(monkeypatch):
-    """Addresses that the browser was asked to open; none fails."""
+    """Record addresses that the browser was asked to open; none fails."""
     addresses = []
     monkeypatch.setattr(webbrowser, "open", lambda address: addresses.append(address) or True)
     return addresses

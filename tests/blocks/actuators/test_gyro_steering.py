@@ -35,7 +35,7 @@ def momentum(angles):
 
 
 def torque(angles, rates):
-    """-H' for gimbal rates."""
+    """Return -H' for gimbal rates."""
     return -momentum(np.array(angles) + 1e-30j * np.array(rates)).imag / 1e-30
 
 

@@ -252,7 +252,8 @@ def test_thrust_lead_ends_the_burn_earlier_but_not_before_it_begins(slew, demand
 
 
 def impulse_after_settling(duration, lead, lag, step):
-    """Impulse (N s) of a plant with a lag from 4 s on, when guidance asks for its thrust for ``duration`` more."""
+    """Return the impulse (N s) of a plant with a lag from 4 s on, when guidance requests its
+    thrust for ``duration`` more."""
     plant = SphericalMoonLander(thrust_lag=lag, direction_response=0.0, slew_rate_limit=0.0)
     plant.initialize()
     block = allocation(3.0, thrust_lead=lead, demanded_duration=1e9)

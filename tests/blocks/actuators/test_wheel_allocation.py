@@ -103,7 +103,7 @@ def test_null_motion_does_not_turn_the_body_and_stays_within_the_limit(seed, kin
 
 
 def settle(kind, start, **settings):
-    """Speeds of wheels on a body at rest after 500 s of null motion alone."""
+    """Return speeds of wheels on a body at rest after 500 s of null motion alone."""
     speeds = np.asarray(start, dtype=float)
     for _ in range(1000):
         _, u = allocate(kind, np.zeros(3), speeds=speeds, null_gain=0.02, wheel_inertia=0.05, **settings)

@@ -75,7 +75,7 @@ def test_lead_is_the_bilinear_one():
 
 
 def flown_turn(period):
-    """Largest error of the angular velocity (rad/s) over a turn flown with ideal gyros and no feedback."""
+    """Return largest error of the angular velocity (rad/s) over a turn flown with ideal gyros and no feedback."""
     axis = np.array([0.0, -0.9578, 0.2874]) / np.linalg.norm([0.0, -0.9578, 0.2874])
     block = AttitudeControl(natural_frequency=0.0, sample_period=period)
     jets = np.array([0.004, -0.01, 0.007])

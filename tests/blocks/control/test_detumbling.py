@@ -15,7 +15,7 @@ CYCLE, GAIN, SIZE = 0.25, 0.0132, 3e-5
 
 
 def brake(inertia, rate, seconds, field_at, limit):
-    """Rates at each second of a body that a dipole brakes; field_at(t) is the field (T) in inertial axes."""
+    """Return rates at each second of a body that a dipole brakes; field_at(t) is the field (T) in inertial axes."""
     control = MagneticControl(mode=MagneticMode.DETUMBLE, detumble_gain=GAIN, dipole_limit=limit)
     inverse, attitude, rate = np.linalg.inv(inertia), Rotation.identity(), np.array(rate)
     control.measured_field = field_at(0.0).tolist()

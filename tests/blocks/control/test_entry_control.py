@@ -35,7 +35,7 @@ def answer(block, bank=0.0, w=(0.0, 0.0, 0.0), **inputs):
 
 
 def small_gain(block):
-    """Torques over (bank error, wx, wy, wz) by small inputs."""
+    """Return torques over (bank error, wx, wy, wz) by small inputs."""
     h = 1e-4
     columns = [answer(block, bank=h)] + [answer(block, w=tuple(h * e)) for e in np.eye(3)]
     return np.array(columns).T / h

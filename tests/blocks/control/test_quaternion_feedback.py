@@ -20,7 +20,8 @@ AXIS = np.array([0.48, -0.6, 0.64])
 
 
 def turn_back(angle, seconds, error_limit=10.0, bias=0.0, known=1.0):
-    """Rotation vectors of a satellite that is fed back to the reference from an error; wheels turn at ``bias``."""
+    """Return rotation vectors of a satellite that is fed back to the reference from an error; wheels turn at
+    ``bias``."""
     satellite = WheelSatellite(
         speed_limit=0.0, motor_torque_limit=1e3, viscous_friction=0.0, coulomb_friction=0.0, internal_step=STEP
     )

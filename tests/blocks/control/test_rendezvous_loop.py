@@ -130,7 +130,7 @@ class Loop:
         self.time += h
 
     def fly(self, end, h=H):
-        """Rows of time, position error and attitude error."""
+        """Return rows of time, position error and attitude error."""
         rows = []
         while self.time < end:
             self.step(h)

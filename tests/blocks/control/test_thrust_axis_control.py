@@ -24,7 +24,7 @@ vectors = st.tuples(small, small, small)
 
 
 def flown(seconds, direction, rate=(0.0, 0.0, 0.0), **settings):
-    """Tilts of a lander off z, its rates and accelerations, a row per communication point."""
+    """Return tilts of a lander off z, its rates and accelerations, a row per communication point."""
     plant = AttitudeMoonLander(initial_position=[0.0, 0.0, 1e5])
     law = ThrustAxisControl(thrust_direction=list(direction), thrust_direction_rate=list(rate), **settings)
     rows = []

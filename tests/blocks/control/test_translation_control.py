@@ -95,7 +95,7 @@ def test_inputs_that_are_not_finite_leave_the_force(law, name):
 
 
 def double_integrator(period, delay):
-    """Position at the ticks from an acceleration held from ``delay`` after each tick on."""
+    """Return position at the ticks from an acceleration held from ``delay`` after each tick on."""
     remainder = period - delay
     z = control.tf([1, 0], [1], period)
     position = 0.5 * remainder * remainder + (0.5 * period * period - 0.5 * remainder * remainder) / z

@@ -27,7 +27,8 @@ def system(damping, w):
 
 
 def van_loan(damping, w, h):
-    """Covariance of the noise added over a step: van Loan's over h/64 (exp(-A h) stays tame), doubled six times."""
+    """Return the covariance of the noise added over a step: van Loan's over h/64 (exp(-A h)
+    stays tame), doubled six times."""
     a, noise = system(damping, w)
     whole = expm(np.block([[-a, noise], [np.zeros((2, 2)), a.T]]) * h / 64.0)
     f = whole[2:, 2:].T
@@ -52,7 +53,7 @@ def two_normals(generator):
 
 
 def stepped(block, start, h):
-    """State after a step from ``start``; the generator is put back."""
+    """Return state after a step from ``start``; the generator is put back."""
     generator = list(block.generator)
     block.disturbance, block.disturbance_rate = start
     block.step(0.0, h)
@@ -61,7 +62,7 @@ def stepped(block, start, h):
 
 
 def noise_covariance(damping, w, h):
-    """Covariance that a step adds: its noise is linear in two independent standard normal numbers."""
+    """Return covariance that a step adds: its noise is linear in two independent standard normal numbers."""
     added, numbers = [], []
     for seed in (1, 2):
         block = filter_of(damping, w, seed=seed)

@@ -49,7 +49,7 @@ def outputs(block):
 
 
 def fixed_axes(epoch):
-    """Rotation from inertial to planet-fixed axes, apart from the block's code."""
+    """Return rotation from inertial to planet-fixed axes, apart from the block's code."""
     return celestial.earth_fixed(epoch, celestial.earth_pole(epoch), 69.184)
 
 

@@ -32,7 +32,7 @@ MOON = {"gravitational_parameter": 4.9028e12, "moon_radius": 1.7374e6}
 
 
 def command(guidance, position, velocity, step=0.0):
-    """Commanded thrust acceleration (3,), at command_time; of the next cycle of length ``step`` (s) if not 0."""
+    """Return commanded thrust acceleration (3,), at command_time; of the next cycle of length ``step`` (s) if not 0."""
     see(guidance, position, velocity)
     if step > 0.0:
         guidance.step(0.0, step)

@@ -40,7 +40,7 @@ def row_order(entries):
 
 
 def commanded(u1, u2):
-    """Thrust angle (rad) and thrust (N) within their limits."""
+    """Return thrust angle (rad) and thrust (N) within their limits."""
     return np.clip(u1, 0.0, np.pi), P0 + np.clip(KGF * u2, -DP, DP)
 
 
@@ -51,7 +51,7 @@ def planar(path_angle, altitude, **parameters):
 
 
 def points(count, seed):
-    """Path angles and altitudes of a descent and far around it."""
+    """Return path angles and altitudes of a descent and far around it."""
     generator = np.random.default_rng(seed)
     wide = np.column_stack([generator.uniform(-6.0, 3.0, count // 2), generator.uniform(-2e4, 4e4, count // 2)])
     near = np.column_stack([generator.uniform(-1.8, -1.5, count // 2), generator.uniform(1.4e3, 2.5e4, count // 2)])
@@ -145,13 +145,13 @@ def see(block, position, velocity, mass):
 
 
 def random_basis(generator):
-    """Local vertical and a horizontal direction anywhere on the Moon."""
+    """Return local vertical and a horizontal direction anywhere on the Moon."""
     basis, _ = np.linalg.qr(generator.normal(size=(3, 3)))
     return basis[:, 0], basis[:, 1]
 
 
 def landing_site(radius_vector):
-    """Position from the site, which is straight above the Moon's centre."""
+    """Return position from the site, which is straight above the Moon's centre."""
     return radius_vector - [0.0, 0.0, RADIUS]
 
 
@@ -243,7 +243,7 @@ def test_declared_starts_and_degenerate_states_are_harmless():
 
 
 def descent_in_space(up, forward, step):
-    """Rows of time, altitude, speed and time_to_go under the guidance block, with numpy's Runge-Kutta between."""
+    """Yield rows of time, altitude, speed and time_to_go under the guidance block, with numpy's Runge-Kutta between."""
     mu = GRAVITY * RADIUS**2
     r = (RADIUS + 18148.0) * up
     v = 1689.0 * (math.cos(-1.6) * up - math.sin(-1.6) * forward)
@@ -273,7 +273,7 @@ def descent_in_space(up, forward, step):
 
 
 def planar_descent(step):
-    """Time, altitude and speed at the hand-over of the planar blocks, with the vertical turning."""
+    """Return time, altitude and speed at the hand-over of the planar blocks, with the vertical turning."""
     plant = PlanarMoonLander(curvature=True, surface_gravity=GRAVITY, moon_radius=RADIUS)
     plant.initialize()
     law = planar(plant.path_angle, plant.altitude)

@@ -28,7 +28,7 @@ def guidance(**parameters):
 
 
 def at(block, time):
-    """Position, velocity, quaternion and angular velocity planned for a time (the clock apart)."""
+    """Return position, velocity, quaternion and angular velocity planned for a time (the clock apart)."""
     block.publish(time)
     return (
         np.array(block.planned_position),
@@ -39,7 +39,7 @@ def at(block, time):
 
 
 def acceleration(block, time, side):
-    """One-sided derivative of the planned velocity, exact for polynomials up to the second degree."""
+    """Return one-sided derivative of the planned velocity, exact for polynomials up to the second degree."""
     d = 1e-2 * side
     v0, v1, v2 = (at(block, time + k * d)[1] for k in range(3))
     return (-1.5 * v0 + 2.0 * v1 - 0.5 * v2) / d
@@ -142,7 +142,7 @@ def test_angular_acceleration_is_that_of_the_middle_of_the_attitude_period():
 
 
 def fly(block, end, step=STEP):
-    """Rows of (time, count, period, planned acceleration, planned velocity, phase)."""
+    """Return rows of (time, count, period, planned acceleration, planned velocity, phase)."""
     rows = []
     for k in range(round(end / step) + 1):
         if k:

@@ -38,13 +38,13 @@ STEP = 0.1
 
 
 def central(position):
-    """Gravity (m/s2), landing-site frame."""
+    """Return gravity (m/s2), landing-site frame."""
     from_centre = position - CENTRE
     return -MU * from_centre / np.linalg.norm(from_centre) ** 3
 
 
 def braking_start(ground_range):
-    """Position and velocity, ``ground_range`` (m) before the site; 1.6 rad from the vertical."""
+    """Return position and velocity, ``ground_range`` (m) before the site; 1.6 rad from the vertical."""
     angle = ground_range / RADIUS
     up = np.array([math.sin(angle), 0.0, math.cos(angle)])
     forward = np.array([-math.cos(angle), 0.0, math.sin(angle)])
@@ -69,7 +69,7 @@ def burn(state, time, duration, guidance):
 
 
 def fly(guidance_class, position, velocity, **parameters):
-    """Miss (m), speed (m/s) at the end, largest thrust acceleration (m/s2), propellant of 940 kg (kg)."""
+    """Return miss (m), speed (m/s) at the end, largest thrust acceleration (m/s2), propellant of 940 kg (kg)."""
     guidance = commanded(guidance_class, position, velocity, target_position=SITE.tolist(), **parameters)
     state = np.concatenate([position, velocity])
     gained = largest = 0.0

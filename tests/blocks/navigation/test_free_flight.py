@@ -32,7 +32,7 @@ NO_SENSOR_ERRORS = {
 
 
 def on_circle(t):
-    """Position and velocity on a circular orbit of 100 km over the site at t = 0."""
+    """Return position and velocity on a circular orbit of 100 km over the site at t = 0."""
     p = -RATE * t
     place = RADIUS * np.array([math.sin(p), 0.0, math.cos(p)]) - [0.0, 0.0, MOON_RADIUS]
     return place, RATE * RADIUS * np.array([-math.cos(p), 0.0, math.sin(p)])
@@ -144,7 +144,8 @@ def test_the_gradient_is_that_of_the_exponential(block_class):
 
 
 def squares(gradient, flights=100):
-    """NEES of coasts of 3000 s, by the block's own covariance; the same coast without first errors is the truth."""
+    """Return NEES of coasts of 3000 s, by the block's own covariance; the same coast without first errors is the
+    truth."""
     settings = {"step": 10.0, "errors": (0.0, 0.0, 0.0), "free_flight": True, "gravity_gradient": gradient}
     truth = state_of(coast(KalmanNavigation, 3000.0, first_position_sigma=0.0, first_velocity_sigma=0.0, **settings))
     actual = []

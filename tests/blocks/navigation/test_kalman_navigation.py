@@ -41,7 +41,7 @@ UPPER = np.triu_indices(6)
 
 
 def ensemble_of(**settings):
-    """NEES and NIS, by quantity and epoch, a value per seed."""
+    """Return NEES and NIS, by quantity and epoch, a value per seed."""
     native = Native(KalmanNavigation)
     outputs = ["estimated_position", "estimated_velocity", "estimate_covariance"]
     outputs += [f"{name}_innovation_square" for name in SQUARES]

@@ -29,7 +29,7 @@ COMPARED = (
 
 
 def with_trouble(seen, trouble):
-    """Measurements with an outlier, a sample that is no number, or a sensor that stays wrong."""
+    """Return measurements with an outlier, a sample that is NaN, or a sensor that stays wrong."""
     fixes = np.flatnonzero(seen.new_position)
     if trouble == "outlier":
         seen.position[fixes[10], 1] += 2e3

@@ -27,7 +27,7 @@ SPECIFIC_FORCE = np.array([4.6, 0.1, 1.4])
 
 
 def transition(h):
-    """F and Q of a double integrator per axis, positions first."""
+    """Return F and Q of a double integrator per axis, positions first."""
     one = np.eye(3)
     f = np.block([[one, h * one], [0 * one, one]])
     q = DENSITY * np.block([[h**3 / 3 * one, h**2 / 2 * one], [h**2 / 2 * one, h * one]])
@@ -80,7 +80,7 @@ def flight(seed, steps):
 
 @pytest.fixture(scope="module")
 def ensemble():
-    """Normalised errors squared at chosen points, and every innovation squared, of all seeds."""
+    """Return normalised errors squared at chosen points, and every innovation squared, of all seeds."""
     steps, at = 26, (0, 1, 4, 5, 12, 26)
     errors: dict[int, list[float]] = {k: [] for k in at}
     innovations = []

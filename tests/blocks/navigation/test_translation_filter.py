@@ -69,7 +69,7 @@ class Flight:
 
 
 def fly(block, flight, steps):
-    """Rows of (new sample or None, commanded force, planned velocity) with the block stepped along."""
+    """Yield rows of (new sample or None, commanded force, planned velocity) with the block stepped along."""
     first = flight.sample()
     start(block, first, flight.relative, flight.planned_velocity)
     count = 1

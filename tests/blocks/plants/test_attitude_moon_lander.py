@@ -41,7 +41,7 @@ def fly(plant, seconds, step=STEP, start=0.0):
 
 
 def state(plant):
-    """Position, velocity, mass, thrust, axis, rate."""
+    """Return position, velocity, mass, thrust, axis, rate."""
     return np.array(
         [*plant.position, *plant.velocity, plant.mass, plant.delivered_thrust, *plant.attitude, *plant.angular_rate]
     )

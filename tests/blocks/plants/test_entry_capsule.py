@@ -52,7 +52,7 @@ def independent(block, seconds, **options):
 
 
 def inertial(block, time):
-    """Position and velocity in inertial axes."""
+    """Return position and velocity in inertial axes."""
     entry = Entry(COEFFICIENTS)
     state = begin(entry, block)
     turn = Rotation.from_rotvec([0.0, 0.0, EARTH_RATE * time])
@@ -70,7 +70,7 @@ def test_derivatives():
 
 
 def kepler(position, velocity, time):
-    """Position after a time on the orbit, by universal variables (Battin 1999, section 4.5), Newton's method."""
+    """Return position after a time on the orbit, by universal variables (Battin 1999, section 4.5), Newton's method."""
     r0, square = np.linalg.norm(position), velocity @ velocity
     radial = position @ velocity / math.sqrt(MU)
     alpha = 2.0 / r0 - square / MU

@@ -48,7 +48,7 @@ def thrusting(plant, thrust=THRUST, direction=DIRECTION, rate=(0.0, 0.0, 0.0), s
 
 
 def parabola(initial, acceleration, time):
-    """Position and velocity after ``time`` under constant thrust acceleration and gravity."""
+    """Return position and velocity after ``time`` under constant thrust acceleration and gravity."""
     total = np.asarray(acceleration) - GRAVITY * UP
     return np.concatenate([initial[:3] + initial[3:] * time + 0.5 * total * time**2, initial[3:] + total * time])
 
@@ -64,7 +64,7 @@ def integrated(initial, thrust, direction, rate, since, start, end):
 
 
 def assert_states_agree(actual, expected, tolerance=1e-12):
-    """Position relative to its length, velocity relative to its own."""
+    """Assert position relative to its length, velocity relative to its own."""
     assert np.linalg.norm(actual[:3] - expected[:3]) <= tolerance * np.linalg.norm(expected[:3])
     assert np.linalg.norm(actual[3:] - expected[3:]) <= tolerance * np.linalg.norm(expected[3:])
 

@@ -66,7 +66,7 @@ def jet_wrench(thrust):
 
 
 def independent(start, thrust, rates, seconds):
-    """r, v, q, w, angles after a time with constant thrusts and gimbal rates, by Euler's equations."""
+    """Return r, v, q, w, angles after a time with constant thrusts and gimbal rates, by Euler's equations."""
     force, torque = jet_wrench(thrust)
     rates = np.asarray(rates, dtype=float)
 

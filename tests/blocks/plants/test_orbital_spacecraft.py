@@ -44,7 +44,7 @@ def fly(block, ticks, steps=1):
 
 
 def some_ticks(count, seed=1):
-    """Pulses of all kinds: none, short ones, full ones."""
+    """Return pulses of all kinds: none, short ones, full ones."""
     lengths = np.random.default_rng(seed).uniform(-0.3, 0.3, (count, 3)).clip(-TICK, TICK)
     lengths[np.abs(lengths) < 0.03] = 0.0
     return lengths.tolist()

@@ -142,7 +142,7 @@ def test_frequencies_of_free_modes():
 
 
 def rates(flown):
-    """Angular velocity, wheel speeds, and rates of the modes from their momenta p = (1 - L'L/M) eta' + D'w."""
+    """Return angular velocity, wheel speeds, and rates of the modes from their momenta p = (1 - L'L/M) eta' + D'w."""
     w = flown["angular_velocity"]
     matrix = np.eye(2) - TRANSLATION @ TRANSLATION.T / MASS
     return w, flown["wheel_speeds"], np.linalg.solve(matrix, flown["modal_momenta"][:2] - ROTATION @ w), matrix
@@ -169,7 +169,7 @@ def test_angular_momentum_does_not_change_by_a_bit(seed):
 
 
 def energy(flown):
-    """Kinetic energy relative to the centre of mass, and what bends the modes."""
+    """Return kinetic energy relative to the centre of mass, and the energy that bends the modes."""
     w, speeds, modal, matrix = rates(flown)
     spin, bent = WHEELS["wheel_inertia"], FREQUENCY * flown["mode_displacements"][:2]
     body = 0.5 * w @ INERTIA @ w + spin * speeds @ wheel_axes(flown) @ w + 0.5 * spin * speeds @ speeds

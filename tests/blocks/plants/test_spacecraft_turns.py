@@ -31,7 +31,7 @@ def quintic(w):
 
 
 def segments(turn):
-    """Durations (s) and accelerations (rad/s2) of a turn in segments."""
+    """Return durations (s) and accelerations (rad/s2) of a turn in segments."""
     if turn is bang_coast:
         return [(RAMP, ACCELERATION), (COAST - RAMP, 0.0), (RAMP, -ACCELERATION)]
     edges = np.linspace(0.0, 1.0, 2001)

@@ -60,7 +60,7 @@ def fly(plant, start, end, step=0.1):
 
 
 def everything(plant):
-    """Position, velocity, mass, thrust, attitude, sensed velocity."""
+    """Return position, velocity, mass, thrust, attitude, sensed velocity."""
     thrust = [plant.mass, plant.delivered_thrust]
     return np.array([*plant.position, *plant.velocity, *thrust, *plant.attitude, *plant.sensed_velocity])
 
@@ -99,7 +99,7 @@ COMMANDS = [  # thrust, direction, rate, since, burn duration; 6 s each: a jump 
 
 
 def manoeuvre(step, lag, response, limit):
-    """State at the end of each command, flown with an internal step."""
+    """Return state at the end of each command, flown with an internal step."""
     plant = lander(internal_step=step, thrust_lag=lag, direction_response=response, slew_rate_limit=limit)
     rows = []
     for k, each in enumerate(COMMANDS):
@@ -124,7 +124,7 @@ def manoeuvre_integrated(lag, response, limit):
 
 
 def errors_of(actual, expected):
-    """Lengths of the differences of position, velocity, mass, attitude and sensed velocity."""
+    """Return lengths of the differences of position, velocity, mass, attitude and sensed velocity."""
     parts = [slice(0, 3), slice(3, 6), slice(6, 7), slice(8, 11), slice(11, 14)]
     return np.array([np.linalg.norm((actual - expected)[part]) for part in parts])
 

@@ -52,13 +52,13 @@ def fly(block, seconds, motors=None, step=STEP):
 
 
 def momentum(block):
-    """Angular momentum in inertial axes, from what can be observed."""
+    """Return the angular momentum in inertial axes, from observable outputs."""
     body = INERTIA @ np.array([*block.angular_velocity]) + SPIN * UNIT @ np.array([*block.wheel_speeds])
     return Rotation.from_quat([*block.quaternion], scalar_first=True).apply(body)
 
 
 def energy(block):
-    """Kinetic energy of a body with wheels, I of both as if they did not spin (Schaub and Junkins 2018, 4.5)."""
+    """Return kinetic energy of a body with wheels, I of both as if they did not spin (Schaub and Junkins 2018, 4.5)."""
     w, speeds = np.array([*block.angular_velocity]), np.array([*block.wheel_speeds])
     return 0.5 * w @ INERTIA @ w + SPIN * speeds @ UNIT.T @ w + 0.5 * SPIN * speeds @ speeds
 

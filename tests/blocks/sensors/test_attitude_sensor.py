@@ -23,7 +23,7 @@ def sensor(**settings):
 
 
 def samples(block, count):
-    """Errors of axis and rate, a row per sample."""
+    """Return errors of axis and rate, a row per sample."""
     rows = []
     for k in range(count):
         rows.append([*np.subtract(block.measured_attitude, AXIS), *np.subtract(block.measured_angular_rate, RATE)])

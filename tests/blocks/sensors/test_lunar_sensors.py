@@ -60,7 +60,7 @@ def truth(block):
 
 
 def sigma_of(block, altitude):
-    """1 sigma of each axis, from the specification of the sensors."""
+    """Return 1 sigma of each axis, from the specification of the sensors."""
     if isinstance(block, RadarAltimeter):
         return 0.005 * altitude + 1.0
     if isinstance(block, DopplerVelocimeter):

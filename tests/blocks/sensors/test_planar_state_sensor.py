@@ -24,7 +24,7 @@ def sensor(**parameters):
 
 
 def errors(count=SAMPLES, **parameters):
-    """Relative errors over the noise, two columns."""
+    """Return relative errors over the noise, two columns."""
     block = sensor(path_angle_noise=0.03, altitude_noise=0.1, **parameters)
     rows = []
     for k in range(count):

@@ -100,7 +100,7 @@ def test_at_defaults_a_sample_is_rate_bias_and_noise():
 
 
 def allan_variance(tau, noise, instability, lag, walk):
-    """IEEE Std 952, annex C."""
+    """Return the variance by IEEE Std 952, annex C."""
     x = tau / lag
     wandering = 2.0 * instability**2 / x * (1.0 - (3.0 - 4.0 * np.exp(-x) + np.exp(-2.0 * x)) / (2.0 * x))
     return noise**2 / tau + wandering + walk**2 * tau / 3.0

@@ -32,7 +32,7 @@ def away(angle, seed=0):
 
 
 def tracker(sun=None, moon=None, nadir=None, **settings):
-    """One with directions to Sun, nadir and a Moon nearby (inertial), after a sample."""
+    """Return a tracker with directions to Sun, nadir and a Moon nearby (inertial), after a sample."""
     block = StarInertial(boresight=BORESIGHT.tolist(), **settings)
     block.quaternion = ATTITUDE.as_quat(scalar_first=True).tolist()
     position = -DISTANCE * np.array(away(math.pi) if nadir is None else nadir)

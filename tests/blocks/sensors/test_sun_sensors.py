@@ -25,7 +25,7 @@ def directions(seed):
 
 
 def sensors(sun, illumination=1.0, position=(0.0, 0.0, 0.0), attitude=ATTITUDE, **settings):
-    """Sensors with the Sun in a direction (body)."""
+    """Return sensors with the Sun in a direction (body)."""
     block = SunSensors(**settings)
     block.quaternion = attitude.as_quat(scalar_first=True).tolist()
     block.sun_direction = attitude.apply(sun).tolist()

@@ -24,7 +24,7 @@ def outcomes(both, only_a, only_b, neither):
 
 
 def coin(k, n):
-    """Probability of at least so uneven a split of n tosses of a fair coin, either way."""
+    """Return the probability of at least so uneven a split of n tosses of a fair coin, either way."""
     minimum = min(k, n - k)
     tail = sum(math.comb(n, i) for i in range(minimum + 1)) / 2**n
     return min(1.0, 2.0 * tail)

@@ -45,7 +45,7 @@ def evaluate(requested, times, values):
 
 
 def inside(rows, window):
-    """Exact time, truth and value of the rows of a window, and when that begins."""
+    """Return exact time, truth and value of the rows of a window, and its begin."""
     exact = [(k * STEP, truth in (1.0, -2.5), x) for k, (truth, x) in enumerate(rows)]
     low, high = window or (0, len(rows))
     return [row for row in exact if low <= row[0] <= high], max(Fraction(low), Fraction(0))

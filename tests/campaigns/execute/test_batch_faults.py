@@ -71,7 +71,7 @@ STEP, ROWS = 0.25, 21
 
 @pytest.fixture(scope="module")
 def ssp(tiny_folder, tmp_path_factory):
-    """In either flavour: a ramp, a gain and a delay behind it, whole numbers of the ramp."""
+    """Write in either flavour a ramp, a gain and a delay after it, whole numbers of the ramp."""
     parts = (
         component("ramp", "ramp", "output y Real m; output flag Boolean; output count Integer"),
         component("gain", "gain", "input u Real m; output y Real m"),

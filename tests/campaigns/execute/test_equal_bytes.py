@@ -91,5 +91,5 @@ def test_a_folder_of_an_earlier_version_goes_on(tmp_path, monkeypatch):
 
 
 def digest(document):
-    """As versions before there were identities named manifests and batches."""
+    """Return the digest by which versions before identities named manifests and batches."""
     return hashlib.sha256(json.dumps({**document, "trials": None}, sort_keys=True).encode()).hexdigest()

@@ -59,7 +59,7 @@ def flight(number):
 
 
 def joined(numbers):
-    """Flights as a group."""
+    """Join flights to a group."""
     flights = [flight(number) for number in numbers]
     return FlightGroup(
         time=np.concatenate([each.time for each in flights]),

@@ -36,7 +36,7 @@ def flown(folder, low=-1.0, workers=1, compare=None, **quirks):
 
 
 def check(result):
-    """Every trial against the closed form; what a gain below 0 breaks has no metric."""
+    """Check every trial against the closed form; trials that a gain below 0 breaks have no metric."""
     for trials in result.trials.values():
         gains = result.plan.draws.columns["odd.gain"]
         expected = np.where([status == "failed" for status in trials.statuses], np.nan, gains * 0.5 + 2.0)

@@ -56,7 +56,7 @@ def flown(folder, traces="none", **options):
 
 
 def texts(result):
-    """Every digit of every column, and the traces."""
+    """Return every digit of every column, and the traces."""
     (trials,) = result.trials.values()
     return repr(result.table().to_pydict()), {
         trial: {name: values.tobytes() for name, values in traces.items()} for trial, traces in trials.traces.items()

@@ -38,7 +38,7 @@ def fly(folder, record, **options):
 
 
 def traces(folder):
-    """Every trace by variant and trial, without the metadata."""
+    """Return every trace by variant and trial, without the metadata."""
     return {
         (path.parent.name, int(path.stem)): pyarrow.parquet.read_table(path).replace_schema_metadata(None)
         for path in sorted((folder / "traces").glob("*/*.parquet"))

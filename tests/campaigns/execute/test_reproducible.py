@@ -32,7 +32,7 @@ def reference(fmus):
 
 
 def bits(table):
-    """Every column as bytes: NaN equal to NaN, 0.0 different from -0.0."""
+    """Return every column as bytes: NaN equal to NaN, 0.0 different from -0.0."""
     return {
         name: np.asarray(column).tobytes() if str(column.type) == "double" else column.to_pylist()
         for name, column in zip(table.column_names, table.columns, strict=True)

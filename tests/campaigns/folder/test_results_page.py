@@ -46,7 +46,7 @@ def shown(place):
 
 @pytest.fixture(scope="module")
 def columns(place):
-    """Every column of the first campaign, of both variants in order of trial."""
+    """Return every column of the first campaign, of both variants in order of trial."""
     tables = [pyarrow.parquet.read_table(path) for path in sorted((place / "results" / "trials").glob("*.parquet"))]
     actual = {name: np.concatenate([table[name].to_numpy() for table in tables]) for name in tables[0].column_names}
     order = np.lexsort((actual["trial"], actual["variant"]))

@@ -42,7 +42,7 @@ def ever(rule, rate, most, verdict):
 
 
 def alone(rule, rate, most, verdict):
-    """As `ever`, where flights go on after the other verdict."""
+    """Return the same as `ever`, where flights continue after the other verdict."""
     alive, crossed, last = np.ones(1), 0.0, 0
     for flights in rule.looks(most):
         step = flights - last

@@ -46,7 +46,7 @@ def exp(value, mode):
 
 
 def growth(value):
-    """sgn(z)(e^|z| - 1)."""
+    """Return sgn(z)(e^|z| - 1)."""
     return sign(value) * (1e8 if abs(value) > LN_LARGEST else math.exp(abs(value)) - 1.0)
 
 
@@ -55,7 +55,7 @@ def reciprocal(value):
 
 
 def paper_law(theta, d, q, mode):
-    """u1 and u2 of the law found, unclipped."""
+    """Return u1 and u2 of the law found, unclipped."""
     q1, q2, q3 = q
     p = math.pi + theta
     s = step(d)
@@ -148,7 +148,7 @@ def test_what_is_printed_is_what_is_evaluated():
 
 
 def node_values(law, theta, d):
-    """All nodes that the outputs depend on, by the kernel."""
+    """Return all nodes that the outputs depend on, by the kernel."""
     matrix = Matrix([list(row) for row in law.matrix])
     edges = [0] * network_operator.MAXIMUM_EDGES
     count = network_operator.decode(matrix, edges)

@@ -19,7 +19,7 @@ CLASS = [(4, 1), (4, 2), (6, 2), (6, 3), (8, 2), (8, 4)]
 
 
 def determinant(coefficients: np.ndarray) -> np.ndarray:
-    """Characteristic polynomial of I s^p + .. + N_0, highest power first, from values on a circle."""
+    """Return characteristic polynomial of I s^p + .. + N_0, highest power first, from values on a circle."""
     blocks, size, _ = coefficients.shape
     order = blocks * size
     circle = np.exp(2j * np.pi * np.arange(order + 1) / (order + 1))

@@ -31,7 +31,7 @@ STARTS = 8
 
 
 def yang_and_tits(a: np.ndarray, b: np.ndarray, poles: np.ndarray) -> np.ndarray:
-    """K of scipy's place_poles as it comes, which warns where it has not converged."""
+    """Return K of scipy's place_poles as it is, which warns where it has not converged."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return place_poles(a, b, poles).gain_matrix

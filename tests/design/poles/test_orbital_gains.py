@@ -26,7 +26,7 @@ I3, I6, ZERO = np.eye(3), np.eye(6), np.zeros((3, 3))
 
 
 def cross_matrix(v: np.ndarray) -> np.ndarray:
-    """[v] x = v x x."""
+    """Return [v] with [v] x = v x x."""
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 

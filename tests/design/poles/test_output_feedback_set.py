@@ -66,7 +66,7 @@ FREE = np.nan
 
 
 def turned_plant(q: float) -> np.ndarray:
-    """x = (e, b, wx, wy): e' = c wx - s wy, b' = s wx + c wy, (wx', wy') = -q b (s, c) + R v."""
+    """Return A of x = (e, b, wx, wy): e' = c wx - s wy, b' = s wx + c wy, (wx', wy') = -q b (s, c) + R v."""
     return np.array([[0, 0, C, -S], [0, 0, S, C], [0, -q * S, 0, 0], [0, -q * C, 0, 0]], dtype=float)
 
 

@@ -20,7 +20,8 @@ def test_places_every_draw(states: int, inputs: int, outputs: int, most: int, co
 
 
 def real_solutions(a: np.ndarray, b: np.ndarray, c: np.ndarray, poles: np.ndarray) -> bool:
-    """For n, m, p = 4, 2, 2: det(s I - A - B F C) is linear in the four F_ij and in d = det F.
+    """Return True if there are real solutions. For n, m, p = 4, 2, 2 det(s I - A - B F C) is linear in the four F_ij
+    and in d = det F.
 
     The coefficients give F = f + g d; det(f + g d) = d is a quadratic equation.
     """

@@ -40,7 +40,7 @@ def orbit(inertia: sp.Matrix) -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matri
 
 
 def full_inertia() -> sp.Matrix:
-    """Moments and one product, so that the page's J^-1 matters."""
+    """Return moments and one product, so that the page's J^-1 matters."""
     jx, jy, jz, jxy = sp.symbols("jx jy jz jxy", positive=True)
     return sp.Matrix([[jx, jxy, 0], [jxy, jy, 0], [0, 0, jz]])
 
@@ -104,7 +104,8 @@ def capsule() -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
 
 
 def robust_polynomial() -> tuple[sp.Matrix, sp.Matrix]:
-    """N_0 and N_1 of diag(s^2 + kx s + kg, s^2 + kb s + wb^2) in bank and sideslip, which the air couples one way."""
+    """Return N_0 and N_1 of diag(s^2 + kx s + kg, s^2 + kb s + wb^2) in bank and sideslip,
+    which the air couples one way."""
     _, _, inertia, turn = capsule()
     kx, kg, kb, q, mx, my = sp.symbols("kx kg kb q mx my", real=True)
     driven = turn * inertia.inv() * sp.Matrix([q * mx, q * my])  # accelerations of bank and sideslip by sideslip

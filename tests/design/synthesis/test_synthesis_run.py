@@ -33,7 +33,7 @@ def whole(tmp_path_factory, fmus):
 
 
 def content(folder):
-    """All files of a result but the drawing's and the checkpoint's bytes, which the others determine."""
+    """Return all files of a result but the drawing's and the checkpoint's bytes, which the others determine."""
     return {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix in (".json", ".csv", ".ssv")}
 
 

@@ -33,7 +33,7 @@ SEEDS = st.integers(0, 2**32)
 
 
 def drawn(seed, count, matrix=BASIC):
-    """Variations drawn for one matrix, that is mostly not where the others leave something to vary."""
+    """Draw variations for one matrix, that is mostly not where the others leave something to vary."""
     random = np.random.Generator(np.random.PCG64(seed))
     return [random_variation(random, matrix) for _ in range(count)]
 
@@ -116,7 +116,7 @@ def test_a_matrix_without_room_for_a_kind_can_still_be_varied():
 
 
 def kernel_outputs(matrix, sources, exp_saturation=1e8):
-    """z15 and z16 by the kernel functions of the blocks."""
+    """Return z15 and z16 by the kernel functions of the blocks."""
     rows = Matrix([list(row) for row in matrix])
     edges = [0] * network_operator.MAXIMUM_EDGES
     count = network_operator.decode(rows, edges)

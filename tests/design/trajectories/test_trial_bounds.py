@@ -35,7 +35,7 @@ def rows_of(path):
 
 
 def starts(campaign):
-    """Position and velocity of the trials of a shipped campaign."""
+    """Return position and velocity of the trials of a shipped campaign."""
     columns = draw_table(read_plan("lunar_landing", campaign, SystemOptions()).campaign).columns
     flat = np.zeros_like(columns["plant.initial_position[1]"])  # what is not drawn is 0: out of plane
     return [

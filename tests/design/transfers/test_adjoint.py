@@ -124,7 +124,7 @@ def tangent_acceleration(t, c1, c2, c3, c4):
 
 
 def printed_acceleration(t, c1, c2, c4):
-    """As printed, which has three constants and belongs to (1 - c4 t)/(c1 - c2 t)."""
+    """Return the acceleration as printed, which has three constants and belongs to (1 - c4 t)/(c1 - c2 t)."""
     size = (c1 - c2 * t) ** 2 + (1.0 - c4 * t) ** 2
     return 2.0 * (c2 - c1 * c4) * ((c2**2 + c4**2) * t - c1 * c2 - c4) / size**2
 

@@ -30,7 +30,7 @@ def plan_of(vehicle, distance, begun=0.0):
 
 
 def fly(vehicle, times, fall, last_burn, accuracy=1e-11):
-    """x, x', y, y', propellant fraction, pitch and its rate before the fall and at the end."""
+    """Return x, x', y, y', propellant fraction, pitch and its rate before the fall and at the end."""
     t2, t5, width, burn, t7 = times
     off = t7 - fall
     t1, t6 = t2 / 2.0, (t5 + t7) / 2.0

@@ -36,7 +36,7 @@ def test_every_page_of_a_system_has_a_picture():
 
 
 def shapes(path):
-    """Labels and groups, which say what a picture shows."""
+    """Return labels and groups, which say what a picture shows."""
     root = etree.parse(path).getroot()
     return [comment.text for comment in root.iter(etree.Comment)], [group.get("id") for group in root.iter("{*}g")]
 

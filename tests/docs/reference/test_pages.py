@@ -36,7 +36,7 @@ def pages():
 
 
 def sections(page):
-    """Text by heading of the second level."""
+    """Return text by heading of the second level."""
     return dict(part.split("\n", 1) for part in re.split(r"^## ", page, flags=re.MULTILINE)[1:])
 
 

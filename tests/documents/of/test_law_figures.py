@@ -84,7 +84,7 @@ def test_the_svg_is_the_same_every_time(name):
 
 
 def texts(law):
-    """Texts of the drawing with their left, right, upper and lower ends, pt."""
+    """Return texts of the drawing with their left, right, upper and lower ends, pt."""
     chart, width, height = law_chart(law)
     boxes = []
     for note in chart.notes:

@@ -88,7 +88,8 @@ def test_a_block_is_described_as_in_fmi_2(name: str, tmp_path: Path) -> None:
 
 
 def read_terminals(block: type[Block]) -> dict[str, dict[str, str]]:
-    """Variables of each terminal by the names of members, those within another under OUTER.INNER; schema checked."""
+    """Return variables of each terminal by the names of members, those within another under
+    OUTER.INNER; schema checked."""
     text = terminals(block)
     if text is None:
         return {}

@@ -58,7 +58,7 @@ def counts_and_values(state: bytes, form: str) -> tuple[int, Any]:
 
 
 def settings_of(block: type[Block]) -> tuple[Mapping[str, float], list[dict[str, float]], float]:
-    """Parameters and inputs of a block's check, and a sample period, which is set with them."""
+    """Return parameters and inputs of a block's check, and a sample period, which is set with them."""
     check = read_check(block)
     assert check is not None
     rows = csv.DictReader(io.StringIO(check.table.decode()))

@@ -30,7 +30,7 @@ Result = tuple[object, str]  # value, and the error's name where there is one
 
 
 def floats(random: Random, count: int) -> list[float]:
-    """Edge values, every bit pattern, and the ranges that functions are defined on."""
+    """Return edge values, every bit pattern, and the ranges that functions are defined on."""
     actual = list(FLOATS)
     for _ in range(count):
         kind = random.randrange(4)
@@ -46,7 +46,7 @@ def floats(random: Random, count: int) -> list[float]:
 
 
 def ints(random: Random, count: int) -> list[int]:
-    """Edge values and ints of every length up to 64 bits."""
+    """Return edge values and ints of every length up to 64 bits."""
     return INTS + [random.getrandbits(random.randrange(1, 64)) * random.choice((-1, 1)) for _ in range(count)]
 
 
@@ -110,7 +110,7 @@ CASES = _math_cases() | {
 
 
 def _source() -> bytes:
-    """One C function per case that runs it over arrays and keeps the faults."""
+    """Write one C function per case that runs it over arrays and keeps the faults."""
     text = '#include "kernel_math.h"\n#define AT(line) &fault, "file", line\n'
     for name, (expression, arguments, returned, _) in CASES.items():
         inputs = "".join(f"const {C_TYPES[kind]} *{x}, " for kind, x in zip(arguments, ("as", "bs"), strict=False))

@@ -44,7 +44,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def published_matrix(tilt=TILT, azimuth=AZIMUTH, arm=ARM):
-    """B of [P; M] = B p, from the axes and arms in the order of the paper; a jet pushes against its nozzle."""
+    """Return B of [P; M] = B p, from the axes and arms in the order of the paper; a jet pushes against its nozzle."""
     ca, sa, cb, sb = math.cos(tilt), math.sin(tilt), math.cos(azimuth), math.sin(azimuth)
     first = np.array(
         [[ca * cb, ca * sb, sa], [ca * cb, ca * sb, -sa], [ca * cb, -ca * sb, sa], [ca * cb, -ca * sb, -sa]]
@@ -72,7 +72,7 @@ FORCE = np.array(strength_of().force)
 
 
 def shared(wrench, rule, maximum=MAXIMUM):
-    """Thrusts and scale that a rule gives for a wrench."""
+    """Return thrusts and scale of a rule for a wrench."""
     thrust = [0.0] * 8
     assert pseudo_inverse(strength_of(), wrench_of(wrench), thrust)
     scale = rule(thrust, maximum)
@@ -80,7 +80,7 @@ def shared(wrench, rule, maximum=MAXIMUM):
 
 
 def programmes(wrenches, maximum=MAXIMUM):
-    """Least sums of thrusts for many wrenches, as one sparse linear programme per 50.
+    """Compute least sums of thrusts for many wrenches, as one sparse linear programme per 50.
 
     Scipy 1.15 takes a hundred times as long as 1.17 for larger ones.
     """
@@ -103,7 +103,8 @@ def largest_scale(wrench, maximum=MAXIMUM):
 
 
 def attainable_wrenches(count):
-    """Wrenches of random thrusts, a third of them with jets at their limits, a third scaled to the surface's inside."""
+    """Return wrenches of random thrusts, a third of them with jets at their limits, a third
+    scaled to the surface's inside."""
     random = np.random.default_rng(8)
     thrusts = random.uniform(0.0, MAXIMUM, (count, 8))
     at_limit = random.random((count, 8)) < 0.4
@@ -251,7 +252,7 @@ def test_no_maximum_no_thrust_and_nothing_wanted():
 
 
 def torque_free_levels(highest):
-    """All levels of eight jets up to ``highest`` that give no torque, and the sums of their signs along the axes."""
+    """Return all levels of eight jets up to ``highest`` without torque, and the sums of their signs along the axes."""
     levels = np.array(list(itertools.product(range(highest + 1), repeat=8)))
     free = levels[(levels @ ROWS[3:].T == 0).all(axis=1)]
     return free, (free @ ROWS[:3].T).astype(int)

@@ -33,7 +33,7 @@ def angle_between(a, b):
 
 
 def followed(base, rate, end, step, response, limit, start=START):
-    """Directions at the ends of all steps, the start included."""
+    """Return directions at the ends of all steps, the start included."""
     direction = vector(*start)
     rows = [np.array(direction)]
     for k in range(round(end / step)):

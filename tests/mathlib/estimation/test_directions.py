@@ -18,7 +18,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def case(seed):
-    """Attitude, inertial direction, covariance."""
+    """Draw attitude, inertial direction, covariance."""
     random = np.random.default_rng(seed)
     root = random.normal(size=(6, 6))
     return Rotation.random(rng=random), random.normal(size=3), root @ root.T + np.eye(6), random

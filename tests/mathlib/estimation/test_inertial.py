@@ -21,12 +21,12 @@ STEP = 0.1
 
 
 def force(t):
-    """Specific force (m/s2), linear in time."""
+    """Return specific force (m/s2), linear in time."""
     return np.array([4.0, -0.1, -1.0]) + np.array([0.016, 0.001, 0.018]) * t
 
 
 def flown(linear):
-    """Position and velocity after 280 s of dead reckoning, with the slope of the force or without."""
+    """Return position and velocity after 280 s of dead reckoning, with the slope of the force or without."""
     position, velocity = vector(2.6e5, 1e3, -2e3), vector(-1670.0, -10.0, 250.0)
     before = vector(*force(0.5 * STEP))
     for k in range(2800):

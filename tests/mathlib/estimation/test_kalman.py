@@ -16,7 +16,7 @@ from perilune.fmus_src.mathlib.estimation.kalman import innovation_variance, pre
 
 
 def random_system(generator, n):
-    """x, P, F, Q of n states: stable F, full positive P and Q."""
+    """Draw x, P, F, Q of n states: stable F, full positive P and Q."""
     f = generator.normal(size=(n, n))
     f *= 0.95 / max(abs(np.linalg.eigvals(f)))
     root = generator.normal(size=(n, n))

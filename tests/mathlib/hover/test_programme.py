@@ -29,7 +29,7 @@ MARGINS = HoverVehicle.of_elements([0.9 * 0.8 * EARTH, 0.1 * 0.8 * EARTH, 300.0 
 
 
 def planned(x, y=DROP, vehicle=PAPER, duration=None):
-    """Kind, programme, propellant fraction."""
+    """Return kind, programme, propellant fraction."""
     plan = programme(x, y, vehicle) if duration is None else programme_of_duration(x, y, duration, vehicle)
     return plan.kind, plan.programme, propellant_fraction(plan.programme, vehicle) if plan.kind else None
 

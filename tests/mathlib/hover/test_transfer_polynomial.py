@@ -105,7 +105,7 @@ def test_slow_duration_keeps_speed_and_acceleration(way, speed, acceleration):
 
 
 def excess_by_hand(truth, duration, mass):
-    """Integral of thrust over mass, and the largest excess on a fine grid, by scipy and numpy."""
+    """Return integral of thrust over mass, and the largest excess on a fine grid, by scipy and numpy."""
     up = np.array(LIFT)
 
     def push(t):

@@ -33,7 +33,7 @@ numbers = st.floats(-1.0, 1.0)
 
 @st.composite
 def cones(draw):
-    """Slack and multiplier inside a cone of one, three or four rows, and any direction."""
+    """Draw slack and multiplier inside a cone of one, three or four rows, and any direction."""
     size = draw(st.sampled_from([1, 3, 4]))
     rows = []
     for _ in range(2):

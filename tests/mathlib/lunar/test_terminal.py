@@ -56,7 +56,7 @@ def polynomials(dr, v, dv, g=GRAVITY):
 
 
 def condition(dr, v, dv, g=GRAVITY):
-    """|A|^2 T^2 - 4 |B|^2 multiplied out; its highest coefficient vanishes."""
+    """Return |A|^2 T^2 - 4 |B|^2 multiplied out; its highest coefficient vanishes."""
     impulses, misses = polynomials(dr, v, dv, g)
     time = Polynomial([0.0, 1.0])
     return sum((a * a * time * time for a in impulses), Polynomial([0.0])) - 4.0 * sum(
@@ -65,7 +65,7 @@ def condition(dr, v, dv, g=GRAVITY):
 
 
 def roots_of(coefficients):
-    """Real roots by numpy, each improved by one step of Newton's method."""
+    """Return real roots by numpy, each improved by one step of Newton's method."""
     actual = np.roots(np.asarray(coefficients)[::-1])
     real = actual[abs(actual.imag) < 1e-6 * abs(actual)].real
     whole = Polynomial(coefficients)
@@ -118,7 +118,7 @@ def test_quadratic_time_is_the_positive_root_without_the_cubic_term(state):
 
 
 def falling_roots(dr, v, dv, g=GRAVITY):
-    """Positive roots of |A|^2 T^2 - 4 |B|^2 at which it falls, and how steep it is at the flattest root."""
+    """Return positive roots of |A|^2 T^2 - 4 |B|^2 at which it falls, and how steep it is at the flattest root."""
     whole = Polynomial(condition(dr, v, dv, g).coef[:4])
     roots = roots_of(np.trim_zeros(whole.coef, "b"))
     steepness = abs(roots * whole.deriv()(roots)) / Polynomial(abs(whole.coef))(abs(roots))
@@ -229,7 +229,7 @@ def linear_acceleration(dr, v, dv, time, g=GRAVITY):
 
 
 def effort(dr, v, dv, time, g=GRAVITY):
-    """Integral of |a0 + a1 t|^2 over the flight; three points are exact."""
+    """Return integral of |a0 + a1 t|^2 over the flight; three points are exact."""
     a0, a1 = linear_acceleration(dr, v, dv, time, g)
     points, weights = np.polynomial.legendre.leggauss(3)
     moments = 0.5 * time * (points + 1.0)

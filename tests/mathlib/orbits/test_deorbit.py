@@ -32,7 +32,7 @@ metres = st.floats(-5e3, 5e3).map(lambda length: round(length, 6))
 
 
 def on_orbit(angle, altitude=1e5, speed=1.0):
-    """Position and velocity at a central angle, flying towards smaller ones."""
+    """Return position and velocity at a central angle, flying towards smaller ones."""
     place = (RADIUS + altitude) * np.array([math.sin(angle), 0.0, math.cos(angle)]) + CENTRE
     return place, speed * np.array([-math.cos(angle), 0.0, math.sin(angle)])
 

@@ -58,7 +58,7 @@ def test_texts_and_axes(browser, flight, phone):
 
 
 def are_apart(one, other):
-    """Lines of text are higher than their letters, by 3 px above and below."""
+    """Return True if lines of text, higher than their letters by 3 px above and below, do not overlap."""
     gaps = [max(other[side] - one[side + 2], one[side] - other[side + 2]) for side in (0, 1)]
     return gaps[0] >= 0.0 or gaps[1] >= -6.0
 

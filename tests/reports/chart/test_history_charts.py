@@ -71,7 +71,7 @@ APART = ("box", "fluid", "few", "signal")  # laid out by either in its own way, 
 
 
 def plain(node):
-    """Numbers and texts alone, rounded as pages have them."""
+    """Return numbers and texts alone, rounded as pages have them."""
     if isinstance(node, Coarse):
         return plain(node.numbers)
     if isinstance(node, np.ndarray):

@@ -57,7 +57,7 @@ def expected(axis, at, begin, length):
 
 
 def area_of(chart):
-    """Width and height (px) of the area of the axes, from whose corner positions count."""
+    """Return width and height (px) of the area of the axes, from whose corner positions count."""
     left, top, right, bottom = chart.fluid.margins
     return POINT * WIDTH - left - right, POINT * HEIGHT - top - bottom
 

@@ -15,7 +15,7 @@ from perilune.analysis.reports.common.svg import svg_bytes
 
 
 def lines(figure):
-    """Two axes whose labels need room, and a legend that looks for the best place."""
+    """Draw two axes whose labels need room, and a legend that looks for the best place."""
     for index, axes in enumerate(figure.subplots(1, 2)):
         x = np.linspace(0.1, 50.0, 400)
         axes.plot(x, 1e5 * np.sin(x) / x, color=look(index).colour, label="damped")

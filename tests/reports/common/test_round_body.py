@@ -17,7 +17,8 @@ MOON = 1.7374e6  # m
 
 
 def placed(along, across, altitude, azimuth=0.0, radius=MOON):
-    """Positions (m) at these angles (rad) of a great circle through the origin that goes off along ``azimuth``."""
+    """Return positions (m) at these angles (rad) of a great circle through the origin that goes off along
+    ``azimuth``."""
     direction = np.stack([np.sin(along) * np.cos(across), np.sin(across), np.cos(along) * np.cos(across)])
     turned = Rotation.from_euler("z", azimuth).apply(direction.T).T
     return (radius + altitude) * turned - np.array([0.0, 0.0, radius])[:, None]

@@ -42,7 +42,7 @@ def page(comparison):
 
 @pytest.fixture(scope="module")
 def trials(folder):
-    """Columns of trials/ by variant."""
+    """Return columns of trials/ by variant."""
     rows = pyarrow.parquet.read_table(folder / "trials").to_pylist()
     return {
         variant: {name: np.array([row[name] for row in rows if row["variant"] == variant]) for name in rows[0]}

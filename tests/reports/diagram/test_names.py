@@ -27,7 +27,7 @@ names = st.text(st.characters(exclude_categories=("Cs", "Cc")), min_size=1, max_
 
 
 def system(one, other, unit):
-    """Two blocks in a loop, with these names, and a unit."""
+    """Return two blocks in a loop, with these names, and a unit."""
     blocks = block_of("system", {}, {})
     first, second = block_of(one, {other: unit}, {one: unit}, "a"), block_of(other, {one: unit}, {other: unit}, "b")
     blocks.path = ""

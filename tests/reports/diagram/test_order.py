@@ -48,7 +48,7 @@ def test_cuts(widths, arcs):
     assert [number for row in rows for number in row] == list(range(count))
 
     def cost(cuts):
-        """Rows, edges between rows; None where a row is too wide."""
+        """Return rows, edges between rows; None where a row is too wide."""
         spans = [range(a, b) for a, b in zip((0, *cuts), (*cuts, count), strict=True)]
         if any(len(row) > 1 and columns[row[-1]].right - columns[row[0]].left > WIDEST for row in spans):
             return None

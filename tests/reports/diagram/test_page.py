@@ -139,7 +139,7 @@ def test_in_a_browser(browser, page_of, tmp_path, width):
 
 
 def plain(text):
-    """Letters and digits alone, ligatures taken apart."""
+    """Return letters and digits alone, ligatures taken apart."""
     return re.sub(r"\W", "", unicodedata.normalize("NFKC", text))
 
 

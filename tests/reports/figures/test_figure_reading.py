@@ -31,7 +31,7 @@ DEGREE = math.pi / 180.0
 
 @pytest.fixture(scope="module")
 def loaded():
-    """FMUs of the system, loaded once."""
+    """Return the FMUs of the system, loaded once."""
     return {}
 
 

@@ -25,7 +25,7 @@ BODY = '<Body name="lander" shape="lander" size="3 3 2" position="plant.position
 
 @pytest.fixture(scope="module")
 def loaded():
-    """FMUs of the system, loaded once."""
+    """Return the FMUs of the system, loaded once."""
     return {}
 
 

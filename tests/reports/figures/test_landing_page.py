@@ -26,7 +26,7 @@ def figures(fmus):
 
 @pytest.fixture(scope="module")
 def result(fmus):
-    """From the beginning of the braking to contact."""
+    """Simulate from the beginning of the braking to contact."""
     return perilune.simulate("landing_mission", parameters=["start_3.ssv"])
 
 

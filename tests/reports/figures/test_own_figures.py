@@ -61,7 +61,7 @@ def captions(section):
 
 
 def values_in(*markups):
-    """Exact numbers that stand in the markup."""
+    """Return exact numbers in the markup."""
     return {value for markup in markups for value in re.findall(r'<data value="([^"]*)"', markup)}
 
 
@@ -71,7 +71,8 @@ def texts(figure):
 
 
 def bars(section):
-    """Time, foot and head of all bars by the colour of their sign, panel after panel; the pictures have as many."""
+    """Return time, foot and head of all bars by the colour of their sign, panel after panel; the pictures have as
+    many."""
     actual = {}
     for panel in section.panels:
         (chart,) = panel.figure.charts

@@ -44,7 +44,7 @@ SPACE = "plant.angles[1]"
 
 @pytest.fixture(scope="module")
 def loaded():
-    """FMUs of the system, loaded once."""
+    """Return the FMUs of the system, loaded once."""
     return {}
 
 

@@ -34,7 +34,7 @@ class Card:
         return self.element.find_element(By.TAG_NAME, "dd").text
 
     def panels(self):
-        """Values at the cursor by panel, once there are any."""
+        """Return values at the cursor by panel, once there are any."""
         WebDriverWait(self.driver, 20).until(lambda _: self.element.find_elements(By.CSS_SELECTOR, ".flight canvas"))
         sections = self.element.find_elements(By.CSS_SELECTOR, ".flight section")
         read = (
@@ -49,7 +49,7 @@ class Card:
 
 
 def pin_first(driver):
-    """Pins the leftmost trial of a figure by keys."""
+    """Pin the leftmost trial of a figure by keys."""
     frame = driver.find_element(By.XPATH, "//*[starts-with(@aria-label, 'Cumulative distribution')]/..")
     area = scroll_to_plot(driver, frame)
     for step in range(20):

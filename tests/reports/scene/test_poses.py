@@ -23,7 +23,8 @@ RANDOM = np.random.default_rng(12)
 
 
 def pose(signals, declared, surface=None):
-    """Position, [3, n], and rotations of the only body, as scipy has them, of what the page stores in float32."""
+    """Return position, [3, n], and rotations of the only body, as scipy has them, of what the page stores in
+    float32."""
     (computed,) = compute_poses(scene(declared, surface=surface), flown(**signals))
     stored = computed.attitude.astype(np.float32).astype(float)
     assert np.allclose(np.linalg.norm(stored, axis=0), 1.0, atol=EXACT)
@@ -125,7 +126,7 @@ def earth_fixed(longitude, latitude, distance):
 
 
 def horizon(longitude, latitude):
-    """East, north, up as rows."""
+    """Return east, north, up as rows."""
     return np.array(
         [
             [-np.sin(longitude), np.cos(longitude), 0.0],

@@ -40,7 +40,7 @@ WIND = (
 
 @pytest.fixture(scope="module")
 def loaded():
-    """FMUs of the systems, loaded once."""
+    """Return the FMUs of the systems, loaded once."""
     return {ROBOT: {}, CAPSULE: {}}
 
 

@@ -38,7 +38,7 @@ def page(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def desktop(browser, page):
-    """One browser for what a mouse and keys do."""
+    """Open one browser for mouse and keys."""
     with driven(browser, page) as driver:
         yield SceneView(driver)
 
@@ -69,7 +69,7 @@ class SceneView:
         return int(self.driver.find_element(By.CSS_SELECTOR, "[data-drawn]").get_attribute("data-drawn"))
 
     def picture(self):
-        """Pixels once nothing is drawn any more."""
+        """Return pixels once nothing is drawn any more."""
         self.driver.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
         return image.imread(io.BytesIO(self.stage.screenshot_as_png))
 

@@ -34,7 +34,7 @@ def instants(rows):
 
 @pytest.fixture(scope="module")
 def flights(fmus):
-    """Flight, scene as declared, document of the page, by system; each flown once."""
+    """Return a function from a system to flight, scene as declared, and document of the page; each simulated once."""
     made = {}
 
     def flight_of(name):
@@ -48,7 +48,7 @@ def flights(fmus):
 
 
 def stored(document, index=0):
-    """Positions (m), [3, n], and rotations of a body, as the page has them."""
+    """Return positions (m), [3, n], and rotations of a body, as the page has them."""
     stored_scene = document["scene"]
     stored_body = stored_scene["bodies"][index]
     position = np.stack([column(document, number) for number in stored_body["position"]])
@@ -58,7 +58,7 @@ def stored(document, index=0):
 
 
 def assert_near(actual, expected):
-    """To 1e-6 of the largest, which float32 has."""
+    """Assert equality to 1e-6 of the largest, which float32 has."""
     assert np.abs(actual - expected).max() <= EXACT * max(1.0, np.abs(expected).max())
 
 

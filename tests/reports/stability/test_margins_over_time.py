@@ -32,7 +32,7 @@ def with_gain(loop, derivative, point, **changed):
 
 @pytest.fixture(scope="module")
 def report(studies):
-    """Two axes that are the same, and one that is unstable at the last time."""
+    """Return a report of two axes that are the same, and one that is unstable at the last time."""
     late = studies.late
     points = tuple(replace(late.points[0], name=f"p{time:g}", time=time) for time in GAINS)
     loops = [with_gain(late.loops[0], gain, f"p{time:g}") for time, gain in GAINS.items()]

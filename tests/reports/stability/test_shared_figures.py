@@ -51,7 +51,7 @@ def test_other_words_are_another_figure(loop, bode):
 
 @pytest.fixture(scope="module")
 def page(studies, loop, tmp_path_factory):
-    """Three axes, of which x and y are the same and z is not."""
+    """Write a page of three axes, of which x and y are the same and z is not."""
     factors = dict(zip(AXES, (1.0, 1.0 + 1e-7, 1.5), strict=True))
     loops = tuple(scaled(loop, factor, name=f"force[{axis}]") for axis, factor in factors.items())
     path = tmp_path_factory.mktemp("shared") / "page.html"

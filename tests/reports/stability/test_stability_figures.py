@@ -71,7 +71,7 @@ def test_many_modes_fold_away(report):
 
 
 def bars(chart):
-    """Left and right end and height of the filled rectangles of a histogram, by colour."""
+    """Return left and right end and height of the filled rectangles of a histogram, by colour."""
     filled = [area for area in chart.areas if not area.stroke]
     return {
         colour: [(area.x.min(), area.x.max(), area.y.max()) for area in filled if area.colour == colour.lower()]

@@ -250,7 +250,7 @@ def test_text_of_others_is_escaped(report, studies, tmp_path):
 
 
 def extreme(studies):
-    """No crossing, no limit, nothing known; poles at zero: what no tiny system happens to have."""
+    """Return a report without crossing, limit or any known value; poles at zero: cases that no tiny system has."""
     loop = studies.late.loops[0]
     nothing = Classical((), (), math.inf, math.nan, None)
     robust = replace(loop.robust, disk_margin=2.5, disk_gain=math.inf, disk_phase=math.inf, complementary_peak=0.0)

@@ -55,7 +55,7 @@ def assert_same(one, other):
 
 
 def whole_numbers(simulation):
-    """Everything that is no Real: count, even."""
+    """Return all numbers that are no Reals: count, even."""
     actual = []
     for instance in simulation.instances.values():
         for variable in instance.fmu.variables.values():

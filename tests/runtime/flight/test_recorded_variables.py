@@ -32,7 +32,7 @@ def local(text):
 
 @pytest.fixture
 def lag(tmp_path):
-    """y' = (u - y) / 0.5, foreign."""
+    """Build y' = (u - y) / 0.5, foreign."""
     assert 'name="y"' in DESCRIPTION
     return lag_fmu(tmp_path, 0.5)
 

@@ -15,7 +15,7 @@ STEPS = {0: 0, 0.125: 0, 0.3: 3, 0.5: 3}
 
 
 def series(folder):
-    """Column d of a file: 0, then 3 from 0.3 s on, then 3 still."""
+    """Write column d of a file: 0, then 3 from 0.3 s on, then 3 still."""
     path = folder / "d.csv"
     path.write_text("\n".join(["time,d", *(f"{time},{value}" for time, value in STEPS.items())]))
     return str(path)

@@ -26,7 +26,7 @@ def strict(name, size, bindings=""):
 
 
 def written(size, bindings=("", ""), outer="m=UInt64:3; in(3)=Float64:2,-1,0.5"):
-    """Two in a row, whose sizes are that of the system's structural parameter."""
+    """Return two in a row, whose sizes are that of the system's structural parameter."""
     wires = [("m", "one.n"), ("m", "two.n"), ("in", "one.u"), ("one.y", "two.u"), ("two.y", "out")]
     return in_version_2(
         document(

@@ -21,7 +21,7 @@ from tests.support.lengths import either
 
 
 def flown(path, flavour, values, faults=(), wanted=None, **options):
-    """Two flights of one simulation: signals as bytes, status and message; of a refusal its words."""
+    """Return two flights of one simulation: signals as bytes, status and message; of a refusal its words."""
     prepared = prepare_system(path, SystemOptions(flavour=flavour, set=values, **options))
     with Simulation(prepared, wanted=wanted, faults=faults) as simulation:
         ends = []
@@ -115,5 +115,5 @@ def test_a_campaign_begun_native_and_gone_on_fused(tmp_path):
 
 
 def contents(folder):
-    """Every file of a folder by its path in it."""
+    """Return every file of a folder by its path in it."""
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}

@@ -59,7 +59,7 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def case(fmu: Path) -> tuple[str, str, str]:
-    """C data of the run, the token of the FMU, and what the program is to print."""
+    """Return C data of the run, the token of the FMU, and the expected output of the program."""
     prepared = prepare_system(fmu, SystemOptions())
     with Simulation(prepared, open_end=True) as simulation:
         simulation.recorder.reserve(len(simulation.signal_names), rows_between(-1, STEPS), prepared.step)

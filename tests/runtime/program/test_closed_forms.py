@@ -45,13 +45,13 @@ def ended(tmp_path):
 
 @pytest.fixture
 def frozen(tmp_path):
-    """Whole numbers n + 2^53 + 1, of which the receiver counts those that are others, at the one of 0.5 s."""
+    """Prepare whole numbers n + 2^53 + 1, of which the receiver counts those that are others, at the one of 0.5 s."""
     return prepare_system(pack_strict_pair(tmp_path)), [parse_fault("sink.wide_in=freeze@0.5")]
 
 
 @pytest.fixture
 def biased(tmp_path):
-    """Likewise, each with 1 more than it has, which the next float64 lies further away than."""
+    """Prepare likewise, each with 1 more than it has, which the next float64 is further away than."""
     return prepare_system(pack_strict_pair(tmp_path)), [parse_fault("sink.wide_in=bias:1@0.5")]
 
 

@@ -54,7 +54,7 @@ def ramp(start=1.0, rise=0.5):
 
 @pytest.fixture
 def flown(tiny, tmp_path):
-    """Flies a root system, packed with further files; options as in SystemOptions."""
+    """Return a function that runs a root system, packed with further files; options as in SystemOptions."""
 
     def run(root, more="", files=None, **options):
         path = pack(tmp_path / "system.ssp", tiny, document(root, more=more), **(files or {}))

@@ -30,7 +30,8 @@ def gain(kind, amplitude, **parameters):
 
 
 def fourier(output, amplitude, thresholds=()):
-    """N(a) by quadrature: ``output(x, falling)``, the input falls in the second and third quarter of the cycle."""
+    """Integrate N(a) by quadrature: ``output(x, falling)``, the input falls in the second and
+    third quarter of the cycle."""
     turns = [math.pi / 2, math.pi, 3 * math.pi / 2]
     for threshold in thresholds:
         if abs(threshold) < amplitude:

@@ -17,7 +17,7 @@ from perilune.analysis.stability.loops.oscillation import find_oscillation
 
 
 def third_order(gain):
-    """gain/(s (s + 1)^2): -180 deg at 1 rad/s, where it is gain/2."""
+    """Return gain/(s (s + 1)^2): -180 deg at 1 rad/s, where it is gain/2."""
     return lambda w: gain / (1j * w * (1j * w + 1.0) ** 2)
 
 
@@ -244,7 +244,7 @@ class Jet:
         return commands
 
     def errors(self, position=1.0, velocity=0.0, cycles=60):
-        """Relative errors of amplitude and period; the start in units of the predicted amplitude."""
+        """Return relative errors of amplitude and period; the start in units of the predicted amplitude."""
         cycle = stable_one(self.predict())
         period = 2.0 * math.pi / cycle.frequency
         scale = cycle.amplitude / self.gain
@@ -315,7 +315,7 @@ def test_sampled_relay_with_hysteresis(hysteresis):
 
 
 def simulate(gain, element, start, period=0.02, end=200.0):
-    """gain/(s (s + 1)^2) with the element in the loop, the input of the element over time."""
+    """Simulate gain/(s (s + 1)^2) with the element in the loop; return the input of the element over time."""
     a, b, c, _, _ = cont2discrete(
         (
             np.array([[0.0, 1.0, 0.0], [0.0, -1.0, 1.0], [0.0, 0.0, -1.0]]),

@@ -16,7 +16,7 @@ def complex_normal(random: np.random.Generator, *shape: int) -> np.ndarray:
 
 
 def unscaled(random: np.random.Generator, matrix: np.ndarray) -> np.ndarray:
-    """D^-1 M D with gains over four decades, which leaves the bound."""
+    """Return D^-1 M D with gains over four decades, which leaves the bound."""
     gains = 10.0 ** random.uniform(-2.0, 2.0, matrix.shape[:2])
     return matrix / gains[:, :, None] * gains[:, None, :]
 

@@ -20,13 +20,14 @@ def smooth(x):
 
 
 def ripples(x):
-    """Rastrigin's function, its least of 0 at PEAK: many local peaks."""
+    """Evaluate Rastrigin's function, its least of 0 at PEAK: many local peaks."""
     z = 4.0 * (x - PEAK)
     return -np.sum(z**2 + 10.0 * (1.0 - np.cos(2.0 * np.pi * z)), axis=1)
 
 
 def valley(x):
-    """Low in the middle of every edge: local peaks in all corners, the highest of them (0, 1, 0, 1, 0)."""
+    """Evaluate a function low in the middle of every edge: local peaks in all corners, the
+    highest of them (0, 1, 0, 1, 0)."""
     return np.sum((x - np.array([0.51, 0.49, 0.51, 0.49, 0.51])) ** 2, axis=1)
 
 

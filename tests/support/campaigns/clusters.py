@@ -63,7 +63,7 @@ class DaskCluster:
         return collected
 
     def end(self, what):
-        """SIGKILL for the ``scheduler``, or for all ``workers`` with their nannies."""
+        """Send SIGKILL to the ``scheduler``, or to all ``workers`` with their nannies."""
         for process in self._processes[:1] if what == "scheduler" else self._processes[1:]:
             with_group(process, signal.SIGKILL)
 

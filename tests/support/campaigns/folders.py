@@ -17,7 +17,7 @@ SERVER = "process.server import main"  # what the command line of a flight serve
 
 
 def bytes_of(folder):
-    """SHA-256 of every file that a campaign left, by name, but for the lock."""
+    """Return the SHA-256 of every file that a campaign wrote, by name, but for the lock."""
     files = sorted(path for path in Path(folder).rglob("*") if path.is_file() and path.name != FILE)
     return {path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
 
@@ -47,7 +47,7 @@ def shards_in(folder):
 
 
 def killed_when(process, condition, victim=None):
-    """SIGKILL for the process, or one of its workers, as soon as the condition holds; False where it ended before."""
+    """Kill the process, or one of its workers, as soon as the condition holds; return False where it ended before."""
     while process.poll() is None:
         if condition():
             try:

@@ -14,7 +14,7 @@ SIZE = 5000  # trials of a shard: a batch's shards have no more
 
 
 def write_large(folder: Path, trials: int) -> None:
-    """``trials`` trials of one variant, alpha, whose metric miss is the square of a normal number."""
+    """Write ``trials`` trials of one variant, alpha, whose metric miss is the square of a normal number."""
     sample = sample_batch(trials=min(trials, SIZE), variants=("alpha",), traced=0)
     plan = replace(sample.plan, campaign=replace(sample.plan.campaign, trials=trials, draw_scheme="counter"))
     provenance = {**sample.provenance, "trials": trials, "draw_scheme": "counter"}

@@ -60,7 +60,8 @@ def write_many(
     metrics: int = 40,
     description: str = "many",
 ) -> None:
-    """``trials`` of each variant in shards of ``size``; a trial is a success where its first metric is at most 1.5."""
+    """Write ``trials`` of each variant in shards of ``size``; a trial is a success where its
+    first metric is at most 1.5."""
     sample = sample_batch(trials=min(trials, size), variants=variants, traced=0, final=False)
     text = HEAD.format(trials=trials, description=description) + "".join(
         METRIC.format(name=f"m{number}", unit=UNITS[number % len(UNITS)]) for number in range(metrics)

@@ -22,7 +22,7 @@ def follow(rows: np.ndarray) -> np.ndarray:
 
 
 def expand(values: Mapping[str, object], dimensions: int = 0) -> dict[str, np.ndarray]:
-    """FMI names: a vector becomes name[1], name[2], ..., a matrix name[1,1], name[1,2], ..."""
+    """Return FMI names: a vector becomes name[1], name[2], ..., a matrix name[1,1], name[1,2], ..."""
     columns = {}
     for name, array in values.items():
         array = np.asarray(array)

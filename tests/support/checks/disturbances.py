@@ -9,7 +9,7 @@ from tests.support.checks.white_noise import discretise
 
 
 def air_disturbance():
-    """Half a cosine of wind, and a density that changes at a row."""
+    """Compute half a cosine of wind, and a density that changes at a row."""
     wind, gust = np.array([10.0, -4.0, 2.0]), np.array([30.0, 8.0, -16.0])
     begin, duration, change = 1.3, 2.9, 2.5
     time = STEP * np.arange(49)

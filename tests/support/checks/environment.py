@@ -46,7 +46,8 @@ def evaluate(t, r, q):
 
 
 def space_environment():
-    """Light, half-shadow, shadow, less than 100 km; outputs stay at a quaternion of length 0 and inside the Earth."""
+    """Check light, half-shadow, shadow, less than 100 km; outputs stay at a quaternion of
+    length 0 and inside the Earth."""
     r, q = positions(), np.random.default_rng(58).normal(size=(ROWS, 4))
     q[:, 0] += np.where(q[:, 0] > 0.0, 0.5, -0.5)
     q[6] = 0.0

@@ -51,7 +51,7 @@ class Numbers:
         self.state = advanced([12345] * 6, seed * 2**127 + stream * 2**76)
 
     def uniform(self, *shape):
-        """In (0, 1)."""
+        """Draw numbers in (0, 1)."""
         return np.array([exact_numerator(self.state) / (P1 + 1) for _ in range(int(np.prod(shape)))]).reshape(shape)
 
     def normal(self, *shape):

@@ -7,7 +7,7 @@ from tests.support.checks.check import STEP
 
 
 def discretise(a, density):
-    """Transition over a step, and the covariance of white noise of a density, of x' = A x + noise."""
+    """Return transition over a step, and the covariance of white noise of a density, of x' = A x + noise."""
     n = len(a)
     both = expm(STEP * np.block([[-a, density], [np.zeros((n, n)), a.T]]))
     return both[n:, n:].T, both[n:, n:].T @ both[:n, n:]

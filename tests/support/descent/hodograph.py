@@ -9,7 +9,8 @@ from scipy.optimize import brentq
 
 
 def integrals(speed, angle, ratio, gravity):
-    """Height lost (m), time (s) and distance (m) until rest, of a velocity at an ``angle`` (rad) from straight down."""
+    """Return height lost (m), time (s) and distance (m) until rest, of a velocity at an
+    ``angle`` (rad) from straight down."""
     end = np.log(np.tan(angle / 2.0))
 
     def integrate(power, of):

@@ -41,9 +41,10 @@ def start(guidance_class, leg, **parameters):
 
 
 def fly(guidance, leg, step=0.5, loss=0.0, limit=2000, aside=None):
-    """Plant and guidance in turn to the end: the plant, and rows of thrust (N) and time_to_go.
+    """Fly plant and guidance in turn to the end; return the plant, and rows of thrust (N) and time_to_go.
 
-    ``loss`` is the fraction of thrust that the engine lacks, ``aside`` a row and the place that it makes the target.
+    ``loss`` is the fraction of thrust that the engine lacks, ``aside`` a row and the place that is the target from
+    there on.
     """
     plant = SphericalMoonLander(
         initial_position=leg.position.tolist(),

@@ -17,7 +17,7 @@ GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 
 
 def central(position):
-    """Gravity (m/s2) of the Moon, whose centre is straight below the origin."""
+    """Return gravity (m/s2) of the Moon, whose centre is straight below the origin."""
     from_centre = np.asarray(position) + RADIUS * UP
     return -MU * from_centre / np.linalg.norm(from_centre) ** 3
 
@@ -33,7 +33,7 @@ class Leg:
     round_moon: bool = True
 
     def errors(self, time):
-        """Position and velocity to gain in constant gravity."""
+        """Return position and velocity to gain in constant gravity."""
         way, gain = self.target - self.position, -np.asarray(self.velocity)
         if self.round_moon:
             here, there = central(self.position), central(self.target)
@@ -42,7 +42,7 @@ class Leg:
         return way, gain
 
     def profile(self, time, gamma, kr, final):
-        """Coefficients (2, 3) of both powers, and the exponents."""
+        """Return coefficients (2, 3) of both powers, and the exponents."""
         way, gain = self.errors(time)
         powers = np.array([gamma, kr / (gamma + 2.0) - 2.0])
         constant = np.asarray(final) - self.gravity * UP
@@ -52,13 +52,13 @@ class Leg:
         return np.linalg.solve(matrix, sides), powers
 
     def thrust(self, time, shape, s):
-        """Thrust acceleration at fractions s (n,) of the time to go, (n, 3)."""
+        """Return thrust acceleration at fractions s (n,) of the time to go, (n, 3)."""
         coefficients, powers = self.profile(time, *shape)
         s = np.atleast_1d(s)[:, None]
         return np.asarray(shape[2]) + s ** powers[0] * coefficients[0] + s ** powers[1] * coefficients[1]
 
     def offsets(self, time, shape, s):
-        """Positions from the target at fractions s (n,), in constant gravity, of an arrival at rest there."""
+        """Return positions from the target at fractions s (n,), in constant gravity, of an arrival at rest there."""
         coefficients, powers = self.profile(time, *shape)
         arrival = self.velocity + self.errors(time)[1]
         s = s[:, None]
@@ -79,7 +79,7 @@ class Limits:
     largest_tilt: float = np.pi
 
     def measure(self, leg, time, shape):
-        """Impulse (m/s), largest thrust over the maximum, depth below the glide slope (m), excess of cosines."""
+        """Return impulse (m/s), largest thrust over the maximum, depth below the glide slope (m), excess of cosines."""
         thrust = leg.thrust(time, shape, NODES)
         size = np.linalg.norm(thrust, axis=1)
         spent = np.concatenate([[0.0], np.cumsum((size[1:] + size[:-1]) / 2.0) * time / 32.0])
@@ -98,7 +98,8 @@ class Limits:
         return price + 2.0 * depth + 500.0 * tilt if constrained else price
 
     def best_time(self, leg, first, shape, constrained=False, shortest=0.6, spacing=0.05):
-        """Time of the smallest price: 25 multiples of the first one, then golden section between its neighbours."""
+        """Return time of the smallest price: 25 multiples of the first one, then golden section between its
+        neighbours."""
         trials = first * (shortest + spacing * np.arange(25))
         middle = trials[np.argmin([self.price(leg, time, shape, constrained) for time in trials])]
         low, high = middle - spacing * first, middle + spacing * first

@@ -14,7 +14,7 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(60)
 
 
 def moments(thrust, time, mass=MASS):
-    """Integrals of a = F/(m - F t/v_e): L, J of a t, H of a t^2; S, Q, P of (T - t) a, (T - t) a t, (T - t) a t^2."""
+    """Integrate a = F/(m - F t/v_e): L, J of a t, H of a t^2; S, Q, P of (T - t) a, (T - t) a t, (T - t) a t^2."""
     t, weight = 0.5 * time * (POINTS + 1.0), 0.5 * time * WEIGHTS
     acceleration = weight * thrust / (mass - thrust * t / EXHAUST)
     left = (time - t) * acceleration
@@ -29,7 +29,8 @@ def moments(thrust, time, mass=MASS):
 
 
 def solve(leg, time, mass=MASS):
-    """Time (s), thrust (N), its centre (s), direction then, and turning (1/s); ``time`` is where the search starts."""
+    """Solve for time (s), thrust (N), its centre (s), direction then, and turning (1/s);
+    ``time`` is the start of the search."""
     position, velocity = np.asarray(leg.position), np.asarray(leg.velocity)
 
     def gains(t):

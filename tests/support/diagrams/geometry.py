@@ -75,7 +75,7 @@ class Drawing:
         return [(text, box) for text, box in self.labels if self.blocks[block].holds(box)]
 
     def connections(self) -> list[tuple[str, str]]:
-        """All connections, drawn or in the list of a block."""
+        """Return all connections, drawn or in the list of a block."""
         pairs = [pair for line in self.lines for pair in line.connections]
         return pairs + [pair for pairs in self.parameters for pair in pairs]
 
@@ -98,7 +98,7 @@ class Drawing:
         return Box(x + dx, y + dy, x + dx + width, y + dy + height)
 
     def _label(self, element: etree._Element) -> Box:
-        """From the ascenders' to the descenders' height of DejaVu Sans, as wide as the text is set."""
+        """Return the box from the ascenders' to the descenders' height of DejaVu Sans, as wide as the text is set."""
         dx, dy = self._offset(element)
         x, y, size, width = (float(element.get(name)) for name in ("x", "y", "font-size", "textLength"))
         return Box(x + dx, y + dy - 0.76 * size, x + dx + width, y + dy + 0.24 * size)
@@ -116,7 +116,8 @@ class Drawing:
 
 
 def assert_readable(drawing: Drawing) -> None:
-    """Lines are orthogonal and cross no block, blocks and labels do not overlap, no line covers that of other ports."""
+    """Assert that lines are orthogonal and cross no block, blocks and labels do not overlap, no
+    line covers that of other ports."""
     terminals = [box for boxes in drawing.terminals.values() for box in boxes]
     blocks = [*drawing.blocks.values(), *terminals]
     for one, other in combinations(blocks, 2):

@@ -73,7 +73,7 @@ def _check_digits(ends: tuple[float, float], scale: str, numbers: np.ndarray) ->
 
 
 def _picture(axes: Axes) -> Chart:
-    """Axes that remain a picture, with the abscissa along which the cursor is marked."""
+    """Return axes that remain a picture, with the abscissa along which the cursor is marked."""
     x, y = (
         Axis(label=label, ends=(float(low), float(high)), logarithmic=axis.get_scale() == "log", size=0.0)
         for label, (low, high), axis in (
@@ -101,7 +101,7 @@ def _label(axes: Axes) -> str:
 
 
 def _by_order(artists: Iterable[Any]) -> list[Any]:
-    """Artists from the back to the front."""
+    """Return artists from the back to the front."""
     return sorted((each for each in artists if each.get_visible()), key=lambda each: float(each.get_zorder()))
 
 

@@ -179,7 +179,8 @@ def _opacity(colour: Any, artist: Any) -> float:
 
 
 def _dashes(artist: Any) -> list[float]:
-    """Lengths of dashes and gaps in line widths; matplotlib has them before scaling only in a private attribute."""
+    """Return lengths of dashes and gaps in line widths; matplotlib has them before scaling only in a private
+    attribute."""
     offset, pattern = artist._unscaled_dash_pattern
     if offset:
         raise UnstatedError("dashes that begin elsewhere")

@@ -32,7 +32,7 @@ _RATE = -12.0 * _WAY / DURATION**3 - 6.0 * _SPEED / DURATION**2
 
 
 def position(t):
-    """Rows of positions at times t."""
+    """Return rows of positions at times t."""
     t = np.asarray(t)[..., None]
     return _START + _SPEED * t + _FIRST * t**2 / 2 + _RATE * t**3 / 6
 
@@ -53,7 +53,7 @@ def specific_force(t):
 
 
 def increments(step=STEP):
-    """Integrals of the specific force over each step, by Gauss and Legendre's rule with five points."""
+    """Return integrals of the specific force over each step, by Gauss and Legendre's rule with five points."""
     points, weights = np.polynomial.legendre.leggauss(5)
     starts = np.arange(round(DURATION / step)) * step
     return sum(

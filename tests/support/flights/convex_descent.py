@@ -17,7 +17,7 @@ MU, RADIUS = 4.9028e12, 1737400.0
 
 
 def central(positions):
-    """Gravity (m/s2) of the Moon at rows of positions (m), landing-site frame."""
+    """Return gravity (m/s2) of the Moon at rows of positions (m), landing-site frame."""
     from_centre = positions + np.array([0.0, 0.0, RADIUS])
     return -MU * from_centre / np.linalg.norm(from_centre, axis=1, keepdims=True) ** 3
 
@@ -53,7 +53,7 @@ class Path:
 
 
 def seeds(descent, time):
-    """Positions on the straight line, and the logarithm of a mass that falls evenly."""
+    """Return positions on the straight line, and the logarithm of a mass that falls evenly."""
     fraction = np.linspace(0.0, 1.0, INTERVALS + 1)
     position = descent.position + fraction[:, None] * (descent.target - descent.position)
     burnt = min(0.75, 0.75 * descent.maximum / descent.mass * time / descent.exhaust)

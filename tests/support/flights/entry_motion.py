@@ -18,7 +18,7 @@ LAYERS = [(0, -6.5), (11, 0.0), (20, 1.0), (32, 2.8), (47, 0.0), (51, -2.8), (71
 
 
 def atmosphere(height):
-    """Density and speed of sound of the US standard atmosphere of 1976 below 86 km, layer by layer."""
+    """Return density and speed of sound of the US standard atmosphere of 1976 below 86 km, layer by layer."""
     geopotential = 6356.766 * height / (6356766.0 + height)  # km
     temperature, pressure = 288.15, 101325.0
     for number, (base, lapse) in enumerate(LAYERS):
@@ -53,7 +53,7 @@ class Coefficients:
 
 
 def frames(place, path):
-    """Rotations: velocity axes and position (unit) in inertial axes that coincide with the Earth's at time 0."""
+    """Return rotations: velocity axes and position (unit) in inertial axes that coincide with the Earth's at time 0."""
     _, longitude, latitude = place
     _, angle, course = path
     up = np.array([np.cos(latitude) * np.cos(longitude), np.cos(latitude) * np.sin(longitude), np.sin(latitude)])
@@ -66,7 +66,7 @@ def frames(place, path):
 
 
 def body_from_velocity(bank, sideslip, attack):
-    """Attack about z after sideslip about y after bank about x, as rotations of axes."""
+    """Rotate axes by attack about z after sideslip about y after bank about x."""
     return (
         Rotation.from_euler("z", -attack) * Rotation.from_euler("y", -sideslip) * Rotation.from_euler("x", -bank)
     ).as_matrix()
@@ -120,7 +120,7 @@ class Entry:
         return solve_ivp(self.slopes, (0.0, seconds), state, "DOP853", rtol=1e-13, atol=1e-13).y[:, -1]
 
     def read(self, state, time):
-        """place, path, attitude and w of a state at a time."""
+        """Return place, path, attitude and w of a state at a time."""
         position, velocity, w = state[:3], state[3:6], state[10:]
         spin = np.array([0.0, 0.0, EARTH_RATE])
         turned = Rotation.from_rotvec(-spin * time)

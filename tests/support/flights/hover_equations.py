@@ -13,7 +13,8 @@ def share_of(p):
 
 
 def flown(p, vehicle, until=None):
-    """State x, x', y, y', propellant fraction, pitch and its rate under the programme p at a time, by default its end.
+    """Return the state x, x', y, y', propellant fraction, pitch and its rate under the programme p at a time, by
+    default its end.
 
     Pitch is a state, driven by the switched angular acceleration; the first burn is where pitch is below its share of
     the largest deviation. ``vehicle``: full and least thrust over the mass at the start (m/s2), exhaust speed (m/s),

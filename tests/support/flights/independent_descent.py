@@ -30,12 +30,12 @@ def _odd_root(z: float) -> float:
 
 
 def _sigmoid(z: float) -> float:
-    """(1 - exp(-z))/(1 + exp(-z)) without overflow."""
+    """Return (1 - exp(-z))/(1 + exp(-z)) without overflow."""
     return math.tanh(z / 2.0)
 
 
 def encoded_law(path_angle: float, altitude: float, saturation: float) -> tuple[float, float]:
-    """u1 (rad) and u2 (kgf) before they are limited; exp takes the value ``saturation`` above ln 1e8."""
+    """Return u1 (rad) and u2 (kgf) before they are limited; exp takes the value ``saturation`` above ln 1e8."""
 
     def exp(z: float) -> float:
         return math.exp(z) if z <= LARGEST_EXPONENT else saturation
@@ -75,9 +75,10 @@ def fly(
     step: float = 0.01,
     end: float = 400.0,
 ) -> tuple[float, float, float]:
-    """Time, speed and altitude at the hand-over (less than 6 m/s at 1.2 to 1.8 km), on the ground, or at ``end``.
+    """Fly; return time, speed and altitude at the hand-over (less than 6 m/s at 1.2 to 1.8 km), on the ground, or at
+    ``end``.
 
-    The published V, th, h and m by Heun's method, the law evaluated at both of its slopes.
+    The published V, th, h and m are integrated by Heun's method, the law evaluated at both of its slopes.
     """
 
     def slope(v: float, th: float, h: float, m: float) -> tuple[float, float, float, float]:

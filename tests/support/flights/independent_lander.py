@@ -23,7 +23,7 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 def time_to_go(position: np.ndarray, velocity: np.ndarray, exact: bool) -> float:
-    """Time-to-go (s) to rest at the target from |A| T = 2 |B|, with or without its cubic term."""
+    """Return time-to-go (s) to rest at the target from |A| T = 2 |B|, with or without its cubic term."""
     way = TARGET - position
     cubic = 2.0 * GRAVITY * velocity[2]
     square = velocity @ velocity - 4.0 * (velocity @ velocity + GRAVITY * way[2])
@@ -44,7 +44,7 @@ def time_to_go(position: np.ndarray, velocity: np.ndarray, exact: bool) -> float
 
 
 def command(position: np.ndarray, velocity: np.ndarray, exact: bool) -> tuple[float, float, np.ndarray, np.ndarray]:
-    """Time-to-go (s), thrust acceleration (m/s2), thrust direction and its derivative (1/s)."""
+    """Return time-to-go (s), thrust acceleration (m/s2), thrust direction and its derivative (1/s)."""
     time = time_to_go(position, velocity, exact)
     a = -velocity + GRAVITY * time * UP
     b = TARGET - position - velocity * time + 0.5 * GRAVITY * time**2 * UP

@@ -40,7 +40,7 @@ def states_of_the_box(count, seed):
 
 
 def linear_thrust(position, velocity, time):
-    """a0 and a1 of the thrust acceleration that arrives at rest at the target after ``time``.
+    """Return a0 and a1 of the thrust acceleration that arrives at rest at the target after ``time``.
 
     In 30 digits: the equations are ill-conditioned, and LAPACK rounds differently from processor to processor.
     """
@@ -75,21 +75,21 @@ def positive_roots(polynomial, degree):
 
 
 def astar_roots(position, velocity):
-    """Positive roots of (A T - 3 B).(A T - 2 B) = 0, whose fourth power cancels."""
+    """Return positive roots of (A T - 3 B).(A T - 2 B) = 0, whose fourth power cancels."""
     impulses, misses = polynomials(position, velocity)
     pairs = zip(impulses, misses, strict=True)
     return positive_roots(sum(((a - 3.0 * b) * (a - 2.0 * b) for a, b in pairs), Polynomial([0.0])), 3)
 
 
 def balance_polynomial(position, velocity, degree):
-    """|A|^2 T^2 - 4 |B|^2, whose fourth power cancels; of degree 3, or 2 for the published quadratic."""
+    """Return |A|^2 T^2 - 4 |B|^2, whose fourth power cancels; of degree 3, or 2 for the published quadratic."""
     impulses, misses = polynomials(position, velocity)
     whole = sum((a * a for a in impulses), Polynomial([0.0])) - 4.0 * sum((b * b for b in misses), Polynomial([0.0]))
     return Polynomial(whole.coef[: degree + 1])
 
 
 def balance_roots(position, velocity, degree):
-    """Positive roots of |A|^2 T^2 = 4 |B|^2."""
+    """Return positive roots of |A|^2 T^2 = 4 |B|^2."""
     return positive_roots(balance_polynomial(position, velocity, degree), degree)
 
 

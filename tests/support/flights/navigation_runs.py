@@ -19,7 +19,7 @@ def counts(measurements):
 
 
 def truth(k):
-    """Position and velocity at communication points."""
+    """Return position and velocity at communication points."""
     return np.hstack([position(np.asarray(k) * STEP), velocity(np.asarray(k) * STEP)])
 
 
@@ -42,7 +42,7 @@ def plain(block_class, measurements, **settings):
 
 
 def state_of(block):
-    """Estimated position and velocity."""
+    """Return estimated position and velocity."""
     return np.array([*block.estimated_position, *block.estimated_velocity])
 
 
@@ -64,7 +64,7 @@ class Native:
         return [number for name in names for number in self.numbers[name]]
 
     def fly(self, measurements, at, outputs, **settings):
-        """Rows of the Real outputs at the communication points ``at``, by name of the output."""
+        """Return rows of the Real outputs at the communication points ``at``, by name of the output."""
         instance = self.instance
         instance.reset()
         assert instance.set(self.references(settings), list(settings.values())) == OK

@@ -15,13 +15,13 @@ DEGREE = np.pi / 180.0
 
 
 def body_from_orbital(angles):
-    """Direction cosines of (roll, yaw, pitch): yaw about y, then pitch about z, then roll about x."""
+    """Return direction cosines of (roll, yaw, pitch): yaw about y, then pitch about z, then roll about x."""
     roll, yaw, pitch = angles
     return Rotation.from_euler("YZX", [yaw, pitch, roll]).as_matrix().T
 
 
 def angles_of(matrix):
-    """(roll, yaw, pitch) of the direction cosines from the orbital frame to the body."""
+    """Return (roll, yaw, pitch) of the direction cosines from the orbital frame to the body."""
     yaw, pitch, roll = Rotation.from_matrix(matrix.T).as_euler("YZX")
     return np.array([roll, yaw, pitch])
 
@@ -32,19 +32,19 @@ def orbital_from_inertial(time):
 
 
 def acceleration(matrix, w, torque, inertia=INERTIA):
-    """w' (body) for direction cosines from orbital to body."""
+    """Return w' (body) for direction cosines from orbital to body."""
     up = matrix[:, 1]
     moment = 3.0 * ORBITAL_RATE**2 * np.cross(up, inertia @ up) - np.cross(w, inertia @ w) + torque
     return np.linalg.solve(inertia, moment)
 
 
 def turn(axis, angle):
-    """Matrix of a turn about a coordinate axis; angles may be complex."""
+    """Return the matrix of a turn about a coordinate axis; angles may be complex."""
     return expm(angle * np.cross(np.eye(3), np.eye(3)[axis]))
 
 
 def rates_of(state, torque=(0.0, 0.0, 0.0), inertia=INERTIA):
-    """(angles, w)' of (angles, w), which may be complex: the turns' axes in the body give what their rates are."""
+    """Return (angles, w)' of (angles, w), which may be complex: rates follow from the turns' axes in the body."""
     roll, yaw, pitch = state[:3]
     by_roll, by_pitch = turn(0, roll).T, turn(2, pitch).T
     from_orbital = by_roll @ by_pitch @ turn(1, yaw).T
@@ -55,12 +55,12 @@ def rates_of(state, torque=(0.0, 0.0, 0.0), inertia=INERTIA):
 
 
 def derivatives_of(function, state):
-    """Matrix of the derivatives of a function by a state, by complex steps."""
+    """Return matrix of the derivatives of a function by a state, by complex steps."""
     return np.column_stack([function(state + 1e-30j * unit).imag / 1e-30 for unit in np.eye(len(state))])
 
 
 def flown(angles, w, times, torque_at, cuts=(), inertia=INERTIA):
-    """(angles, w) at the times, integrated by DOP853 at 1e-13 in inertial axes, from cut to cut of the torque."""
+    """Integrate (angles, w) to the times by DOP853 at 1e-13 in inertial axes, from cut to cut of the torque."""
     state = np.concatenate([(body_from_orbital(angles) @ orbital_from_inertial(0.0)).ravel(), w])
 
     def slopes(time, state, torque):

@@ -61,7 +61,7 @@ class Flown:
 
 
 def hovering(phase, **values):
-    """In a hover phase, at its target and at rest."""
+    """Return a flight in a hover phase, at its target and at rest."""
     flown = Flown(phase, **values)
     flown.see(estimated_position=flown.block.target_position)
     return flown

@@ -57,7 +57,7 @@ def rootless_state():
 
 
 def flight(guidance_class, position, velocity, step, latch=True, most=5000, error=None):
-    """Plant and guidance in turn, as the co-simulation schedules them: rows of time, position, velocity.
+    """Fly plant and guidance in turn, as the co-simulation schedules them; return rows of time, position, velocity.
 
     ``error()`` gives the errors of position and velocity (six) that guidance sees in a cycle.
     """

@@ -64,10 +64,10 @@ OUTPUTS = (4, 6, 7, 9, 13, 14, 17, 18, 20, 22, 24, 25)
 def strict_fmu(
     folder: Path, *, events: bool = False, tolerance: float | None = None, name: str = "strict", **quirks: int
 ) -> Path:
-    """``folder``/name.fmu; with ``events`` it has event mode.
+    """Build ``folder``/name.fmu; with ``events`` it has event mode.
 
     ``quirks`` are blob_size, the bytes that it says its Binary output has; is_lenient: discrete inputs may be set in
-    step mode too, though there is event mode, as FMPy does it; hides_gain: it does not give that parameter back;
+    step mode too, though there is event mode, as FMPy does it; hides_gain: it does not return that parameter;
     clamps_rounds: it lets that one be 2 at most.
     """
     structure = "".join(f'<Output valueReference="{each}" dependencies=""/>' for each in OUTPUTS)

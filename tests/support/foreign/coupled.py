@@ -45,14 +45,15 @@ expression = "last < 3"
 
 
 def coupled_fmu(folder: Path, trace: Trace, *, resets: bool = True) -> Path:
-    """``folder``/coupled.fmu, which leaves this trace."""
+    """Build ``folder``/coupled.fmu, which leaves this trace."""
     macros = (f"-DTRACE={trace.value}", *(() if resets else ("-DKEEPS_STATE",)))
     binary = f"binaries/{fmpy.platform}/coupled{fmpy.sharedLibraryExtension}"
     return write_zip(folder / "coupled.fmu", {"modelDescription.xml": DESCRIPTION, binary: library("coupled", macros)})
 
 
 def coupled_system(folder: Path, trials: int = 4) -> tuple[Path, Path]:
-    """``folder``/everything.ssp with an FMU for each trace but the clock, which meet each other; its campaign."""
+    """Write ``folder``/everything.ssp with an FMU for each trace but the clock, which meet each
+    other; and its campaign."""
     components = []
     for trace in Trace:
         if trace is not Trace.CLOCK:
@@ -98,7 +99,7 @@ MODULES = {
 
 
 def coupled_module(folder: Path, kind: str) -> Path:
-    """``folder``/Coupled.fmu by pythonfmu, one of MODULES."""
+    """Build ``folder``/Coupled.fmu by pythonfmu, one of MODULES."""
     script = folder / "coupled_module.py"
     script.write_text(MODULES[kind])
     return Path(FmuBuilder.build_FMU(script, folder))

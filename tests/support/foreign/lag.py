@@ -22,7 +22,7 @@ DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 
 
 def lag_fmu(folder: Path, time_constant: float) -> Path:
-    """``folder``/lag.fmu: time_constant (s) y' = u - y, from y = 0 on."""
+    """Build ``folder``/lag.fmu: time_constant (s) y' = u - y, from y = 0 on."""
     binary = f"binaries/{fmpy.platform}/lag{fmpy.sharedLibraryExtension}"
     content = library("lag", (f"-DTAU={time_constant}",))
     return write_zip(folder / "lag.fmu", {"modelDescription.xml": DESCRIPTION, binary: content})

@@ -34,7 +34,7 @@ expression = "total < 3.0902323"
 
 
 def linear_system(folder: Path, extra: str = "") -> tuple[str, str]:
-    """System and campaign; ``extra`` is more of the campaign."""
+    """Write system and campaign; ``extra`` is more of the campaign."""
     odd_fmu(folder)
     root = system(*(component(name, "odd", ENDS) for name in "abc"))
     path = pack(folder / "linear.ssp", folder, document(root, stop=1.0))

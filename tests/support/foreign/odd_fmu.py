@@ -66,7 +66,7 @@ ENDS = "input u Real; output y Real; output tolerance Real; output length Real"
 def odd_fmu(
     folder: Path, name: str = "odd", *, tolerance: float | None = None, once: bool = False, **quirks: object
 ) -> Path:
-    """``folder``/name.fmu; ``quirks`` are the macros of odd.c, True for those without a value.
+    """Build ``folder``/name.fmu; ``quirks`` are the macros of odd.c, True for those without a value.
 
     ``tolerance`` is that of its default experiment, ``once`` whether it says canBeInstantiatedOnlyOncePerProcess.
     """

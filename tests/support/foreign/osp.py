@@ -57,7 +57,7 @@ def write_osp(folder, tiny_folder, text, fmus="", **others):
 
 
 def libcosim(folder, outputs, steps):
-    """Values [steps, outputs] after each base step."""
+    """Simulate by libcosim; return values [steps, outputs] after each base step."""
     from libcosimpy.CosimExecution import CosimExecution
     from libcosimpy.CosimObserver import CosimObserver
 

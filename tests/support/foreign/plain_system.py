@@ -17,7 +17,7 @@ def fly_plain(fmus, folder):
 
 
 def same(result, plain):
-    """Both are 3 (1 + 2 t) m, at steps of 0.25 s."""
+    """Assert that both are 3 (1 + 2 t) m, at steps of 0.25 s."""
     for name in ("gain.y", "out"):
         np.testing.assert_array_equal(result[name], plain[name])
     assert plain["gain.y"].tolist() == [3.0 * (1.0 + 0.5 * n) for n in range(5)]

@@ -31,7 +31,7 @@ def draw_fault(draw, name, kind, start):
 
 @st.composite
 def graphs(draw):
-    """Components with connections from those before them: an SSD, faults, what is recorded, the algorithm."""
+    """Draw components with connections from those before them: an SSD, faults, recorded signals, the algorithm."""
     kinds = ["ramp", *draw(st.lists(st.sampled_from(KINDS), min_size=1, max_size=7))]
     reals, elements, wires, connectors = [], [], [], []
     for number, kind in enumerate(kinds):

@@ -39,7 +39,7 @@ def another(number: float | int | bool, low: float | None, high: float | None) -
 
 
 def bits(values: list) -> bytes:
-    """Values as bytes; all NaNs are one."""
+    """Return values as bytes; all NaNs are one."""
     packed = b""
     for value in values:
         if isinstance(value, float):
@@ -167,7 +167,7 @@ class Pair:
         return False
 
     def row(self) -> bytes:
-        """All values, which must be the same; those computed by the block as bytes."""
+        """Return all values, which must be the same; those computed by the block as bytes."""
         plain = self.plain.values()
         native = self.native.get(self.all)
         assert native is not None, self.native.log
@@ -198,13 +198,13 @@ class Pair:
         return fine
 
     def step(self, t: float, h: float) -> bool:
-        """One step after the inputs have moved a little."""
+        """Step once after the inputs have moved a little."""
         self.set(Input, h, drift=True)
         return self.both(lambda: self.plain.do_step(t, h), lambda: self.native.do_step(t, h))
 
 
 def elements(block: type[Block]) -> list[tuple[Variable, int]]:
-    """Variable and position of every value reference."""
+    """Return variable and position of every value reference."""
     return [(variable, position) for variable in block.variables.values() for position in range(variable.size)]
 
 

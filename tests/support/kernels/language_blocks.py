@@ -41,7 +41,7 @@ def count_down(n: int) -> int:
 
 
 def position_of_first_above(values: list, limit: float) -> int:
-    """Index of the first element above a limit, or -1."""
+    """Return index of the first element above a limit, or -1."""
     for i in range(4):
         if values[i] > limit:
             return i
@@ -99,7 +99,7 @@ class Language(LanguageBase):
         return before
 
     def loops(self) -> None:
-        """Loop variables that are assigned, kept, counted down; break and continue."""
+        """Use loop variables that are assigned, kept, counted down; break and continue."""
         last = 0
         for i in range(2, 9, 3):
             last = 10 * last + i
@@ -124,7 +124,7 @@ class Language(LanguageBase):
         self.n[2] = total
 
     def ints(self) -> None:
-        """Floor division and remainder, widening, unproven indices."""
+        """Use floor division and remainder, widening, unproven indices."""
         a = self.int_memory[0] - 40 * self.k
         b = self.k - 5
         if b != 0:
@@ -156,7 +156,7 @@ class Language(LanguageBase):
         scale(self.memory, 0.75)
 
     def conditions(self) -> None:
-        """and, or, not, if-else expressions, comparisons of all kinds."""
+        """Use and, or, not, if-else expressions, comparisons of all kinds."""
         small = not (abs(self.x) > 1.0 or self.k == 3)
         self.flags[0] = small and (self.k >= 2 or self.x < -1.0) and is_between(self.x, -2.0, 2.0)
         self.flags[1] = small != self.flags[0]
@@ -202,7 +202,7 @@ def unit(v: Vector) -> Vector:
 
 
 def halves(values: list, factor: float) -> tuple[Vector3, Vector3, float, int, bool]:
-    """Several values of all types, from parts of a list."""
+    """Return several values of all types, from slices of a list."""
     first = vector(*values[0:3])
     if factor > 1.0:
         return first, vector(*values[3:]), factor, len(values), True
@@ -210,7 +210,7 @@ def halves(values: list, factor: float) -> tuple[Vector3, Vector3, float, int, b
 
 
 def swapped(values: list, factor: float) -> tuple[Vector3, Vector3, float, int, bool]:
-    """Several values handed on."""
+    """Pass on several values."""
     return halves(values, factor - 1.0)
 
 

@@ -34,7 +34,7 @@ def trace(a: Matrix) -> float:
 
 
 def symmetric(a: Matrix) -> tuple[Matrix, float]:
-    """Several values with a matrix among them."""
+    """Return several values with a matrix among them."""
     mean = 0.5 * (a + a.T)
     return mean, trace(mean)
 
@@ -70,12 +70,12 @@ class MatrixLanguage(Block):
         self.p[FIRST, FIRST] = self.inertia
 
     def fold(self, a: Matrix) -> None:
-        """Its argument may be what it changes."""
+        """Fold an argument that may be the changed matrix itself."""
         self.three = a.T + a
         self.three[0:2, :] = a[1:3, :] - self.three[0:2, :]
 
     def small(self) -> None:
-        """Written out."""
+        """Use matrices that are written out."""
         skew = matrix([0.0, -self.u.z, self.u.y], [self.u.z, 0.0, -self.u.x], [-self.u.y, self.u.x, 0.0])
         product = skew @ self.inertia @ skew.T
         self.a = self.inertia @ self.u / 4.0 + product @ (0.5 * self.a) - self.three.T @ self.u
@@ -101,7 +101,7 @@ class MatrixLanguage(Block):
         self.n = self.table[self.k % 2, 2] + len(self.wide)
 
     def large(self, h: float) -> None:
-        """In loops."""
+        """Use matrices in loops."""
         f = identity(6)
         f[FIRST, SECOND] = h * identity(3)
         f[SECOND, 0] = 0.01 * vector(self.x, 1.0, -self.x) / (1.0 + abs(self.x))

@@ -96,7 +96,7 @@ class NativeInstance:
             self.kinds += [variable.type_name] * variable.size
 
     def call(self, function: str, *arguments: object) -> int:
-        """Status of an FMI function."""
+        """Return the status of an FMI function."""
         return getattr(self.dll, function)(self.handle, *arguments)
 
     def _split(self, references: list[int]) -> dict[str, list[int]]:
@@ -106,7 +106,7 @@ class NativeInstance:
         return collected
 
     def get(self, references: list[int]) -> list | None:
-        """Values, or None after an error."""
+        """Return values, or None after an error."""
         values: dict[int, object] = {}
         for kind, group in self._split(references).items():
             buffer = (BUFFERS[kind] * len(group))()
@@ -117,7 +117,7 @@ class NativeInstance:
         return [values[reference] for reference in references]
 
     def set(self, references: list[int], values: list) -> int:
-        """Status of setting values."""
+        """Return the status of setting values."""
         by_reference = dict(zip(references, values, strict=True))
         worst = OK
         for kind, group in self._split(references).items():
@@ -131,11 +131,11 @@ class NativeInstance:
         assert self.call("fmi2EnterInitializationMode") == OK
 
     def start(self) -> int:
-        """Status of leaving initialisation mode."""
+        """Return the status of leaving initialisation mode."""
         return self.call("fmi2ExitInitializationMode")
 
     def do_step(self, t: float, h: float) -> int:
-        """Status of a step."""
+        """Return the status of a step."""
         return self.call("fmi2DoStep", c_double(t), c_double(h), 1)
 
     def reset(self) -> None:

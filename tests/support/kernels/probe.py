@@ -28,7 +28,7 @@ class Probe(Block):
 
 
 def reference(component, name, element=0):
-    """Value reference of an element: variables in order of declaration, elements numbered through."""
+    """Return value reference of an element: variables in order of declaration, elements numbered through."""
     position = 0
     for variable_name, variable in type(component.block).variables.items():
         if variable_name == name:

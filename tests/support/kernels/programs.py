@@ -31,7 +31,7 @@ COMPILERS: dict[str, tuple[list[str], list[str]]] = {
 
 
 def checksum(block: type[Block], compiler: str, steps: int, folder: Path) -> str:
-    """Checksum of a flight of random inputs, and how many of its steps failed."""
+    """Return the checksum of a flight of random inputs, and the number of failed steps."""
     command, runner = COMPILERS[compiler]
     for name, text in native_sources(block, GUID).items():
         (folder / name).write_bytes(text)

@@ -38,7 +38,7 @@ def mean_of(pair: Pair) -> Motion:
 
 
 def assess(m: Motion, count: int) -> tuple[Outcome, float]:
-    """Several values with a record among them."""
+    """Return several values with a record among them."""
     size = norm(m.position)
     if size > 3.0:
         return Outcome(motion=m, count=count % 1000 + 1, good=True), size
@@ -70,7 +70,7 @@ class RecordLanguage(Block):
         self.arrow = vector(1.0, 0.0)
 
     def derivatives(self, t: float, s: Motion, force: Vector3, rate: float) -> Motion:
-        """Rates."""
+        """Return rates."""
         turned = vector(-s.heading.y, s.heading.x)
         return Motion(position=0.1 * force - 0.01 * s.position, heading=rate * turned, mass=-0.001 * s.mass)
 
@@ -103,7 +103,7 @@ class RecordFaults(Block):
         self.state = Motion(position=vector(1.0, 2.0, 3.0), heading=vector(1.0, 0.0), mass=1.0)
 
     def derivatives(self, t: float, s: Motion, divisor: float) -> Motion:
-        """Rates that may fail."""
+        """Return rates that may fail."""
         return replace(s, mass=1.0 / divisor)
 
     def step(self, t: float, h: float) -> None:

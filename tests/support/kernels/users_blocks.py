@@ -42,12 +42,12 @@ class Integrators(Block):
         self.third = circle
 
     def gravity(self, position: Vector3) -> Vector3:
-        """Attraction (m/s2) of the centre, 1 at 1 m."""
+        """Return attraction (m/s2) of the centre, 1 at 1 m."""
         distance = norm(position)
         return -position / (distance * distance * distance)
 
     def derivatives(self, t: float, s: Translation, thrust: Vector3) -> Translation:
-        """Rates."""
+        """Return rates."""
         return Translation(position=s.velocity, velocity=self.gravity(s.position) + cos(t) * thrust)
 
     def acceleration(self, t: float) -> Vector3:

@@ -9,7 +9,7 @@ UNARY = (*range(1, 22), 23)
 
 @st.composite
 def matrices(draw, unary=UNARY, binary=(0, 1, 2, 3), most=40):
-    """Upper triangular matrices in which every node that is no source and leads on has an edge in."""
+    """Draw upper triangular matrices in which every node that is no source and leads on has an edge in."""
     matrix = [[0] * SIZE for _ in range(SIZE)]
     for node in range(SOURCES, SIZE):
         matrix[node][node] = draw(st.sampled_from(binary))
@@ -37,7 +37,7 @@ def random_matrix(random):
 
 
 def depends(matrix):
-    """depends[i, j]: whether node j can be reached from node i; the transitive closure by matrix powers."""
+    """Return depends[i, j], True if node j can be reached from node i: the transitive closure by matrix powers."""
     step = (np.triu(np.array(matrix), 1) != 0).astype(int)
     reach = step.copy()
     for _ in range(SIZE):

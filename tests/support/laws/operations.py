@@ -12,7 +12,7 @@ NEUTRAL = {0: 0.0, 1: 1.0, 2: -LARGE, 3: LARGE}
 
 
 def sign(z):
-    """+1 at 0."""
+    """Return the sign, +1 at 0."""
     return 1.0 if z >= 0 else -1.0
 
 

@@ -16,7 +16,7 @@ LEAST, MOST = 1e-9, 1e9  # gain margins beyond which L counts as 0 or infinite
 
 
 def crossings(loop: control.StateSpace) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Gain margins as factors; phase margins (rad) and their frequencies (rad/s); all ascending in frequency."""
+    """Return gain margins as factors; phase margins (rad) and their frequencies (rad/s); all ascending in frequency."""
     frequency = np.geomspace(1e-4, 1.0, POINTS) * np.pi / loop.dt
     response = control.FRD(response_of(loop)(frequency), frequency, smooth=True)
     gain, phase, _, _, at, _ = control.stability_margins(response, returnall=True)
@@ -26,7 +26,8 @@ def crossings(loop: control.StateSpace) -> tuple[np.ndarray, np.ndarray, np.ndar
 
 
 def disk_margin(loop: control.StateSpace, lowest: float = 1e-3) -> float:
-    """With skew 0, of one channel or of several at once, from ``lowest`` of the Nyquist frequency on."""
+    """Return the disk margin with skew 0, of one channel or of several at once, from ``lowest``
+    of the Nyquist frequency on."""
     grid = np.geomspace(lowest, 1.0, 400) * np.pi / loop.dt
     nearest = int(np.argmin(control.disk_margins(loop, grid, skew=0.0, returnall=True)[0]))
     close = np.linspace(grid[max(nearest - 1, 0)], grid[min(nearest + 1, len(grid) - 1)], 200)
@@ -34,7 +35,7 @@ def disk_margin(loop: control.StateSpace, lowest: float = 1e-3) -> float:
 
 
 def opened(loop: control.StateSpace, channel: int) -> control.StateSpace:
-    """One channel of two, the other one closed."""
+    """Return one channel of two, the other one closed."""
     i, j = channel, 1 - channel
     a, b, c, d = loop.A, loop.B, loop.C, loop.D
     back = 1.0 / (1.0 + d[j, j])

@@ -21,7 +21,7 @@ def skew(v):
 
 
 def motion(x):
-    """(angles, w)' by direction cosines."""
+    """Return (angles, w)' by direction cosines."""
     matrix = body_from_orbital(x[:3])
     relative = x[3:] + ORBITAL_RATE * matrix[:, 2]
     h = 1e-4
@@ -47,7 +47,7 @@ def linear_matrix(inertia):
 
 
 def placed_gain(a):
-    """u = K x with (s + S1)(angles) = z, (s + S0) z = 0."""
+    """Return K of u = K x with (s + S1)(angles) = z, (s + S0) z = 0."""
     lack = np.hstack([ANGLE_POLES + a[:3, :3], np.eye(3)])  # z = lack x
     free = lack @ a + RATE_POLES @ lack
     return -INERTIA @ free
@@ -72,7 +72,7 @@ def derivative_system(angle_poles, rate_poles, coupling, tick):
 
 
 def derivative_loop(axis, angle_poles, rate_poles, coupling, tick):
-    """L(z) at the torque about one axis of `derivative_system`."""
+    """Return L(z) at the torque about one axis of `derivative_system`."""
     return opened(*derivative_system(angle_poles, rate_poles, coupling, tick), axis, tick)
 
 
@@ -83,14 +83,14 @@ def sample_motion(a, driven, tick):
 
 
 def opened(step, effect, gain, axis, tick):
-    """L(z) of u = gain x at one axis, the other two closed."""
+    """Return L(z) of u = gain x at one axis, the other two closed."""
     others = [k for k in range(3) if k != axis]
     closed = step + effect[:, others] @ gain[others]
     return control.ss(closed, effect[:, [axis]], -gain[[axis]], 0.0, tick)
 
 
 def loop(axis):
-    """L(z) at the torque about one axis, the other two closed."""
+    """Return L(z) at the torque about one axis, the other two closed."""
     a = linear_motion()
     gain = placed_gain(a)
     driven = np.vstack([np.zeros((3, 3)), np.linalg.inv(INERTIA)])

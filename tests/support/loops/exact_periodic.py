@@ -22,7 +22,7 @@ SAMPLES = HYPERPERIOD // EVERY[0], HYPERPERIOD // EVERY[1]
 
 
 def description() -> str:
-    """Components `first` and `second` control `plant`."""
+    """Return the description: components `first` and `second` control `plant`."""
     controls = [
         component(
             name,
@@ -106,7 +106,8 @@ def exact_model() -> LiftedModel:
 
 
 def flown_response(axis: int, cycles: int, samples: int) -> complex:
-    """L of one axis at ``cycles`` in ``samples`` of its samples: -V/U of a flight with a wave added, settled first."""
+    """Measure L of one axis at ``cycles`` in ``samples`` of its samples: -V/U of a flight with
+    a wave added, settled first."""
     every, window = EVERY[axis], HYPERPERIOD * samples  # points: whole waves and whole hyperperiods
     angle = 2.0 * np.pi * cycles / samples
     state = np.zeros((STATES, 1), dtype=complex)

@@ -81,7 +81,7 @@ class SampledLoop:
         return numerator(z) / denominator(z)
 
     def response(self, frequency: np.ndarray) -> np.ndarray:
-        """L at angular frequencies (rad/s)."""
+        """Return L at angular frequencies (rad/s)."""
         return self(np.exp(1j * self.period * np.asarray(frequency)))
 
     @cached_property
@@ -161,5 +161,6 @@ def translation_loop(period: float) -> SampledLoop:
 
 
 def attitude_loop() -> SampledLoop:
-    """Attitude at rest, each axis alike: samples every 0.125 s, gimbal rates held from the tick on."""
+    """Return the loop of attitude at rest, each axis alike: samples every 0.125 s, gimbal rates held from the tick
+    on."""
     return SampledLoop(0.25, 0.16, 5.0, 0.417, samples=2, delay=0.0)

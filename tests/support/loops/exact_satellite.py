@@ -38,7 +38,8 @@ def motion():
 
 
 def loop(axis, integral_time=INTEGRAL_TIME):
-    """L(z) at the torque about one axis, the other two closed; null motion is taken as continuous, so slow is it."""
+    """Return L(z) at the torque about one axis, the other two closed; null motion is taken as
+    continuous, so slow is it."""
     a, b = motion()
     whole = expm(np.block([[a, b], [np.zeros((3, 13))]]) * TICK)
     attitude, rate, integral = gains(integral_time)

@@ -72,7 +72,7 @@ def held_late(plant: control.StateSpace, period: float, late: float) -> control.
 
 
 def difference(proportional: float, derivative: float, period: float) -> control.StateSpace:
-    """proportional + derivative (1 - 1/z)/period."""
+    """Return proportional + derivative (1 - 1/z)/period."""
     rate = derivative / period
     return control.ss(0.0, 1.0, -rate, proportional + rate, period)
 
@@ -106,13 +106,13 @@ def ring(
 
 
 def stability_of(period: float | None, time: float) -> str:
-    """One loop, cut behind its controller, at one point; ``period`` (s) None: it passes at every step."""
+    """Declare one loop, cut after its controller, at one point; ``period`` (s) None: it passes at every step."""
     rate = f'period="{period}"' if period is not None else ""
     return f'<Point name="there" time="{time}"/>\n<Loop name="loop" cut="control.y" points="there" {rate}/>'
 
 
 def sampling(every: int, step: float) -> tuple[float, float | None, str]:
-    """Period of control (s), as declared and as a parameter: at every step, or at every n-th."""
+    """Return period of control (s), as declared and as a parameter: at every step, or at every n-th."""
     period = every * step
     return (period, period, f"; sample_period=Real:{period}") if every > 1 else (period, None, "")
 
@@ -120,7 +120,7 @@ def sampling(every: int, step: float) -> tuple[float, float | None, str]:
 def late_double_integrator(
     every: int = 1, step: float = 0.25, proportional: float = 0.02, derivative: float = 0.22
 ) -> ExactSystem:
-    """Proportional and derivative control of 1/s^2 over three steps of delay; control at every n-th step."""
+    """Return proportional and derivative control of 1/s^2 over three steps of delay; control at every n-th step."""
     samples, kp, kd = 3, proportional, derivative
     period, declared, sampled = sampling(every, step)
     parts = {
@@ -167,7 +167,7 @@ def pendulum(every: int = 1, step: float = 0.05) -> ExactSystem:
 
 
 def coupled_pair(every: int = 1, step: float = 0.1) -> ExactSystem:
-    """Two coupled double integrators with a controller for each."""
+    """Return two coupled double integrators with a controller for each."""
     coupling, kp, kd = 0.4, (0.5, 0.9), (0.9, 1.3)
     period, declared, sampled = sampling(every, step)
     gains = "; ".join(f"proportional[{i}]=Real:{kp[i - 1]}; derivative[{i}]=Real:{kd[i - 1]}" for i in (1, 2))

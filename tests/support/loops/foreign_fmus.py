@@ -45,7 +45,7 @@ class Law(Fmi2Slave):
 
 
 def build_foreign_fmus(folder: Path) -> Path:
-    """integrator.fmu (x' = u, in C) and law.fmu (y is -gain times u of one step ago, in Python) in ``folder``."""
+    """Build integrator.fmu (x' = u, in C) and law.fmu (y is -gain times u of one step ago, in Python) in ``folder``."""
     binary = f"binaries/{fmpy.platform}/integrator{fmpy.sharedLibraryExtension}"
     write_zip(folder / "integrator.fmu", {"modelDescription.xml": DESCRIPTION, binary: library("integrator")})
     script = folder / "law.py"

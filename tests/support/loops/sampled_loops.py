@@ -12,7 +12,7 @@ from perilune.analysis.stability.loops.curves import Response
 
 
 def response_of(system: control.StateSpace) -> Response:
-    """L over angular frequency: (n,) for one channel, else (n, m, m)."""
+    """Return L over angular frequency: (n,) for one channel, else (n, m, m)."""
 
     def response(frequency: np.ndarray) -> np.ndarray:
         z = np.exp(1j * np.asarray(frequency) * system.dt)
@@ -24,13 +24,13 @@ def response_of(system: control.StateSpace) -> Response:
 
 
 def outside(system: control.StateSpace, factor: complex = 1.0) -> int:
-    """Poles outside of the unit circle of the loop closed with ``factor`` (factor 0: of the open loop)."""
+    """Count poles outside of the unit circle of the loop closed with ``factor`` (factor 0: of the open loop)."""
     feedback = np.linalg.solve(np.eye(system.ninputs) + factor * system.D, factor * system.C)
     return int(np.sum(np.abs(np.linalg.eigvals(system.A - system.B @ feedback)) > 1.0 + 1e-9))
 
 
 def nearest_to_circle(system: control.StateSpace, factor: complex = 1.0) -> float:
-    """Distance of the closed loop's poles from the unit circle."""
+    """Return distance of the closed loop's poles from the unit circle."""
     feedback = np.linalg.solve(np.eye(system.ninputs) + factor * system.D, factor * system.C)
     return float(np.min(np.abs(np.abs(np.linalg.eigvals(system.A - system.B @ feedback)) - 1.0)))
 
@@ -41,7 +41,7 @@ def held(transfer: control.TransferFunction, period: float) -> control.StateSpac
 
 
 def delay(samples: int, period: float) -> control.StateSpace:
-    """z**-samples."""
+    """Return the state space of z**-samples."""
     shift = np.eye(samples, k=-1)
     return control.ss(shift, np.eye(samples, 1), np.eye(1, samples, samples - 1), 0.0, period)
 
@@ -66,7 +66,7 @@ class HeldDoubleIntegrator:
         return tangent / (np.sin(self.phase_crossover) - tangent * (1.0 - np.cos(self.phase_crossover)))
 
     def size(self, angle: float) -> float:
-        """|L|/kp."""
+        """Return |L|/kp."""
         lead = np.hypot(1.0 + self.ratio * (1.0 - np.cos(angle)), self.ratio * np.sin(angle))
         return 0.25 * self.period**2 * np.cos(0.5 * angle) / np.sin(0.5 * angle) ** 2 * lead
 
@@ -92,7 +92,8 @@ class HeldDoubleIntegrator:
 
 @strategies.composite
 def random_loops(draw: strategies.DrawFn, channels: int = 1, integrators: bool = True) -> control.StateSpace:
-    """Stable and unstable poles, integrators, a direct term or none; everything well away from being marginal."""
+    """Draw a loop of stable and unstable poles, integrators, a direct term or none; everything
+    well away from being marginal."""
     seed = draw(strategies.integers(0, 2**32 - 1))
     random = np.random.default_rng(seed)
     order = draw(strategies.integers(1, 5))

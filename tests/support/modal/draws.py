@@ -11,7 +11,7 @@ EPS = float(np.finfo(float).eps)
 
 
 def random_spectrum(random: np.random.Generator, size: int, pairs: int) -> np.ndarray:
-    """Reals from -4 to -0.5, pairs (-3 .. -0.5) +- i (0.3 .. 2), drawn until any two are at least 0.2 apart."""
+    """Draw reals from -4 to -0.5, pairs (-3 .. -0.5) +- i (0.3 .. 2), until any two are at least 0.2 apart."""
     while True:
         upper = random.uniform(-3.0, -0.5, pairs) + 1j * random.uniform(0.3, 2.0, pairs)
         poles = np.concatenate([random.uniform(-4.0, -0.5, size - 2 * pairs), upper, upper.conj()])
@@ -42,7 +42,7 @@ def pole_error(closed_loop: np.ndarray, wanted: np.ndarray) -> float:
 
 
 def kappa_of(closed_loop: np.ndarray) -> float:
-    """Condition number of the eigenvectors of unit length."""
+    """Return condition number of the eigenvectors of unit length."""
     return float(np.linalg.cond(np.linalg.eig(closed_loop)[1]))
 
 

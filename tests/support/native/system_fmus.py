@@ -26,7 +26,7 @@ def build_one(
     faulty: Sequence[str] = (),
     **options: Any,
 ) -> Path:
-    """One FMU of a system at ``path``."""
+    """Build one FMU of a system at ``path``."""
     request = OneFmu(slots or {}, exposed, faulty, SystemOptions(flavour="native", **options))
     build_system_fmu(open_system(system), path, request, [local_platform()], portable=False)
     return path
@@ -84,7 +84,7 @@ class Slave:
 
 
 def fly_one(path: Path, values: Mapping[str, float] | None = None) -> dict[str, np.ndarray]:
-    """Its outputs and exposed signals in a flight by FMPy over its default experiment; time (s) among them."""
+    """Simulate it by FMPy over its default experiment; return its outputs and exposed signals, time (s) among them."""
     description = fmpy.read_model_description(str(path))
     experiment = description.defaultExperiment
     step = float(experiment.stepSize)

@@ -79,7 +79,7 @@ def text_of(text):
 
 
 def read_path(path):
-    """Commands with their points (hundredths) of a relative path, as the grammar of SVG reads it."""
+    """Read a relative path's commands with their points (hundredths), as the grammar of SVG does."""
     commands, letter, numbers, at, start = [], "", [], [0, 0], [0, 0]
     for token in re.findall(r"[a-z]|-?(?:\d+(?:\.\d+)?|\.\d+)", path):
         if token.isalpha():

@@ -92,7 +92,8 @@ def facts(campaign, variants, targets=True):
 
 
 def flight(source, end, mass):
-    """Signals of a flight from 1 km before its target to ``end``, rows every 0.5 s, thinned as [record] every = 2."""
+    """Return signals of a flight from 1 km before its target to ``end``, rows every 0.5 s,
+    thinned as [record] every = 2."""
     time = np.arange(0.0, END + 0.25, 0.5)
     fraction = time / END
     start = np.array([-1000.0 + 30.0 * source.normal(), 40.0 * source.normal(), 500.0])

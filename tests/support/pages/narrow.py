@@ -70,7 +70,7 @@ def measure(browser: str, page: Path, folder: Path) -> list[Measured]:
 
 
 def assert_legible(browser: str, page: Path, folder: Path) -> None:
-    """No text of a figure is smaller than `SMALLEST`, and nothing makes the page wider than the screen."""
+    """Assert that no text of a figure is smaller than `SMALLEST`, and nothing makes the page wider than the screen."""
     measured = measure(browser, page, folder)
     assert [each.width for each in measured] == [PHONE, PHONE, WIDE, WIDE]
     for each in measured:

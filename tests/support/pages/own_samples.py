@@ -74,7 +74,8 @@ ERROR = Error(
 
 
 def angles():
-    """Roll is inside at once, leaves at 30 s and comes back at 40.5 s; yaw falls from 20 deg to 0.5 deg at 97.5 s."""
+    """Return angles: roll is inside at once, leaves at 30 s and returns at 40.5 s; yaw falls
+    from 20 deg to 0.5 deg at 97.5 s."""
     roll = np.where((TIME >= 30.0) & (TIME < 40.5), 0.7, 0.1)
     return np.stack([roll, np.maximum(0.0, 20.0 - TIME * 0.2)]) * DEGREE
 
@@ -91,7 +92,7 @@ def pulses():
 
 
 def errors():
-    """From 50 s on an error of 0.3, 1.5, 2.5, 3.5 sigma in turn; sigma is 0 before 10 s."""
+    """Return from 50 s on an error of 0.3, 1.5, 2.5, 3.5 sigma in turn; sigma is 0 before 10 s."""
     sigma = np.where(TIME < 10.0, 0.0, 0.1 * DEGREE)
     fraction = np.array([0.3, -1.5, 2.5, -3.5])[np.arange(ROWS) % 4]
     return {"truth": 1.0 + 0.0 * TIME, "estimate": 1.0 + np.where(TIME < 50.0, 0.2, fraction * sigma), "sigma": sigma}

@@ -145,7 +145,8 @@ def grouped_batch(trials: int = 60) -> BatchResult:
 
 
 def mixed_batch(trials: int = 40, text: str = DRAWS + METRICS) -> BatchResult:
-    """Two variants: one that always succeeds, one that fails where the draw `offset` is large either way."""
+    """Return a batch of two variants: one that always succeeds, one that fails where the draw
+    `offset` is large either way."""
     source = np.random.default_rng(5)
     probe = batch_result({"steady": [(True, 0.0, 0.0)] * trials}, text)
     offset = probe.plan.draws.columns["offset"]

@@ -15,14 +15,14 @@ COMMAND = "perilune compare something"
 
 
 def write_studies(studies: Studies, folder: Path) -> None:
-    """page.html: a study with all that a page can show."""
+    """Write page.html: a study with all that a page can show."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         write_stability_page(studies.everything, folder / "page.html")
 
 
 def write_comparison(folder: Path) -> None:
-    """quiet, a batch of three variants, and page.html, which compares them."""
+    """Write quiet, a batch of three variants, and page.html, which compares them."""
     write_sample(folder / "quiet")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -30,7 +30,7 @@ def write_comparison(folder: Path) -> None:
 
 
 def write_mission(folder: Path) -> None:
-    """page.html: a flight through phases."""
+    """Write page.html: a flight through phases."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         write_run_report(mission(), folder / "page.html", "Mission", FIGURES)

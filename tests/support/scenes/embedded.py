@@ -13,7 +13,7 @@ from perilune.analysis.reports.interactive.embedded import Embedded
 
 
 def require_bundle(name):
-    """Leaves a test out where a script was not built, as without npm."""
+    """Skip a test where a script was not built, as without npm."""
     if read_bundle(name) is None:
         pytest.skip("no scripts of pages")
 

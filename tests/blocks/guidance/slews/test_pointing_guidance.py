@@ -23,7 +23,7 @@ vectors = st.tuples(components, components, components).map(np.array)
 
 
 def slope(_, y):
-    """Gravity of a point and of J2, in components."""
+    """Return gravity of a point and of J2, in components."""
     x, distance = y[:3], np.linalg.norm(y[:3])
     shape = np.array([1.0, 1.0, 3.0]) - 5.0 * (x[2] / distance) ** 2
     return [*y[3:], *(-MU / distance**3 * (1.0 + 1.5 * J2 * (RADIUS / distance) ** 2 * shape) * x)]
@@ -31,7 +31,7 @@ def slope(_, y):
 
 @functools.cache
 def orbit():
-    """Position and velocity over time, of an orbit with an eccentricity of 0.06 at 63 deg."""
+    """Return position and velocity over time, of an orbit with an eccentricity of 0.06 at 63 deg."""
     start = [6.7e6, 1e6, 0.0, -800.0, 3.5e3, 7.0e3]
     return solve_ivp(slope, (-5.0, 6000.0), start, method="DOP853", rtol=1e-12, atol=1e-6, dense_output=True).sol
 
@@ -45,7 +45,7 @@ def guidance_of(r, v, sun=(0.6, 0.0, 0.8), **parameters):
 
 
 def local_axes(t):
-    """Rotation from the local vertical and horizontal to inertial axes, by definition."""
+    """Return rotation from the local vertical and horizontal to inertial axes, by definition."""
     r, v = np.split(orbit()(t), 2)
     z, y = -r / np.linalg.norm(r), -np.cross(r, v) / np.linalg.norm(np.cross(r, v))
     return Rotation.from_matrix(np.column_stack([np.cross(y, z), y, z]))
@@ -91,7 +91,7 @@ def test_attitude_and_rate_are_those_of_the_orbit(turn):
 
 
 def errors_of(seconds, last_sample):
-    """Attitude errors (rad) at each cycle, with a sample each second, 1 s old, until the last one."""
+    """Return attitude errors (rad) at each cycle, with a sample each second, 1 s old, until the last one."""
     guidance = PointingGuidance()
     guidance.sun_direction, errors, statuses = [0.6, 0.0, 0.8], [], []
     for n in range(round(seconds / 0.25) + 1):

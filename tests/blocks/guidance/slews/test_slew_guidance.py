@@ -33,7 +33,7 @@ def guidance(kind, turn, start=(1.0, 0.0, 0.0, 0.0), **settings):
 
 
 def follow(block, seconds, step=STEP):
-    """Quaternions, rates and accelerations at every sample, the one of the start first."""
+    """Return quaternions, rates and accelerations at every sample, the one of the start first."""
     rows = []
     for n in range(round(seconds / step)):
         r = block.reference

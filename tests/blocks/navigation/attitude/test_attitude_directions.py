@@ -49,7 +49,7 @@ def tick(block, time=0.0, sun=None, field=None, star=None, gyros=(0.0, 0.0, 0.0)
 
 
 def error(block, truth=TRUTH):
-    """Rotation vector from the estimated to the true attitude, body."""
+    """Return rotation vector from the estimated to the true attitude, body."""
     return (Rotation.from_quat([*block.estimated_quaternion], scalar_first=True).inv() * truth).as_rotvec()
 
 

@@ -39,13 +39,13 @@ def set_inputs(block, **values):
 
 
 def gyros(t):
-    """Momentum of the cluster (N m s) and its derivative: tens of N m s, more than a turn of the robot needs."""
+    """Return momentum of the cluster (N m s) and its derivative: tens of N m s, more than a turn of the robot needs."""
     phases = np.array([0.05, 0.08, 0.03])
     return 30.0 * np.sin(phases * t + [0.1, 0.7, 2.0]), 30.0 * phases * np.cos(phases * t + [0.1, 0.7, 2.0])
 
 
 def tumble(end, torque, rate, step):
-    """Attitudes and angular velocities at multiples of a step, from Euler's equations."""
+    """Return attitudes and angular velocities at multiples of a step, from Euler's equations."""
 
     def slope(t, y):
         q, w = y[:4], y[4:]
@@ -66,7 +66,7 @@ def tumble(end, torque, rate, step):
 
 
 def dead_reckoned(step):
-    """Largest errors of attitude (rad) and rate (rad/s) after 20 s without a sample but the first."""
+    """Return largest errors of attitude (rad) and rate (rad/s) after 20 s without a sample but the first."""
     torque, rate = np.array([0.1, -0.05, 0.2]), np.array([0.02, -0.03, 0.01])
     times, truth = tumble(20.0, torque, rate, step)
     block = AttitudeFilter(first_rate_sigma=0.0)
@@ -137,7 +137,7 @@ class TurningRobot:
         self.disturbance = np.zeros(3)
 
     def step(self):
-        """H in ten parts: momentum kept, gyros at a constant torque, white torque by kicks."""
+        """Step H in ten substeps: momentum kept, gyros at a constant torque, white torque by kicks."""
         torque = 0.5 * self.random.normal(size=3)
         kick = np.sqrt(self.noise * H) * self.random.normal(size=3)
         part = H / 10.0

@@ -48,7 +48,7 @@ def farrenkopf(sigma, walk, drift, period):
 
 
 def riccati(sigma, walk, drift, period):
-    """Covariance of angle and bias before a sample, about one axis."""
+    """Return covariance of angle and bias before a sample, about one axis."""
     f = np.array([[1.0, -period], [0.0, 1.0]])
     cross = -0.5 * drift**2 * period**2
     q = np.array([[walk**2 * period + drift**2 * period**3 / 3.0, cross], [cross, drift**2 * period]])

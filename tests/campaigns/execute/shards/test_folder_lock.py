@@ -20,7 +20,7 @@ BATCH = ["--stop-time", "1", "--step", "0.25", "--workers", "1"]
 
 @pytest.fixture(scope="module")
 def prepared(tmp_path_factory):
-    """Names of a system and a campaign, and a folder with two of its four shards."""
+    """Return names of a system and a campaign, and a folder with two of its four shards."""
     folder = tmp_path_factory.mktemp("locked")
     fmu, campaign = odd_fmu(folder), folder / "c.toml"
     campaign.write_text(COUNTS.format(name="odd", trials=100))

@@ -41,7 +41,7 @@ def whole(campaign, fmus):
 
 
 def expected_end(whole):
-    """Trials at the end of the first shard before which every variant has a verdict at some look."""
+    """Return trials at the end of the first shard before which every variant has a verdict at some look."""
     ends = []
     for trials in whole.trials.values():
         rule, failures = stopping_rule(0.95, 0.9), np.cumsum(~trials.success)

@@ -70,7 +70,8 @@ def written(connections="", binding="", shapes=SHAPES):
 
 
 def flattened(text, shapes):
-    """Connectors and connections of a document, array by array replaced by elements; lines and names of types apart."""
+    """Return connectors and connections of a document, array by array replaced by elements;
+    lines and names of types apart."""
 
     def load(name, element):
         names = {

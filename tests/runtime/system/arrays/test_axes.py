@@ -28,7 +28,7 @@ SITE = '<Frame name="landing site" axes="north west up"/>'
 
 @pytest.fixture(scope="module")
 def loaded():
-    """FMUs of the system, loaded once."""
+    """Return the FMUs of the system, loaded once."""
     return {}
 
 

@@ -70,7 +70,7 @@ def arrival(tmp_path, fmu):
 
 @pytest.fixture
 def packed(tmp_path):
-    """Packs a system of FMUs that are in the folder of the test."""
+    """Return a packer of a system of FMUs in the folder of the test."""
     return lambda *elements, units=UNITS, **more: pack(
         tmp_path / "s.ssp", tmp_path, document(system(*elements, **more), units=units)
     )

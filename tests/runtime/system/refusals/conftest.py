@@ -33,5 +33,5 @@ def refused(tmp_path, capfd, monkeypatch):
 
 @pytest.fixture
 def tiny(tiny_folder):
-    """One flavour is enough: nothing here flies."""
+    """Return one flavour, which is enough: nothing here is simulated."""
     return tiny_folder / "python"

@@ -63,7 +63,7 @@ def truncated(tiny):
 
 
 def scrambled(tiny):
-    """One byte changed inside the compressed data of the largest file."""
+    """Change one byte inside the compressed data of the largest file."""
     data = bytearray((tiny / "ramp.fmu").read_bytes())
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         largest = max(archive.infolist(), key=lambda entry: entry.compress_size)

@@ -54,7 +54,7 @@ def template() -> dict[str, str | bytes]:
 
 
 def python_fmu(folder: Path, name: str, number: float, module: str = "helper", script: str = "") -> Path:
-    """``folder``/name.fmu, whose output is a number of a module that it brings."""
+    """Write ``folder``/name.fmu, whose output is a number of a module that it brings."""
     script = script or f"script_{name}"
     content = {key: file for key, file in template().items() if not key.endswith("_of_template.py")} | {
         f"resources/{module}.py": f"NUMBER = {number}\n",
@@ -65,7 +65,7 @@ def python_fmu(folder: Path, name: str, number: float, module: str = "helper", s
 
 
 def c_fmu(folder: Path, name: str, number: float, shared_name: str) -> Path:
-    """``folder``/name.fmu, a lag whose time constant is a number of a library that it brings."""
+    """Write ``folder``/name.fmu, a lag whose time constant is a number of a library that it brings."""
     sources = folder / f"of_{name}"
     sources.mkdir()
     (sources / "helper.c").write_text(f"double helper_number(void) {{ return {number}; }}\n")

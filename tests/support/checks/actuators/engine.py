@@ -13,7 +13,7 @@ TIME = STEP * np.arange(ROWS)
 
 
 def leave_dead_band(thrust, low, high, full):
-    """Thrust above ``high`` in full, and in between where the last one outside of the band was that."""
+    """Return thrust above ``high`` in full, and in between where the last one outside of the band was that."""
     outside = (thrust < low) | (thrust > high)
     last = np.maximum.accumulate(np.where(outside, np.arange(len(thrust)), 0))
     return np.where(thrust[last] > high, full, thrust)

@@ -49,19 +49,20 @@ def momentum(angles):
 
 
 def pairs(angles):
-    """u and v of the distribution law, the momentum of each pair along x over its maximum, and these maxima."""
+    """Return u and v of the distribution law, the momentum of each pair along x over its maximum, and these maxima."""
     c, s = np.cos(angles), np.sin(angles)
     maxima = np.sqrt(4.0 - np.array([s[0] + s[1], s[2] + s[3]]) ** 2)
     return np.array([c[0] + c[1], c[2] + c[3]]) / maxima, maxima
 
 
 def derivative(function, angles):
-    """By complex steps, a column for each angle."""
+    """Differentiate by complex steps, a column for each angle."""
     return np.transpose([function(angles + 1e-30j * e).imag / 1e-30 for e in np.eye(4)])
 
 
 def gyro_steering_explicit():
-    """Four linear equations: the momentum's derivative, and that of the law f = u - v + rho (u v - 1), f' = -gain f.
+    """Solve four linear equations: the momentum's derivative, and that of the law f = u - v + rho (u v - 1), f' = -gain
+    f.
 
     Near singular states of the law the pseudo-inverse W A' (A W A' + k E)^-1 in matrices; the phases in E are the
     block's. The last row has a torque that counts as no number.

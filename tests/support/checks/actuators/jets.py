@@ -10,7 +10,7 @@ CORNERS = np.array([[x, y, z] for x in (1.0, -1.0) for y in (1.0, -1.0) for z in
 
 
 def jets():
-    """B: force and torque of 1 N of each jet, whose nozzle points outwards."""
+    """Return B: force and torque of 1 N of each jet, whose nozzle points outwards."""
     nozzle = np.array([np.cos(TILT) * np.cos(AZIMUTH), np.cos(TILT) * np.sin(AZIMUTH), np.sin(TILT)])
     nozzles = CORNERS * nozzle
     return -np.concatenate([nozzles.T, np.cross(CORNERS * ARM, nozzles).T])
@@ -29,7 +29,7 @@ def attainable_part(matrix, wrench, largest):
 
 
 def allocate_jets(allocate):
-    """Wrenches of all sizes at a body that is not turned, each new at its row and put out at once."""
+    """Check wrenches of all sizes at a body that is not turned, each new at its row and put out at once."""
     rows = 25
     wrench = np.random.default_rng(283).normal(0.0, 1.0, (rows, 6)) * np.array([0.7, 0.7, 0.7, 0.06, 0.06, 0.06])
     thrust, scaled = map(np.array, zip(*(allocate(row) for row in wrench), strict=True))

@@ -6,7 +6,8 @@ from tests.support.checks.check import STEP, Check, follow
 
 
 def pulse_allocation():
-    """Demands that are too short, long enough, carried over and beyond the tick: a pulse takes all that is carried."""
+    """Check demands that are too short, long enough, carried over and beyond the tick: a pulse
+    takes all that is carried."""
     rows, level, shortest = 41, np.array([2.0, 4.0, 8.0]), 0.03125
     time = np.random.default_rng(285).normal(0.0, 0.06, (rows, 3))
     demanded = np.round(time * 1024.0) / 1024.0  # s, exact in binary

@@ -12,7 +12,7 @@ AXES = np.array([[1.0, 0.2, 0.5], [-0.3, 1.2, 0.4], [-0.9, -0.2, 0.6], [0.1, -1.
 
 
 def smallest_maximum(u, n):
-    """u + s n with the smallest largest size, over s: a linear programme in s and the size."""
+    """Return u + s n with the smallest largest size, over s: a linear programme in s and the size."""
     rows = np.block([[n[:, None], -np.ones((4, 1))], [-n[:, None], -np.ones((4, 1))]])
     solution = linprog([0.0, 1.0], A_ub=rows, b_ub=np.concatenate([-u, u]), bounds=[(None, None), (0.0, None)])
     return u + solution.x[0] * n
@@ -63,7 +63,7 @@ def check_allocation(truth, distribute):
 
 
 def wheel_allocation_pseudo_inverse():
-    """Smallest squares; null motion to a speed."""
+    """Minimise squares; null motion to a speed."""
     return check_allocation(
         "pseudo-inverse by numpy, null space by scipy",
         lambda u, speeds, n: (u, 2.0 * SPEED * n - speeds),
@@ -71,7 +71,7 @@ def wheel_allocation_pseudo_inverse():
 
 
 def wheel_allocation_minimax():
-    """Smallest maximum of torques, and of speeds with the same momentum."""
+    """Minimise the maximum of torques, and of speeds with the same momentum."""
     return check_allocation(
         "linear programmes by scipy (HiGHS)",
         lambda u, speeds, n: (smallest_maximum(u, n), smallest_maximum(speeds, n) - speeds),

@@ -10,7 +10,7 @@ ROWS = 33
 
 
 def signals():
-    """Bank, angular velocity and reference of all signs."""
+    """Return bank, angular velocity and reference of all signs."""
     time = STEP * np.arange(ROWS)
     w = np.stack([0.1 * np.sin(2.0 * time), 0.03 * np.cos(3.0 * time), 0.02 * np.sin(4.0 * time + 1.0)], axis=1)
     return {
@@ -23,7 +23,7 @@ def signals():
 
 
 def no_control():
-    """No torque, whatever is measured."""
+    """Return no torque, whatever is measured."""
     return Check(
         truth="closed form",
         step=STEP,
@@ -35,7 +35,7 @@ def no_control():
 
 
 def robust_control():
-    """Angular velocity in axes along the velocity, a law for each, and the turn back."""
+    """Compute the angular velocity in axes along the velocity, a law for each, and the turn back."""
     trim, stiffness, damping, sideslip_damping, pitch, limit = -0.3, 0.2, 0.8, 0.25, 0.35, 0.06
     inputs = signals()
     to_velocity = Rotation.from_euler("z", trim)
@@ -65,7 +65,7 @@ def robust_control():
 
 
 def output_feedback():
-    """One matrix over bank and rates against the reference, its gains interpolated by numpy; the turn by scipy.
+    """Apply one matrix over bank and rates against the reference, its gains interpolated by numpy; the turn by scipy.
 
     The dynamic pressure goes from below the first pressure to above the last, the bank once around.
     """

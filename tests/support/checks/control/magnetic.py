@@ -21,7 +21,7 @@ def dipole_of(mode, field, before, momentum, parameters):
 
 
 def magnetic_control():
-    """All modes, changes of them between samples; a weak field, a field and a momentum that are not finite.
+    """Check all modes, changes of them between samples; a weak field, a field and a momentum that are not finite.
 
     A sample every second, one of them late by a cycle; the dipole acts for 0.75 s of each.
     """

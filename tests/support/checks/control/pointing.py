@@ -9,7 +9,7 @@ ROWS = 33
 
 
 def quaternion_feedback():
-    """Errors within and beyond the band of the integral and the limit; quaternions of either sign, any length.
+    """Check errors within and beyond the band of the integral and the limit; quaternions of either sign, any length.
 
     A torque fed forward; off for a while, which clears the integral: the error stays that of the last sample then.
     """

@@ -6,7 +6,8 @@ from tests.support.checks.check import STEP, Check, follow
 
 
 def standard_control():
-    """Hysteresis from the whole record: a relay is closed if no signal since the last beyond y was within y/2.
+    """Derive the hysteresis from the whole record: a relay is closed if no signal since the last beyond y was within
+    y/2.
 
     Signals lie a thousandth off their thresholds, on either side; one error of bank in four is beyond its limit.
     """

@@ -81,7 +81,8 @@ def exact(position, velocity, memory):
 
 
 def analytic_exact_guidance():
-    """Braking with a sample of least effort; least effort that becomes braking; a time that is up; each to its end.
+    """Check braking with a sample of least effort; least effort that becomes braking; a time that is up; each to its
+    end.
 
     Then a start that braking would take too long, which keeps to least effort, and one that is two cycles long.
     """

@@ -129,7 +129,7 @@ def robust(position, velocity, memory):
 
 
 def astar_robust_guidance():
-    """Braking along x, braking along -x, least effort from rest: each to its end, with a long last burn.
+    """Check braking along x, braking along -x, least effort from rest: each to its end, with a long last burn.
 
     Then braking with a tenth of the thrust along x.
     """

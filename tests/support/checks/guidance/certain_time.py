@@ -19,7 +19,7 @@ AGREEMENT, ENDING, CHASE = 0.05, 5.0, 1.5
 
 
 def effort_slope(position, velocity):
-    """T^4 times the derivative by T of the integral of |a0 + a1 t|^2, which is N/T^3 with a polynomial N."""
+    """Return T^4 times the derivative by T of the integral of |a0 + a1 t|^2, which is N/T^3 with a polynomial N."""
     effort = Polynomial([0.0])
     for impulse, miss in zip(*polynomials(position, velocity), strict=True):
         p, q = impulse - 3.0 * miss, impulse - 2.0 * miss
@@ -36,7 +36,7 @@ def effort_times(position, velocity):
 
 
 def certain_time(position, velocity, memory):
-    """Time-to-go (s), 0 where it is up, and whether it is that of least effort."""
+    """Return time-to-go (s), 0 where it is up, and True if it is that of least effort."""
     balance = balance_polynomial(position, velocity, 3)
     falling = (
         [] if balance.coef[0] == 0.0 else [T for T in balance_roots(position, velocity, 3) if balance.deriv()(T) < 0.0]
@@ -61,7 +61,7 @@ def certain_time(position, velocity, memory):
 
 
 def mean_size(a0, a1, time, last_burn):
-    """|a0 + a1 t| of the mean over the burn that a command is for."""
+    """Return |a0 + a1 t| of the mean over the burn of a command."""
     return np.linalg.norm(a0 + 0.5 * (time if time <= last_burn else STEP) * a1)
 
 

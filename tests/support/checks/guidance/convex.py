@@ -38,7 +38,7 @@ def descent_of(position, velocity):
 
 
 def costs_more_with_time(descent, time):
-    """There is a path, and with more time it takes more."""
+    """Return True if there is a path, and with more time it takes more."""
     path = settle(descent, time, 2)
     if path is None:
         return False
@@ -69,7 +69,7 @@ def plan_of(position, velocity):
 
 
 def state_at(path, time):
-    """Position and velocity of a path, thrust constant over intervals and gravity all along."""
+    """Return position and velocity of a path, thrust constant over intervals and gravity all along."""
     step = path.time / INTERVALS
     k = min(int(time / step), INTERVALS - 1)
     since = time - k * step
@@ -78,7 +78,7 @@ def state_at(path, time):
 
 
 def mean_thrust(path, time):
-    """Mean thrust acceleration over the cycle from ``time`` on."""
+    """Return mean thrust acceleration over the cycle from ``time`` on."""
     edges = path.time / INTERVALS * np.arange(INTERVALS + 1)
     overlap = np.clip(edges[1:], time, time + STEP) - np.clip(edges[:-1], time, time + STEP)
     return overlap @ path.thrust / STEP
@@ -118,7 +118,8 @@ def flight_along(position, velocity, seed, samples):
 
 
 def convex_guidance():
-    """No time at the target itself; a braking flight up to 20 s before its end; and one from below the glide slope."""
+    """Check no time at the target itself; a braking flight up to 20 s before its end; and one
+    from below the glide slope."""
     start = declared_state([0.3, 0.8, 0.5, 0.5, 0.6, 0.9])
     low = start[0] - 5000.0 * UP, start[1] * np.array([1.0, 1.0, 0.0])
     flights = [[(TARGET, np.zeros(3))], flight_along(*start, 41, 21), flight_along(*low, 42, 6)]

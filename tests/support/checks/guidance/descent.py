@@ -30,7 +30,7 @@ def leg_of(position, velocity):
 
 
 def effort_time(position, velocity, weight=0.0):
-    """Time of least effort and ``weight`` times the time; 0 at the target."""
+    """Return time of least effort and ``weight`` times the time; 0 at the target."""
     slope = effort_slope(position, velocity) + Polynomial([0.0, 0.0, 0.0, 0.0, 2.0 * weight])
     if not slope.coef[:3].any():
         return 0.0
@@ -38,7 +38,7 @@ def effort_time(position, velocity, weight=0.0):
 
 
 def first_time(position, velocity):
-    """Time of about constant thrust where that brakes, else of least effort."""
+    """Return time of about constant thrust where that brakes, else of least effort."""
     balance = balance_polynomial(position, velocity, 3)
     roots = balance_roots(position, velocity, 3) if balance.coef[0] != 0.0 else []
     falling = [root for root in roots if balance.deriv()(root) < 0.0]
@@ -55,7 +55,7 @@ def glide_margin(position, slope):
 
 
 def command(leg, time, shape):
-    """Size of Simpson's mean over the burn, direction now, and its mean rate across."""
+    """Return size of Simpson's mean over the burn, direction now, and its mean rate across."""
     span = time if time <= HOLD else STEP
     now, middle, end = leg.thrust(time, shape, 1.0 - np.array([0.0, 0.5, 1.0]) * span / time)
     direction = now / np.linalg.norm(now)

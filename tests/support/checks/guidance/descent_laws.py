@@ -35,14 +35,14 @@ NOWHERE = (TARGET, np.zeros(3))  # at rest at the target
 
 
 def braking(seed, fractions=(0.7, 0.2, 0.4, 0.1, 0.5, 0.3), rows=None, fraction=1e-3):
-    """Rows of a flight of the published box, whose errors make the thrust short on the way."""
+    """Return rows of a flight of the published box, whose errors make the thrust short on the way."""
     start = declared_state(fractions)
     path = list(zip(*disturb(path_of(*start, balance_roots(*start, 3)[-1]), seed, fraction), strict=True))
     return [*path, path[-1], path[-1]][:rows]
 
 
 def near(seed, rows=6):
-    """Rows of a flight that begins level with the target."""
+    """Return rows of a flight that begins level with the target."""
     start = TARGET + np.array([2000.0, 300.0, 400.0]), np.array([-20.0, 5.0, -10.0])
     return list(zip(*disturb(path_of(*start, effort_time(*start)), seed), strict=True))[:rows]
 
@@ -173,7 +173,7 @@ def gravity_turn_guidance():
 
 
 def powered_guidance():
-    """Constant thrust from the equations it meets, then ZEM/ZEV; more thrust than there is, and a hovering start.
+    """Check constant thrust from its equations, then ZEM/ZEV; excessive thrust, and a hovering start.
 
     The truth is the solution; three iterations in a cycle as long as 8 s stop 1e-3 before it.
     """

@@ -43,14 +43,14 @@ class Leg:
 
 
 def ramp(size):
-    """Jerks and durations of a growing rate."""
+    """Return jerks and durations of a growing rate."""
     bend = min(np.sqrt(size / JERK), ACCELERATION / JERK)
     flat = size / (JERK * bend) - bend
     return [JERK, 0.0, -JERK], [bend, flat, bend]
 
 
 def seven_arcs(axis, angle, rate, acceleration, jerk):
-    """Seven arcs of constant jerk, all of them with a duration."""
+    """Return seven arcs of constant jerk, all of them with a duration."""
     bend, flat = acceleration / jerk, rate / acceleration - acceleration / jerk
     coast = angle / rate - rate / acceleration - acceleration / jerk
     assert min(flat, coast) > 0.0
@@ -72,7 +72,7 @@ def slew_jerk_limited():
     ends = BEGIN + np.cumsum([stop.duration, middle.duration, spin.duration])
 
     def motion(time):
-        """Attitude and angular velocity."""
+        """Return attitude and angular velocity."""
         if time <= BEGIN:
             return START * Rotation.from_rotvec(time * FIRST), FIRST
         if time >= ends[-1]:

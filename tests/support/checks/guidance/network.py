@@ -14,7 +14,8 @@ RADIUS, HANDOVER, SPECIFIC_IMPULSE, CONTROL_ALTITUDES = 1.7384e6, 5.9, 319.0, (1
 
 
 def descent():
-    """Rows of local vertical, altitude, velocity, mass and active: two flights, the second slow across the vertical."""
+    """Return rows of local vertical, altitude, velocity, mass and active: two flights, the
+    second slow across the vertical."""
     random, rows = np.random.default_rng(29), 40
     up = Rotation.from_rotvec(random.uniform(-0.2, 0.2, (rows, 3))).apply([0.0, 0.0, 1.0])
     altitude = np.linspace(18148.0, 1700.0, rows).round(1)
@@ -63,7 +64,7 @@ def network_operator_guidance():
     speed, exhaust = np.linalg.norm(velocity, axis=1), STANDARD_GRAVITY * SPECIFIC_IMPULSE
 
     def braking_time(row):
-        """When the rocket equation has taken all but the speed of the hand-over."""
+        """Return the time at which the rocket equation has taken all but the speed of the hand-over."""
         flow = (NOMINAL + above[row]) / exhaust
         if speed[row] <= HANDOVER:
             return 0.0

@@ -17,7 +17,7 @@ EDGES = {
 
 
 def planar_network_operator():
-    """All operations; replacing any of them by another one shows in the commands."""
+    """Check all operations; replacing any of them by another one shows in the commands."""
     q, reference, final, variation = [1.5, -0.75, 2.5], 18148.0, 1500.0, 60.0
     random = np.random.default_rng(28)
     angles = np.concatenate([random.uniform(-3.0, 0.5, 37).round(3), [0.0, -1.5, -1.6]])

@@ -13,7 +13,7 @@ NO_ORBIT, NO_COUNT, ALONG, FALLING = range(4), range(12, 37), range(50, 53), ran
 
 
 def oblate_acceleration(r):
-    """Gradient of the potential of J2, (mu/r) (R/r)^2 J2 (1 - 3 sin^2)/2, by complex steps."""
+    """Return the gradient of the potential of J2, (mu/r) (R/r)^2 J2 (1 - 3 sin^2)/2, by complex steps."""
 
     def potential(x):
         square = x @ x
@@ -24,7 +24,7 @@ def oblate_acceleration(r):
 
 
 def nadir(r, v, offset):
-    """Attitude, angular velocity and acceleration in reference axes."""
+    """Return attitude, angular velocity and acceleration in reference axes."""
     normal = np.cross(r, v)
     z, y = -r / np.linalg.norm(r), -normal / np.linalg.norm(normal)
     attitude = Rotation.from_matrix(np.column_stack([np.cross(y, z), y, z])) * offset
@@ -33,7 +33,7 @@ def nadir(r, v, offset):
 
 
 def carry(r, v, h):
-    """Under the gravity of a point, by the rule of the block's page."""
+    """Move under the gravity of a point, by the rule of the block's page."""
     g = -MU * r / np.linalg.norm(r) ** 3
     return r + h * v + 0.5 * h * h * g, v + h * g
 
@@ -54,7 +54,7 @@ def orbit_samples():
 
 
 def pointing_guidance():
-    """All modes and statuses: an old orbit, the Sun along the orbit normal, a fall, no orbit at first."""
+    """Check all modes and statuses: an old orbit, the Sun along the orbit normal, a fall, no orbit at first."""
     r, v, sampled_at, count = orbit_samples()
     sun = np.tile([0.3, -0.7, 0.55], (ROWS, 1)) + 0.01 * np.arange(ROWS)[:, None]
     sun[ALONG] = -2.0 * np.cross(r[ALONG], v[ALONG])

@@ -37,7 +37,7 @@ def balanced_acceleration():
 
 
 def motion(time):
-    """Position and velocity of the plan, an array of (2, times, 3)."""
+    """Return position and velocity of the plan, an array of (2, times, 3)."""
     acceleration, t = balanced_acceleration(), np.asarray(time)[:, None]
     spline, since = approach(acceleration), np.minimum(t, TURN_START)
     coasting = since * acceleration
@@ -48,7 +48,7 @@ def motion(time):
 
 
 def turn(time):
-    """Quaternion, angular velocity and, half an attitude period later, angular acceleration of the plan."""
+    """Return quaternion, angular velocity and, half an attitude period later, angular acceleration of the plan."""
     axis = np.cross([1.0, 0.0, 0.0], SPIN)
     axis, angle = axis / np.linalg.norm(axis), np.arccos(SPIN[0] / np.linalg.norm(SPIN))
     duration = TURN_END - TURN_START
@@ -61,7 +61,7 @@ def turn(time):
 
 
 def rendezvous_guidance():
-    """All four phases; slow ticks every third fast period, the last of them cut short by the end of the turn."""
+    """Check all four phases; slow ticks every third fast period, the last of them cut short by the end of the turn."""
     time = STEP * np.arange(ROWS)
     slow = 3.0 * FAST
     first_fast = FAST * np.ceil(TURN_END / FAST)

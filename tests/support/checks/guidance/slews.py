@@ -50,7 +50,7 @@ def check_slew(truth, angle, duration):
 
 
 def slew_bang_coast():
-    """By its knees: the angle and the rate at each of them."""
+    """Interpolate the slew by its knees: the angle and the rate at each of them."""
     ramp = RATE / ACCELERATION
     duration = ANGLE / RATE + ramp
     assert duration > 2.0 * ramp
@@ -61,7 +61,7 @@ def slew_bang_coast():
 
 
 def slew_quintic():
-    """By its ends, at rest without acceleration; its largest rate and acceleration by search."""
+    """Interpolate the slew by its ends, at rest without acceleration; its largest rate and acceleration by search."""
     unit_slew = BPoly.from_derivatives([0.0, 1.0], [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
     s = np.linspace(0.0, 1.0, 100001)
     fastest, hardest = unit_slew.derivative()(s).max(), unit_slew.derivative(2)(s).max()
@@ -71,7 +71,7 @@ def slew_quintic():
 
 
 def slew_step():
-    """At once."""
+    """Turn at once."""
     angle = BPoly.from_derivatives([0.0, 1e-12], [[0.0], [ANGLE]])
     check = check_slew("rotations by scipy", angle, 0.0)
     time = STEP * np.arange(ROWS) - BEGIN

@@ -39,7 +39,8 @@ class Solution:
 
 
 def path_of(position, velocity, time, step=STEP):
-    """Positions and velocities every step under the thrust a0 + a1 t that arrives after ``time``, to before the end."""
+    """Return positions and velocities every step under the thrust a0 + a1 t that arrives after
+    ``time``, to before the end."""
     a0, a1 = linear_thrust(position, velocity, time)
     t = step * np.arange(int(time / step) + 1)[:, None]
     fall = GRAVITY * UP

@@ -16,7 +16,7 @@ from tests.support.checks.navigation.chains import (
 
 
 def sine_error(planned, actual):
-    """Axis times sine of the angle from one attitude to another."""
+    """Return axis times sine of the angle from one attitude to another."""
     rotation = (planned.inv() * actual).as_rotvec()
     angle = np.linalg.norm(rotation)
     return np.sinc(angle / np.pi) * rotation

@@ -24,7 +24,7 @@ def true_attitude(time):
 
 
 def motion():
-    """Attitude, angular velocity, samples of both sensors and their counts."""
+    """Return attitude, angular velocity, samples of both sensors and their counts."""
     random = np.random.default_rng(47)
     rate = np.tile(RATE, (ROWS, 1))
     stars = true_attitude(STAR_TIME) * Rotation.from_rotvec(random.normal(0.0, 2e-3, (ROWS, 3)))
@@ -55,7 +55,8 @@ def check_navigation(truth, outputs, stars, gyros, parameters, tolerances, **inp
 
 
 def directions():
-    """Inertial directions of Sun and field, samples of both in body axes and their counts; one far off, one missing."""
+    """Return inertial directions of Sun and field, samples of both in body axes and their
+    counts; one far off, one missing."""
     random = np.random.default_rng(53)
     to_body = true_attitude(TIME + STEP).inv()
     sun, field = np.tile([0.6, -0.5, 0.7], (ROWS, 1)), 3e-5 * np.sin(0.1 * TIME[:, None] + np.array([0.5, 2.0, 4.0]))
@@ -191,7 +192,7 @@ def attitude_navigation_ideal():
 
 
 def pointing_monitor():
-    """Rotation vectors by scipy; two spells of pointing, the second of them long enough."""
+    """Compute rotation vectors by scipy; two spells of pointing, the second of them long enough."""
     target = Rotation.from_rotvec([0.4, -0.9, 0.7])
     off = 0.02 * np.exp(-0.6 * TIME) + np.where((TIME > 2.2) & (TIME < 2.7), 0.02, 0.0)
     true = target * Rotation.from_rotvec(np.outer(off, [0.6, 0.0, 0.8]))

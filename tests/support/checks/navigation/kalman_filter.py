@@ -45,7 +45,8 @@ def with_blocks(blocks):
 
 
 def transition(force, up, distance, free):
-    """F and Q over a step: half a step's drift, a kick of the velocity by gravity and sensor errors, the other half."""
+    """Return F and Q over a step: half a step's drift, a kick of the velocity by gravity and
+    sensor errors, the other half."""
     gradient = MU / distance**3 * (3.0 * np.outer(up, up) - np.eye(3))
     drift = with_blocks({(0, 1): STEP / 2.0 * np.eye(3)})
     # of bias, scale factors and rotation w: w x f = -f x w
@@ -68,7 +69,7 @@ class Filter:
         self.grown = False
 
     def vertical(self):
-        """Up, and distance from the Moon's centre."""
+        """Return up, and distance from the Moon's centre."""
         distance = np.linalg.norm(self.x[:3] - CENTRE)
         return (self.x[:3] - CENTRE) / distance, distance
 

@@ -31,7 +31,8 @@ WRONG = {  # by sensor and row: how much a sample is wrong by
 
 
 def mean_forces(increments, new, free):
-    """Specific force of each step from what was gained until its end: measured, or as before since the last sample."""
+    """Return the specific force of each step from the gain until its end: measured, or as before since the last
+    sample."""
     gained, anchor, slope = [np.zeros(3)], (0.0, np.zeros(3)), np.zeros(3)
     for row, end in enumerate(TIME[1:]):
         if free[row]:

@@ -18,7 +18,7 @@ from tests.support.checks.navigation.lunar_flight import (
 
 
 def coloured_navigation():
-    """Gauss-Markov errors, summed from all their past, and white ones."""
+    """Sum Gauss-Markov errors from all their past, and add white ones."""
     position, velocity = truth_of_flight()
     sigma, lag, white = np.repeat([30.0, 0.4], 3), 2.5, 0.4
     numbers = Numbers(SEED, STREAM).normal(ROWS, 2, 6)

@@ -10,7 +10,7 @@ CLOSING_RANGE, CONE = 40.0, 2.15  # the robot is within the cone later only
 
 
 def estimate_monitor():
-    """Errors over their covariance by numpy."""
+    """Compute errors over their covariance by numpy."""
     random = np.random.default_rng(30)
     position, velocity = truth_of_flight()
     sigma = np.array([10.0, 8.0, 6.0, 0.5, 0.4, 0.3])
@@ -44,7 +44,7 @@ def estimate_monitor():
 
 
 def rendezvous_monitor():
-    """Rotation vector and modified Rodrigues parameters by scipy."""
+    """Compute rotation vector and modified Rodrigues parameters by scipy."""
     robot = 5.0 * np.sin(0.4 * TIME[:, None] + np.array([0.0, 1.0, 2.0]))
     target = np.array([40.0, 10.0, -5.0]) + np.outer(TIME, [0.3, -0.2, 0.1])
     drift = np.array([-0.6, 0.3, 0.9]) + 0.1 * np.sin(0.5 * TIME[:, None] + np.array([0.0, 1.0, 2.0]))

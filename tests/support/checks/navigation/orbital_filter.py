@@ -40,7 +40,7 @@ class AttitudeKalman:
         self.filter.x = ahead
 
     def step(self, sample, pulses, torque=0.0):
-        """Over a tick with pulses (s) and a constant torque (N m), to a sample."""
+        """Step over a tick with pulses (s) and a constant torque (N m), to a sample."""
         pulses, measured = np.array(pulses), np.array(sample[2])
         gained = np.linalg.solve(INERTIA, JET_TORQUE * pulses + torque * self.tick)
         coning = JET_TORQUE * pulses * (self.tick - np.abs(pulses)) / (2.0 * self.tick)
@@ -52,7 +52,7 @@ class AttitudeKalman:
         self.before = measured
 
     def coast(self, carried):
-        """Over a tick without a sample, to the angles and rates of the motion."""
+        """Coast over a tick without a sample, to the angles and rates of the motion."""
         self.advance((self.rates + carried[3:]) / 2.0)
         self.filter.x[:3], self.rates = carried[:3], carried[3:]
 

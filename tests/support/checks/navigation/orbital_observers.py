@@ -30,7 +30,7 @@ def check_poles(closed, yaw, measured):
 
 
 def orbital_observer_continuous():
-    """With slow poles: one step of a method of fourth order is the exact solution to 3e-9 rad of yaw.
+    """Check slow poles: one step of a method of fourth order is the exact solution to 3e-9 rad of yaw.
 
     A sample is taken in over the tick that begins with it; where the next one is missing it stays, pulse by pulse.
     """
@@ -61,7 +61,7 @@ def orbital_observer_continuous():
 
 
 def orbital_observer_discrete():
-    """Pulse by pulse."""
+    """Check pulse by pulse."""
     samples = Samples(3e-3, 1e-4)
     ahead = expm(STEP * derivatives_of(rates_of, WANTED))
     seen = C @ ahead @ YAW
@@ -80,7 +80,8 @@ def orbital_observer_discrete():
 
 
 def orbital_observer_continuous_reduced():
-    """z' = f - pole z by the exponential of a matrix; f is what the motion says of yaw - l roll, but for -pole z."""
+    """Integrate z' = f - pole z by the exponential of a matrix; f is the motion's derivative of
+    yaw - l roll, but for -pole z."""
     pole = 0.25
     samples = Samples(2e-4, 1e-5)
     slope = -pole / ORBITAL_RATE
@@ -98,7 +99,7 @@ def orbital_observer_continuous_reduced():
 
 
 def orbital_observer_discrete_reduced():
-    """Under the mean torque: yaw of the motion, less what roll then is ahead of its sample."""
+    """Check under the mean torque: yaw of the motion, less roll's lead over its sample."""
     pole = 0.25
     samples = Samples(2e-4, 1e-5)
 
@@ -112,7 +113,7 @@ def orbital_observer_discrete_reduced():
 
 
 def orbital_sequence():
-    """All three stages; the roll rate is integrated over all its good samples at once."""
+    """Check all three stages; the roll rate is integrated over all its good samples at once."""
     levelling, averaging = 0.8, 2.09  # s; no multiples of a tick
     samples = Samples(5e-7, 1e-6)
     ticks = 1 + np.arange(ROWS)

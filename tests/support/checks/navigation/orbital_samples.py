@@ -55,17 +55,17 @@ class Samples:
         }
 
     def state(self, row, yaw):
-        """As measured, with a yaw."""
+        """Return the state as measured, with a yaw."""
         return np.insert(self.measured[row], 1, yaw)
 
     def torque_at(self, row, time, split):
-        """Torque (N m) of a tick: pulses each as it is or all in the mean, and the constant rest."""
+        """Return torque (N m) of a tick: pulses each as it is or all in the mean, and the constant rest."""
         pulses = self.pulses[row]
         lengths = np.where(time < np.abs(pulses), np.sign(pulses), 0.0) if split else pulses / STEP
         return JET_TORQUE * lengths + self.torque[row]
 
     def carry(self, row, state, split):
-        """(angles, w) a tick later by DOP853."""
+        """Return (angles, w) a tick later by DOP853."""
         cuts = np.abs(self.pulses[row]) if split else ()
         angles, w = flown(state[:3], state[3:], [STEP], lambda time: self.torque_at(row, time, split), cuts)
         return np.concatenate([angles[0], w[0]])

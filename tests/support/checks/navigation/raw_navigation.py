@@ -20,7 +20,7 @@ from tests.support.checks.navigation.lunar_flight import (
 
 
 def raw_navigation():
-    """Dead reckoning as documented, with an altitude, a velocity and a position put in."""
+    """Compute dead reckoning as documented, with an altitude, a velocity and a position put in."""
     position, velocity = truth_of_flight()
     increment = STEP * (np.array([3.0, -0.5, 2.6]) + 0.3 * np.sin(TIME[:, None] + np.array([0.0, 1.0, 2.0])))
     altitude_row, velocity_row, position_row = 8, 16, 24

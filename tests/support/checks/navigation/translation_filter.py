@@ -16,7 +16,7 @@ from tests.support.checks.navigation.chains import (
 
 
 def translation_filter():
-    """From far to near, under jets that push while the robot turns; one sample is not finite."""
+    """Check from far to near, under jets that push while the robot turns; one sample is not finite."""
     random = np.random.default_rng(33)
     mass, far, near, near_range = 950.0, 0.03, 0.012, 60.0
     noise, force_error, error_time, velocity_sigma = 1e-7, 0.05, 8.0, 0.05

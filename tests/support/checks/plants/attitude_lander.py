@@ -13,7 +13,7 @@ DRY_MASS, EXHAUST, LAG, FACTOR, LARGEST, PROBE = 558.5, 310.0 * STANDARD_GRAVITY
 
 
 def split(y):
-    """Position, velocity, mass and thrust, axis, angular rate, sensed velocity."""
+    """Return position, velocity, mass and thrust, axis, angular rate, sensed velocity."""
     return np.split(y, [3, 6, 8, 11, 14])
 
 
@@ -22,7 +22,7 @@ def altitude(position):
 
 
 def slope(t, y, command, acceleration):
-    """y' under a command (N) and an angular acceleration (rad/s2), in matrices that project across the axis."""
+    """Return y' under a command (N) and an angular acceleration (rad/s2), in matrices that project across the axis."""
     position, velocity, (mass, thrust), axis, rate, _ = split(y)
     turning = (np.eye(3) - np.outer(axis, axis)) @ acceleration
     turning = turning * min(1.0, LARGEST / np.linalg.norm(turning))

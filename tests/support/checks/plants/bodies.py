@@ -14,7 +14,7 @@ from tests.support.flights.orbital_motion import DEGREE, JET_TORQUE, flown
 
 
 def orbital_spacecraft():
-    """Direction cosines in inertial axes, from one end of a pulse to the next."""
+    """Integrate direction cosines in inertial axes, from one end of a pulse to the next."""
     start, rate, rows = [3.0 * DEGREE, 17.0 * DEGREE, -5.0 * DEGREE], [0.01 * DEGREE, -0.02 * DEGREE, 0.0], 33
     pulses = np.random.default_rng(28).uniform(-0.18, 0.18, (rows, 3)).clip(-STEP, STEP)
     pulses[np.abs(pulses) < 0.03] = 0.0
@@ -42,7 +42,7 @@ def orbital_spacecraft():
 
 
 def entry_capsule():
-    """Cartesian inertial axes and a quaternion, with tables of coefficients of the check's own."""
+    """Integrate Cartesian inertial axes and a quaternion, with tables of coefficients of the check's own."""
     machs, angles, rows = (
         np.array([1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 30.0]),
         np.radians(5.0 * np.arange(13)),
@@ -87,7 +87,7 @@ def entry_capsule():
 
 
 def free_flying_robot():
-    """Euler's equations with the torque of the gyros written out."""
+    """Integrate Euler's equations with the torque of the gyros written out."""
     inertia, mass, rotor, rows = np.array([812.0, 587.0, 910.0]), 1000.0, 30.0, 33
     tilt, diagonal = math.radians(35.25), math.sqrt(0.5)
     signs = np.array(list(itertools.product([1.0, -1.0], repeat=3)))

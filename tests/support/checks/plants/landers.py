@@ -50,7 +50,7 @@ def flat_moon_lander():
 
 
 def planar_moon_lander():
-    """V, th, h, central angle, mass and load factor as published, with the turn of the vertical."""
+    """Integrate V, th, h, central angle, mass and load factor as published, with the turn of the vertical."""
     gravity, radius, specific_impulse, rows = 1.623, 1.7384e6, 310.0, 33
     start = [1650.0, -1.5, 17000.0, 0.02, 900.0]
     time = STEP * np.arange(rows)
@@ -85,7 +85,8 @@ def planar_moon_lander():
 
 
 def spherical_moon_lander():
-    """Central gravity, an engine with a lag, an attitude that turns no faster than a limit, a burn that ends."""
+    """Integrate central gravity, an engine with a lag, an attitude that turns no faster than a limit, a burn that
+    ends."""
     radius, mu, exhaust, lag, response, limit, rows = 1.7374e6, 4.9028e12, 319.0 * STANDARD_GRAVITY, 0.2, 0.5, 0.2, 33
     start, mass, duration = np.array([266731.0, 3000.0, -2233.0, -1676.0, 20.0, 208.0]), 920.0, 2.0625
     centre = np.array([0.0, 0.0, -radius])

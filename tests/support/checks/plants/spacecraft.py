@@ -106,7 +106,8 @@ def slope_of(motors, dipole, force, torque, external):
 
 
 def spacecraft():
-    """All that acts at once, in the half-shadow: two modes among four, wheels within their band of friction and not."""
+    """Check all effects at once, in the half-shadow: two modes among four, wheels within their
+    band of friction and not."""
     random = np.random.default_rng(57)
     change = lambda size, scale: np.repeat(random.uniform(-scale, scale, (5, size)), 8, axis=0)[:ROWS]  # noqa: E731
     commands, dipole, force = change(4, 8e-3), change(3, 5.0), change(3, 0.02)

@@ -8,9 +8,10 @@ from tests.support.checks.vectors import unit
 
 
 def wheel_satellite():
-    """Wheels in a skewed array with friction on both sides of its band, one weak motor, torques of both kinds.
+    """Integrate wheels in a skewed array with friction on both sides of its band, one weak motor, torques of both
+    kinds.
 
-    (I - sum Js g g') w' = -w x (I w + sum Js W g) - sum us g + L,  W' = us/Js - g.w'.
+    (I - sum Js g g') w' = -w x (I w + sum Js W g) - sum us g + L, W' = us/Js - g.w'.
     """
     inertia, spin, rows = np.array([[12.0, -0.7, 0.3], [-0.7, 9.0, 0.5], [0.3, 0.5, 7.0]]), 0.4, 33
     axes = np.array([[1.0, 0.2, 0.5], [-0.3, 1.2, 0.4], [-0.9, -0.2, 0.6], [0.1, -1.0, 0.8]])

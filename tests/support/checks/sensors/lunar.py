@@ -21,7 +21,7 @@ MOON_RADIUS = 1.7374e6
 
 
 def descent():
-    """Position and velocity down through the limits of all lunar sensors, tens of km from the site."""
+    """Return position and velocity down through the limits of all lunar sensors, tens of km from the site."""
     position = np.array([4.0e4, -5.0e3, 5.0e3]) + np.outer(TIME, [-900.0, 100.0, -1500.0])
     return position, np.tile([-900.0, 100.0, -1500.0], (ROWS, 1)) + wave(20.0, 0.0, 1.0, 2.0)
 
@@ -31,7 +31,7 @@ def altitudes(position):
 
 
 def radar_altimeter():
-    """Altitude above a sphere, below a limit."""
+    """Measure the altitude above a sphere, below a limit."""
     position, _ = descent()
     altitude = altitudes(sampled(position))
     measured = altitude + (0.005 * np.abs(altitude) + 2.0) * Numbers(SEED, STREAM).normal(SAMPLES)
@@ -47,7 +47,7 @@ def radar_altimeter():
 
 
 def terrain_camera():
-    """Position within a band of altitudes."""
+    """Measure the position within a band of altitudes."""
     position, _ = descent()
     seen = sampled(position)
     altitude = altitudes(seen)
@@ -67,7 +67,7 @@ def terrain_camera():
 
 
 def doppler_velocimeter():
-    """Velocity below a limit of altitude, with errors that grow with speed."""
+    """Measure the velocity below a limit of altitude, with errors that grow with speed."""
     position, velocity = descent()
     seen = sampled(velocity)
     sigma = 0.003 * np.linalg.norm(seen, axis=1) + 0.1
@@ -85,7 +85,7 @@ def doppler_velocimeter():
 
 
 def inertial_sensor():
-    """Increments through a matrix of scale factors and misalignment, with bias and random walk."""
+    """Measure increments through a matrix of scale factors and misalignment, with bias and random walk."""
     sensed = np.outer(TIME, [1.5, -0.3, 2.5]) + wave(1.0, 0.0, 1.0, 2.0)
     bias_sigma, scale_sigma, turn_sigma, walk, period = 0.01, 0.003, 0.02, 0.005, EVERY * STEP
     numbers = Numbers(SEED, STREAM)

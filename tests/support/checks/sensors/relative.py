@@ -39,7 +39,7 @@ def attitude_sensor():
 
 
 def bank_sensor():
-    """Bias and white error."""
+    """Add bias and white error."""
     bank, bias, sigma = wave(0.8, 0.2)[:, 0], -0.01, 0.02
     return check_sensor(
         "closed form with exact random numbers",
@@ -51,7 +51,7 @@ def bank_sensor():
 
 
 def infrared_vertical():
-    """Errors of a first-order Gauss-Markov process, summed from all their past."""
+    """Sum errors of a first-order Gauss-Markov process from all their past."""
     angles, bias, sigma, lag = wave(0.1, 0.0, 1.0, 2.0), np.array([0.002, -0.003]), 0.01, 1.5
     fresh = Numbers(SEED, STREAM).normal(SAMPLES, 3)[:, :2]
     ages = np.subtract.outer(np.arange(SAMPLES), np.arange(SAMPLES)) * EVERY * STEP
@@ -68,7 +68,7 @@ def infrared_vertical():
 
 
 def laser_ranger():
-    """Coarse from the limit of range on, fine below."""
+    """Measure coarse from the limit of range on, fine below."""
     robot = wave(3.0, 0.0, 1.0, 2.0) + np.outer(TIME, [9.0, 4.0, -1.0])
     target = np.array([40.0, 10.0, -5.0]) + wave(1.0, 4.0, 5.0, 6.0)
     true = sampled(target - robot)
@@ -85,7 +85,7 @@ def laser_ranger():
 
 
 def planar_state_sensor():
-    """Uniform relative errors."""
+    """Add uniform relative errors."""
     angle, altitude = wave(1.0, 0.3)[:, 0], 2000.0 + 90.0 * TIME
     errors = 2.0 * Numbers(SEED, STREAM).uniform(SAMPLES, 2) - 1.0
     return check_sensor(

@@ -22,7 +22,7 @@ SHAPE = np.array([[2.0, -1.0, 0.5], [0.5, 3.0, -0.2], [1.0, 0.2, -1.0]])
 
 
 def delayed(rows, good, late):
-    """Rows of good samples as they arrive ``late`` samples after they were taken, 0 before, and their count."""
+    """Return rows of good samples as they arrive ``late`` samples after they were taken, 0 before, and their count."""
     arrived = np.concatenate([np.zeros(late, dtype=bool), good[: SAMPLES - late]])
     return keep(np.concatenate([np.zeros_like(rows[:late]), rows[: SAMPLES - late]]), arrived)
 
@@ -36,7 +36,7 @@ def correlated(first, fresh, sigma, lag):
 
 
 def rate_gyros():
-    """All errors at once; a sample has the random walk half way of its step, and arrives a period late."""
+    """Check all errors at once; a sample has the random walk half way of its step, and arrives a period late."""
     velocity, bias, limit, sigma = wave(0.05, 0.0, 1.0, 2.0), np.array([0.001, -0.002, 0.003]), 0.004, 0.002
     numbers, walk, slow, lag = Numbers(SEED, STREAM), 0.003, 0.002, 1.5
     scale, largest, quantum = 0.02 * SHAPE, 0.045, 1e-4
@@ -90,7 +90,7 @@ def star_inertial():
     limits = {"sun_exclusion": 0.3, "moon_exclusion": 0.25, "limb_exclusion": 0.2, "rate_limit": 0.039}
 
     def off(direction):
-        """Angle from the boresight at the samples."""
+        """Return angle from the boresight at the samples."""
         cosine = (sampled(direction) * sampled(aim)).sum(axis=1) / np.linalg.norm(sampled(direction), axis=1)
         return np.arccos(cosine)
 
@@ -161,7 +161,8 @@ def magnetometer():
 
 
 def sun_sensors():
-    """Heads on tilted axes, sunset, the body's light, a field of the fine head, a direction that is not finite."""
+    """Check heads on tilted axes, sunset, the body's light, a field of the fine head, a direction that is not
+    finite."""
     attitude = Rotation.from_euler("zyx", wave(1.2, 0.3, 1.3, 2.9))
     boresight, field, fine_field, threshold = np.array([-1.0, 0.5, 2.0]), 1.3, 0.6, 0.6
     turns = Rotation.from_rotvec(np.outer(0.2 + 0.5 * TIME, [0.6, 0.0, 0.8]))

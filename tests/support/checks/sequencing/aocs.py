@@ -14,7 +14,7 @@ TRANSITIONS = {11: SUN, 20: NADIR, 35: SUN, 40: NADIR, 49: DETUMBLE, 59: SUN, 67
 
 
 def record():
-    """Size of the rate, angle of the panel from the Sun, whether the attitude is known; all as of a row's cycle."""
+    """Return size of the rate, angle of the panel from the Sun, knowledge of the attitude; all as of a row's cycle."""
     rate = np.full(ROWS, 0.3)
     rate[3:6] = 0.99 * CALM  # too short
     rate[7:] = 0.9 * CALM
@@ -32,7 +32,7 @@ def record():
 
 
 def aocs_modes():
-    """Every transition but from SUN for want of an attitude, which is none."""
+    """Check every transition but from SUN for want of an attitude, which is none."""
     random = np.random.default_rng(62)
     rate, angle, known = record()
     panel = np.array([0.36, -0.48, 0.8])

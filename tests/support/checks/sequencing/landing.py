@@ -14,14 +14,14 @@ NUMBERS = np.arange(CYCLES)
 
 
 def latest(changes, before):
-    """By cycle: what has changed last, or what was ``before`` it."""
+    """Return by cycle the last change, or the value ``before`` it."""
     keys = sorted(changes)
     values = np.array([before, *(changes[key] for key in keys)])
     return values[np.searchsorted(keys, NUMBERS, side="right")]
 
 
 def on_sphere(position, height=0.0):
-    """Above the Moon by a height (m), on the vertical of a position."""
+    """Return the point above the Moon by a height (m), on the vertical of a position."""
     return CENTRE + (RADIUS + height) * (position - CENTRE) / np.linalg.norm(position - CENTRE)
 
 
@@ -41,7 +41,8 @@ def sites():
 
 
 def own_command(position, velocity):
-    """By cycle: against the horizontal velocity until the coast is over, upwards from contact on, turning with both."""
+    """Return by cycle the command against the horizontal velocity until the coast is over,
+    upwards from contact on, turning with both."""
     centred = position - CENTRE
     turning = np.cross(centred, velocity) / (centred**2).sum(axis=1)[:, None]
     up = centred / np.linalg.norm(centred, axis=1)[:, None]
@@ -62,12 +63,12 @@ def own_command(position, velocity):
 
 
 def landing_sequencer():
-    """Nine phases and all statuses but two, 8 and 9.
+    """Check nine phases and all statuses but two, 8 and 9.
 
-    The deorbit ignites on time and holds its end. The coast falls, once not to the ground, just short of
-    its range, once not low enough, then for good. The braking waits for a command and for the axis, is without a
-    solution for a while and ends elsewhere. A plan that was not requested and inputs between two cycles do not count.
-    Hover 2 does not settle, the probe does not touch.
+    The deorbit ignites on time and holds its end. The coast falls, once not to the ground, just short of its range,
+    once not low enough, then for good. The braking waits for a command and for the axis, is without a solution for a
+    while and ends elsewhere. A plan that was not requested and inputs between two cycles do not count. Hover 2 does not
+    settle, the probe does not touch.
     """
     site, target = sites()
     phase = np.searchsorted(STARTS, NUMBERS, side="right")

@@ -19,13 +19,15 @@ CENTRE = np.array([0.0, 0.0, -RADIUS])
 
 
 def polar(angle, radius, upwards, forwards, sideways=0.0):
-    """Position and velocity at a central angle towards +x, flying to smaller ones, ``sideways`` of the plane (m)."""
+    """Return position and velocity at a central angle towards +x, flying to smaller ones,
+    ``sideways`` of the plane (m)."""
     up, ahead = np.array([np.sin(angle), 0.0, np.cos(angle)]), np.array([-np.cos(angle), 0.0, np.sin(angle)])
     return CENTRE + radius * up + [0.0, sideways, 0.0], upwards * up + forwards * ahead
 
 
 def deorbit(cycle):
-    """High by 100 km, horizontally as fast as the burn asks for, just before or past the angle to begin it."""
+    """Return a state high by 100 km, horizontally as fast as the burn requests, just before or
+    past the angle to begin it."""
     radius, low, off = RADIUS + 1e5, RADIUS + PERICENTRE, 2e4
     distance = np.hypot(radius, off)
     half_axis = (distance + low) / 2.0
@@ -35,9 +37,9 @@ def deorbit(cycle):
 
 
 def conic(lowest, height, beyond):
-    """Falling through an altitude on an ellipse that comes down to ``lowest`` (m) on the way to the braking range.
+    """Return a fall through an altitude on an ellipse that descends to ``lowest`` (m) on the way to the braking range.
 
-    Its pericentre lies ``beyond`` (rad) the braking range, where the way then ends at its lowest; or before it.
+    Its pericentre is ``beyond`` (rad) the braking range, where the way then ends at its lowest; or before it.
     """
     eccentricity = 0.017
     parameter = (RADIUS + lowest) * (1.0 + eccentricity * np.cos(max(beyond, 0.0)))
@@ -47,7 +49,7 @@ def conic(lowest, height, beyond):
 
 
 def fly_on(cycle, targets):
-    """Position and velocity of each phase; ``targets``: of the hovers, by cycle."""
+    """Return position and velocity of each phase; ``targets``: of the hovers, by cycle."""
     if cycle <= 4:
         return deorbit(cycle)
     if cycle <= 10:

@@ -13,7 +13,8 @@ def unit_vectors(random, rows):
 
 
 def command_switch():
-    """Each source, none, the engine off, a hover plan that is answered two rows late: the last command is held."""
+    """Check each source, none, the engine off, a hover plan that is answered two rows late: the last command is
+    held."""
     random = np.random.default_rng(281)
     source = np.array([0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 3, 3, 1, 1, 0, 0, 2, 2])
     hover_plan = np.where(np.arange(len(source)) < 9, PLAN - 1, PLAN)
@@ -64,7 +65,7 @@ def command_switch():
 
 
 def flight_monitor():
-    """Slow above the band and fast in it are no hand-over; the ground comes after the hand-over."""
+    """Check that slow above the band and fast in it are no hand-over; the ground comes after the hand-over."""
     altitude = np.array([900.0, 800.0, 700.0, 600.0, 500.0, 450.0, 400.0, 300.0, 100.0, 0.0, 5.0, 5.0])
     speed = np.array([20.0, 4.0, 4.0, 20.0, 5.0, 4.5, 20.0, 2.0, 2.0, 2.0, 2.0, 2.0])
     handed_over = np.logical_or.accumulate((speed < 5.0) & (altitude >= 400.0) & (altitude <= 650.0))

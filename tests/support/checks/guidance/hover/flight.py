@@ -55,7 +55,7 @@ PLANS = (
 
 
 def sample_times(count):
-    """When the samples are taken: at multiples of the cycle, moved to the later communication point."""
+    """Return the times of the samples: at multiples of the cycle, moved to the later communication point."""
     return STEP * np.ceil(CYCLE * np.arange(count) / STEP)
 
 
@@ -88,7 +88,7 @@ def see(law, plan, number, time, elapsed, random):
 
 
 def hover_guidance():
-    """Every mode, kind of plan and status."""
+    """Check every mode, kind of plan and status."""
     samples = [(plan, number) for plan in PLANS for number in range(plan[2])]
     times = sample_times(len(samples))
     elapsed = np.diff(times, prepend=-CYCLE)

@@ -51,7 +51,7 @@ class Law:
         self.tilt, self.outputs = np.zeros(3), dict(FIRST)
 
     def reference(self, time):
-        """Position (m) and velocity (m/s) of the plan."""
+        """Return position (m) and velocity (m/s) of the plan."""
         t = time - self.start
         if self.mode == DESCEND and self.plan.status == GOOD:
             acceleration, speed = DESCENT
@@ -60,7 +60,7 @@ class Law:
         return self.plan.motion(t)
 
     def estimate(self, elapsed, seen):
-        """Thrust over its command, after an engine of first order."""
+        """Estimate thrust over its command, after an engine of first order."""
         system = np.array([[-1.0 / LAG, 0.0, self.command / LAG], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
         self.engine, impulse, _ = expm(elapsed * system) @ [self.engine, 0.0, 1.0]
         mean_mass = seen.mass + 0.5 * impulse / EXHAUST

@@ -62,7 +62,7 @@ class Plan:
         return np.cross(*self.direction(t))
 
     def mean_thrust(self, begin, span, gravity):
-        """Over mass (m/s2); gravity (m/s2) from the end on."""
+        """Return the mean over mass (m/s2); gravity (m/s2) from the end on."""
         left = min(max(self.duration - begin, 0.0), span)
         impulse = self.path.impulse(begin, begin + left) if left > 0.0 else 0.0
         return (impulse + gravity * (span - left)) / span
@@ -76,7 +76,7 @@ def plan_transfer(plan, transfer, mass):
 
 
 def plan_programme(plan, seen, gravity, kind):
-    """In the plane of start and target, on the target's vertical."""
+    """Plan in the plane of start and target, on the target's vertical."""
     up, way = plan.up, plan.goal - seen.position
     y = way @ up
     side = way - y * up
@@ -95,7 +95,7 @@ def plan_programme(plan, seen, gravity, kind):
 
 
 def capture_start(seen, elapsed, lift):
-    """Position and three derivatives, from the thrust measured, or with the engine off that of the weight."""
+    """Return position and three derivatives, from the thrust measured, or with the engine off that of the weight."""
     force = np.linalg.norm(seen.velocity_increment) / elapsed
     low, high = np.array([PLANNED_MINIMUM, PLANNED_MAXIMUM]) * MAXIMUM / seen.mass
     if force < 0.5 * low:

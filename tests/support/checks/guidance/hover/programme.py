@@ -17,7 +17,7 @@ SETTLED = 1e-3  # s
 
 
 def times_of(kind, free, end=None):
-    """t2, t5, w, tp, t7 from the free ones."""
+    """Return t2, t5, w, tp, t7 from the free ones."""
     if kind == VERTICAL:
         return 0.0, free[1], 0.0, free[0], free[1]
     if kind == WITHOUT_FIRST_BURN:
@@ -38,7 +38,8 @@ def solve(kind, guess, vehicle, x, y, end=None):
 
 
 def least_propellant(without, guess, vehicle, x, y):
-    """With a first burn, ended where it takes least propellant, from the programme without and a guess of t2 to tp."""
+    """Return the programme with a first burn, ended where it takes least propellant, from the
+    one without and a guess of t2 to tp."""
     solutions = {}
 
     def cost(end):
@@ -69,11 +70,11 @@ class Programme:
         self.origin, self.along, self.up = origin, along, up
 
     def state(self, t):
-        """x, x', y, y', propellant fraction, pitch and its rate."""
+        """Return x, x', y, y', propellant fraction, pitch and its rate."""
         return flown(self.times, self.vehicle, until=t)
 
     def motion(self, t):
-        """Position (m) and velocity (m/s)."""
+        """Return position (m) and velocity (m/s)."""
         x, vx, y, vy = self.state(t)[:4]
         return self.origin + x * self.along + y * self.up, vx * self.along + vy * self.up
 
@@ -84,5 +85,5 @@ class Programme:
         return cosine * self.along + sine * self.up, rate * (cosine * self.up - sine * self.along)
 
     def impulse(self, begin, end):
-        """Thrust over mass, integrated (m/s): the rocket equation."""
+        """Return thrust over mass, integrated (m/s): the rocket equation."""
         return -self.vehicle[2] * math.log((1.0 - self.state(end)[4]) / (1.0 - self.state(begin)[4]))

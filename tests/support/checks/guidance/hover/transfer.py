@@ -13,7 +13,7 @@ from tests.support.checks.vectors import unit
 
 
 def product(a, b):
-    """Scalar products of rows, in a column."""
+    """Return scalar products of rows, in a column."""
     return np.sum(a * b, axis=-1, keepdims=True)
 
 
@@ -27,11 +27,11 @@ class Transfer:
         self.duration, self.lift = duration, lift
 
     def motion(self, t):
-        """Position (m) and velocity (m/s)."""
+        """Return position (m) and velocity (m/s)."""
         return self.position(t), self.velocity(t)
 
     def thrust(self, t):
-        """Thrust over mass (m/s2)."""
+        """Return thrust over mass (m/s2)."""
         return self.acceleration(t) + self.lift
 
     def direction(self, t):
@@ -40,12 +40,12 @@ class Transfer:
         return axis, (np.eye(3) - np.outer(axis, axis)) @ self.jerk(t) / np.linalg.norm(f)
 
     def impulse(self, begin, end):
-        """Thrust over mass, integrated (m/s)."""
+        """Return thrust over mass, integrated (m/s)."""
         t = np.linspace(begin, end, 3)
         return simpson(np.linalg.norm(self.thrust(t), axis=1), x=t)
 
     def expense(self, mass):
-        """Thrust over mass, integrated (m/s), and the largest relative excess over a limit."""
+        """Return thrust over mass, integrated (m/s), and the largest relative excess over a limit."""
         t = np.linspace(0.0, self.duration, 41)
         f, jerk = self.thrust(t), self.jerk(t)
         square = product(f, f)
@@ -59,7 +59,8 @@ class Transfer:
 
 
 def slow_transfer(start, goal, up, lift, limits):
-    """From rest to rest within a speed (m/s) and an acceleration (m/s2), those of 140 s^3 (1 - s)^3."""
+    """Return a transfer from rest to rest within a speed (m/s) and an acceleration (m/s2), those of 140 s^3 (1 -
+    s)^3."""
     speed, acceleration = limits
     height = (goal - start) @ up
     longer = max(abs(height), np.linalg.norm(goal - start - height * up))

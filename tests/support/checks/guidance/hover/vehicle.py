@@ -15,7 +15,7 @@ STANDBY = 60.0, 0.5  # of transfers where there is no programme
 
 
 def weight(position):
-    """Size of gravity (m/s2)."""
+    """Return size of gravity (m/s2)."""
     return float(np.linalg.norm(gravity(position)))
 
 
