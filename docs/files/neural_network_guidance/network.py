@@ -16,7 +16,7 @@ def layers(sizes, weights):
 
 
 def evaluate(stack, x):
-    """Outputs for inputs x, one row each: tanh in the hidden layers."""
+    """Return outputs for inputs x, one row each: tanh in the hidden layers."""
     for matrix, offset in stack[:-1]:
         x = np.tanh(x @ matrix + offset)
     return x @ stack[-1][0] + stack[-1][1]
@@ -31,6 +31,6 @@ def frame(dr):
 
 
 def features(dr, dv, gravity):
-    """Inputs of the network, without the site's direction and without units."""
+    """Return inputs of the network, without the site's direction and without units."""
     length = np.linalg.norm(dr)
     return np.concatenate([[dr[2] / length], frame(dr) @ dv / np.sqrt(gravity * length)])

@@ -10,7 +10,7 @@ from network import evaluate, features, frame, layers
 
 @cache
 def net(path):
-    """The weights, read once."""
+    """Return the weights, read once."""
     with np.load(path) as file:
         return dict(file)
 

@@ -35,7 +35,7 @@ def format_navigation() -> list[dict[str, str]]:
 
 
 def bounds_page() -> str:
-    """The bounds of `common/bounds.py`."""
+    """Return the bounds of `common/bounds.py`."""
     rows = [[f"`{bound.variable}`", f"{bound.default:g} {bound.unit}", bound.subject] for bound in BOUNDS]
     text = (
         "Files and options are checked before memory is taken for them. An environment variable changes a bound. "

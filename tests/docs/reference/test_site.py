@@ -46,7 +46,7 @@ def site_pages() -> dict[str, str]:
 
 
 def anchors(text: str) -> set[str]:
-    """Of the headings of a page, as GitHub and the site make them."""
+    """Return the anchors of the headings of a page, as GitHub and the site create them."""
     headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
     return {re.sub(r"\s", "-", re.sub(r"[^\w\s-]", "", heading.lower().strip())) for heading in headings}
 
