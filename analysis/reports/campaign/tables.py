@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from ...campaigns.definition.campaign import Campaign, Metric
+from ...campaigns.definition.campaign import Metric
 from ...campaigns.statistics import QUANTILES, STATISTICS
 from ...campaigns.summary import Summary, SummaryRow, summary_rows
 from ..common.page import exact
@@ -25,16 +25,6 @@ def variant_rows(summary: Summary) -> list[SummaryRow]:
 def group_rows(summary: Summary) -> list[SummaryRow]:
     """A row per variant and group of its trials, groups of a variant together."""
     return [row for row in summary_rows(summary) if row.group is not None]
-
-
-def draw_rows(campaign: Campaign) -> list[tuple[str, str, str]]:
-    """Return name, distribution and arguments of dispersed parameters, then derived ones, and tables of lookups."""
-    rows = []
-    for draw in campaign.draws:
-        distribution = draw.distribution
-        rows.append((", ".join(draw.names), distribution.keyword.replace("_", " "), distribution.describe()))
-    rows += [(name, "derived", " ".join(formula.text.split())) for name, formula in campaign.derived.items()]
-    return rows + [(each.name, "lookup", f"{each.column} of {each.file}") for each in campaign.lookups]
 
 
 def fmu_rows(fmus: dict[str, dict[str, str]]) -> list[tuple[str, str, str]]:

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ....campaigns.definition.campaign import Campaign
-from ....reports.campaign.tables import draw_rows
 from ...cell import Code, Digest
 from ...model import Node, Note, Table
 
@@ -21,11 +20,15 @@ def condition_notes(provenance: Mapping[str, Any]) -> list[Node]:
 
 
 def parameter_table(campaign: Campaign) -> Table:
-    """Return the dispersed parameters as the campaign declares them."""
-    rows = [
-        (name, distribution, Code(arguments, is_long=True)) for name, distribution, arguments in draw_rows(campaign)
-    ]
-    return Table(("name", "distribution", "arguments"), rows)
+    """Return dispersed parameters as the campaign declares them, then derived ones, and tables of lookups."""
+    rows = []
+    for draw in campaign.draws:
+        distribution = draw.distribution
+        rows.append((", ".join(draw.names), distribution.keyword.replace("_", " "), distribution.describe()))
+    rows += [(name, "derived", " ".join(formula.text.split())) for name, formula in campaign.derived.items()]
+    rows += [(each.name, "lookup", f"{each.column} of {each.file}") for each in campaign.lookups]
+    body = [(name, distribution, Code(arguments, is_long=True)) for name, distribution, arguments in rows]
+    return Table(("name", "distribution", "arguments"), body)
 
 
 def digest_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import PurePosixPath
 
-from ....reports.campaign.tables import draw_rows, fmu_rows
+from ....reports.campaign.tables import fmu_rows
 from ....studies.flown import StudyResult
 from ....studies.noise import Noise
 from ...cell import Cell, Code, Quantity, Rich
 from ...model import Commands, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text
+from ..campaign.origin import parameter_table
 
 DEFAULT = "default"  # the name of a campaign's only variant
 UNWRITTEN: Rich = [
@@ -75,12 +76,8 @@ def closing_sections(
 
 
 def _draws(study: StudyResult) -> list[Node]:
-    rows = [
-        (name, distribution, Code(arguments, is_long=True))
-        for name, distribution, arguments in draw_rows(study.space.campaign)
-    ]
     units = "As the campaign declares them, in SI units. Metrics and draws have the units of the campaign."
-    return [Table(("name", "distribution", "arguments"), rows), Note(units)]
+    return [parameter_table(study.space.campaign), Note(units)]
 
 
 def _provenance(study: StudyResult) -> list[Node]:
