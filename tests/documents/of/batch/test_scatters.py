@@ -52,7 +52,7 @@ def paths(figure):
 
 
 def plotted(batch):
-    """The title of the only scatter plot of a batch, its panels and its notes as markup."""
+    """Return the title of the only scatter plot of a batch, its panels and its notes as markup."""
     (scatter,) = batch.plan.campaign.scatters
     figures, *notes = scatter_nodes(batch, scatter)
     return (
