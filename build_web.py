@@ -23,8 +23,8 @@ SOURCES = ROOT / "web"
 BUILT = ROOT / "build" / "web"
 PACKAGES = BUILT / "node_modules"
 LOCKED = ("package.json", "package-lock.json")
-SHIPPED = {"curves": "uplot", "layout": "elkjs", "scene": "three"}  # what bundles have in them, by name
-EMBEDDED = ("uplot", "three")  # of these what pages have in them, with the whole licence, as it demands
+SHIPPED = {"layout": "elkjs", "scene": "three"}  # what bundles have in them, by name
+EMBEDDED = "three"  # of these what pages have in them, with the whole licence, as it demands
 ELK_SOURCE = """
 elkjs 0.12.1, the Eclipse Layout Kernel as JavaScript, is unchanged in layout.js. Its source is at
 https://github.com/kieler/elkjs and in the package elkjs of the npm registry.
@@ -114,7 +114,8 @@ def bundle(output: Path, *, check: bool) -> None:
 
 def notice(name: str | None) -> str:
     """Return the licence of a package as a comment, for a page that has it inside."""
-    return f"/*!\n{name}: {licence(name)}*/" if name in EMBEDDED else ""
+    return f"/*!
+{name}: {licence(name)}*/" if name == EMBEDDED else ""
 
 
 def licence(name: str) -> str:

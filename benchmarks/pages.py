@@ -74,7 +74,7 @@ const next = () => {
 next();
 """
 BRUSH = """
-const area = document.querySelector("[data-figure]").closest(".live").querySelector(".u-over");
+const area = document.querySelector("[data-figure]").closest(".live").querySelector(".chart > .area");
 const { left, top, width, height } = area.getBoundingClientRect();
 const send = (type, x, y) => area.dispatchEvent(new PointerEvent(type, { pointerId: 1, pointerType: "mouse", button: 0,
   bubbles: true, clientX: left + x * width, clientY: top + y * height }));

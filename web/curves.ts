@@ -69,7 +69,7 @@ class Curves {
       };
       this.chosen ??= choice;
       const ofTrials = TrialPlot.of(plot, this.trials, this.selection, this.card);
-      plot.onArea = (area) => listen(plot, area, choose, ofTrials);
+      listen(plot, choose, ofTrials);
       listenToKeys(plot, choose, (key) => ofTrials?.press(key) ?? false);
       const keys = "arrow keys move the cursor, plus and minus zoom, 0 shows the whole range";
       plot.root.setAttribute("role", "application");

@@ -1,6 +1,6 @@
 // An abscissa that several figures share: what of it is shown, and where the cursor is.
 
-export type Range = [number, number];
+import { type Range, Scale } from "./frame";
 
 export class SharedAxis {
   cursor: number | null = null;
@@ -12,10 +12,6 @@ export class SharedAxis {
   private whole: Range = [Infinity, -Infinity];
 
   constructor(readonly label: string, readonly logarithmic: boolean) {}
-
-  get shown(): Range {
-    return this.zoom ?? this.whole;
-  }
 
   followCursor(call: () => void): void {
     this.onCursor.push(call);
@@ -56,7 +52,7 @@ export class SharedAxis {
 
   // Moves the cursor, and what is shown to it.
   goTo(at: number): void {
-    if (this.zoom && (at < this.zoom[0] || at > this.zoom[1])) this.pan((at - this.middle(0.5)) / this.length());
+    if (this.zoom && (at < this.zoom[0] || at > this.zoom[1])) this.pan(this.shown.place(at) - 0.5);
     this.moveCursor(at);
   }
 
@@ -67,40 +63,25 @@ export class SharedAxis {
 
   // Zooms by a factor, below 1: nearer; what is at ``about`` remains where it is.
   zoomBy(factor: number, about: number | null): void {
-    const [low, high] = this.shown.map((end) => this.forth(end)) as Range;
-    const fixed = about === null ? (low + high) / 2 : this.forth(about);
-    const ends: Range = [fixed + (low - fixed) * factor, fixed + (high - fixed) * factor];
-    const [least, greatest] = this.whole.map((end) => this.forth(end)) as Range;
-    if (ends[1] - ends[0] >= greatest - least) this.setZoom(null);
-    else if (ends[1] - ends[0] > 1e-9 * (greatest - least)) this.setZoom(this.fit(ends));
+    const fixed = about === null ? 0.5 : this.shown.place(about);
+    this.show(fixed * (1 - factor), factor);
   }
 
   // Moves what is shown by a fraction of its length.
   pan(fraction: number): void {
-    if (!this.zoom) return;
-    const [low, high] = this.zoom.map((end) => this.forth(end)) as Range;
-    this.setZoom(this.fit([low + fraction * (high - low), high + fraction * (high - low)]));
+    if (this.zoom) this.show(fraction, 1);
   }
 
-  private fit(ends: Range): Range {
-    const [least, greatest] = this.whole.map((end) => this.forth(end)) as Range;
-    const shift = Math.max(least - ends[0], 0) || Math.min(greatest - ends[1], 0);
-    return [this.back(ends[0] + shift), this.back(ends[1] + shift)];
+  // Shows a range within the whole, its begin and length in lengths of what is shown.
+  private show(begin: number, length: number): void {
+    const shown = this.shown;
+    const [least, greatest] = this.whole.map((end) => shown.place(end)) as Range;
+    const first = Math.min(Math.max(begin, least), greatest - length);
+    if (length >= greatest - least) this.setZoom(null);
+    else if (length > 1e-9 * (greatest - least)) this.setZoom([shown.value(first), shown.value(first + length)]);
   }
 
-  private middle(fraction: number): number {
-    return this.shown[0] + fraction * this.length();
-  }
-
-  private length(): number {
-    return this.shown[1] - this.shown[0];
-  }
-
-  private forth(value: number): number {
-    return this.logarithmic ? Math.log10(value) : value;
-  }
-
-  private back(value: number): number {
-    return this.logarithmic ? 10 ** value : value;
+  private get shown(): Scale {
+    return new Scale(this.logarithmic, this.zoom ?? this.whole, 0, 1);
   }
 }

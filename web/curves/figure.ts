@@ -2,11 +2,11 @@
 
 import type { Axis, Chart } from "../generated/charts";
 import type { Page } from "../page/document";
+import { fontOf, widthOf } from "./axes";
 import type { SharedAxis } from "./axis";
 import { markCursor } from "./marker";
 import { type Place, Plot } from "./plot";
 import { describePlot } from "./readout";
-import { fontOf, widthOf } from "./ticks";
 
 const GAP = 18; // px above axes
 const LABELS = 44; // px at least, left of axes
@@ -34,6 +34,7 @@ export class Figure {
     // Calls once when it begins to observe, for all new figures together after the page was laid out.
     new ResizeObserver(([entry]) => this.resize(entry!.contentRect)).observe(this.frame);
     new IntersectionObserver((entries) => this.move(entries.at(-1)!.isIntersecting), MARGIN).observe(this.frame);
+    window.addEventListener("resize", () => this.isNear && this.draw()); // another screen has other pixels
     this.frame.addEventListener("focusin", () => this.move(true));
     for (const plot of plots) plot.time.followCursor(() => this.showValues());
   }

@@ -2,6 +2,7 @@
 
 import type { Axis, Chart } from "../generated/charts";
 import type { SharedAxis } from "./axis";
+import { Scale } from "./frame";
 
 export function markCursor(picture: SVGElement, charts: Chart[], sharing: (axis: Axis) => SharedAxis): void {
   const frame = document.createElement("div");
@@ -20,8 +21,7 @@ export function markCursor(picture: SVGElement, charts: Chart[], sharing: (axis:
     const chart = charts.find(({ x }) => at !== null && sharing(x) === axis && at >= x.ends[0] && at <= x.ends[1]);
     line.hidden = !chart;
     if (!chart) return;
-    const [low, high, here] = [...chart.x.ends, at!].map((each) => (chart.x.logarithmic ? Math.log10(each) : each)) as [number, number, number];
-    const fraction = (here - low) / (high - low);
+    const fraction = new Scale(!!chart.x.logarithmic, chart.x.ends, 0, 1).place(at!);
     const [left, top, right, bottom] = chart.fluid!.margins;
     Object.assign(line.style, { left: `calc(${left}px + ${fraction} * (100% - ${left + right}px))`, top: `${top}px`, bottom: `${bottom}px` });
   }

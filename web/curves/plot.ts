@@ -1,13 +1,14 @@
-// One chart: uPlot's axes over the axes of the figure's picture, the lines of the figure, the cursor.
-
-import uPlot from "uplot";
+// One chart: axes over those of the figure's picture, the lines of the figure, the cursor.
 
 import type { Axis, Chart } from "../generated/charts";
 import type { Page } from "../page/document";
-import { type Range, SharedAxis } from "./axis";
-import { type Layer, Positions, type Shape, drawAbove, drawBelow, loadShapes } from "./drawing";
+import { make } from "../page/elements";
+import { drawAxes } from "./axes";
+import { SharedAxis } from "./axis";
+import { type Layer, type Shape, drawAbove, drawBelow, loadShapes } from "./drawing";
+import { Frame, type Range } from "./frame";
 import { Series } from "./series";
-import { axisOptions } from "./ticks";
+import { ticksOf } from "./ticks";
 
 const MARGIN = 0.06; // of a zoomed ordinate, above and below its values
 const [ACROSS, UP] = [60, 30]; // px at least from a tick to the next, along the abscissa and the ordinate
@@ -23,15 +24,17 @@ export interface Place {
 }
 
 export class Plot {
-  readonly root = document.createElement("div");
+  readonly root = make("div", { class: "chart" });
+  readonly area = make("div", { class: "area" }); // of the axes, over the canvas
   readonly layers: Layer[] = []; // drawn below the lines
-  isNear = false; // to the screen: only then it is drawn anew
-  onArea: (area: HTMLElement) => void = () => undefined; // called with each new area in which lines are drawn
-  private plot: uPlot | null = null;
-  private size = { width: 0, height: 0 }; // px, of the area; asking the page for it would lay it out anew each time
+  isNear = false; // to the screen: only then it is drawn again
+  frame: Frame | null = null; // null before it has a place
+  private readonly context = make("canvas").getContext("2d")!;
+  private placed: Place | null = null;
+  private isPending = false; // a picture
   private ordinate: Range | null = null; // of a path at its own zoom
-  private readonly line = document.createElement("div");
-  private readonly mark = document.createElement("div"); // the second cursor
+  private readonly line = make("div", { class: "cursor" });
+  private readonly mark = make("div", { class: "cursor mark" }); // the second cursor
   private readonly dots: HTMLElement[];
 
   private constructor(
@@ -41,14 +44,8 @@ export class Plot {
     readonly axis: SharedAxis,
     readonly time: SharedAxis, // along which the cursor moves
   ) {
-    this.root.className = "chart";
-    this.line.className = "cursor";
-    this.mark.className = "cursor mark";
-    this.dots = series.map((each) => {
-      const dot = document.createElement("i");
-      dot.style.background = each.curve.colour;
-      return dot;
-    });
+    this.dots = series.map(({ curve }) => make("i", { style: `background: ${curve.colour}` }));
+    this.area.append(this.line, this.mark, ...this.dots);
     this.axis.followZoom(chart.x.ends, () => this.redraw());
     this.time.followCursor(() => this.showCursor());
   }
@@ -69,43 +66,53 @@ export class Plot {
   }
 
   place(place: Place): void {
-    Object.assign(this.root.style, px({ left: place.left, top: place.top, width: place.width, height: place.height }));
-    this.plot?.destroy();
-    this.plot = new uPlot(this.options(place), [[0], [null]], this.root);
-    this.plot.over.append(this.line, this.mark, ...this.dots);
-    this.size = { width: this.plot.bbox.width / devicePixelRatio, height: this.plot.bbox.height / devicePixelRatio };
-    this.onArea(this.plot.over);
-    this.showCursor();
+    this.placed = place;
+    const { left, top, width, height, margins } = place;
+    Object.assign(this.root.style, { left: px(left), top: px(top), width: px(width), height: px(height) });
+    this.area.style.inset = px(...margins);
+    this.root.append(this.context.canvas, this.area);
+    this.update();
+    this.draw();
   }
 
   redraw(): void {
-    if (!this.isNear) return;
-    this.plot?.batch((plot: uPlot) => {
-      const [x, y] = this.ranges();
-      plot.setScale("x", { min: x[0], max: x[1] });
-      plot.setScale("y", { min: y[0], max: y[1] });
-    });
+    if (!this.isNear || !this.placed) return;
+    this.update();
+    if (!this.isPending) queueMicrotask(() => this.draw()); // one picture of all that changes together
+    this.isPending = true;
+  }
+
+  // Where values lie from now on.
+  private update(): void {
+    const { width, height, margins } = this.placed!;
+    this.frame = new Frame(width - margins[1] - margins[3], height - margins[0] - margins[2], this.chart, this.ends());
     this.showCursor();
+  }
+
+  private draw(): void {
+    this.isPending = false;
+    const { context, chart, placed, frame } = this;
+    const { width, height, margins, point, isNarrow } = placed!;
+    const ratio = devicePixelRatio;
+    const size = { width: Math.round(width * ratio), height: Math.round(height * ratio) };
+    if (context.canvas.width !== size.width || context.canvas.height !== size.height) Object.assign(context.canvas, size);
+    context.resetTransform();
+    context.clearRect(0, 0, size.width, size.height);
+    context.setTransform(ratio, 0, 0, ratio, Math.round(margins[3] * ratio), Math.round(margins[0] * ratio));
+    const isWhole = this.axis.zoom === null;
+    const ticks = {
+      x: ticksOf(chart.x, frame!.x.ends, frame!.width / ACROSS, isNarrow, isWhole),
+      y: ticksOf(chart.y, frame!.y.ends, frame!.height / UP, false, isWhole),
+    };
+    drawAxes(context, frame!, chart, ticks, point);
+    drawBelow(context, frame!, chart, this.shapes, point);
+    drawAbove(context, frame!, chart, this.series, this.layers, point, isWhole);
   }
 
   // Zooms to a rectangle of the abscissa and, of a path, of the ordinate; null: as drawn.
   zoom(x: Range | null, y: Range | null): void {
     this.ordinate = x && this.isPath ? y : null;
     this.axis.setZoom(x);
-  }
-
-  // Positions on the canvas, in its px, of which a px of the page has so many.
-  get positions(): { to: Positions; left: number; top: number } {
-    const { left, top } = this.plot!.bbox;
-    return { to: new Positions(this.plot!), left, top };
-  }
-
-  valueAt(left: number): number {
-    return this.plot!.posToVal(left, "x");
-  }
-
-  ordinateAt(top: number): number {
-    return this.plot!.posToVal(top, "y");
   }
 
   // Where the row of the first line that is nearest to a place of the cursor has it, or one so many rows further.
@@ -118,17 +125,12 @@ export class Plot {
 
   // The time of the point of a path that is nearest to a place in the area.
   nearestTime(left: number, top: number): number | null {
+    const { x, y } = this.frame!;
     let [best, time] = [Infinity, null as number | null];
     for (const each of this.series) {
       if (!each.time || each.hidden) continue;
-      const scales = this.plot!.scales;
-      const unit = [
-        this.size.width / (scales.x!.max! - scales.x!.min!),
-        this.size.height / (scales.y!.max! - scales.y!.min!),
-      ] as const;
-      const at = [this.valueAt(left), this.ordinateAt(top)] as const;
       for (let row = 0; row < each.x.length; row++) {
-        const distance = ((each.x[row]! - at[0]) * unit[0]) ** 2 + ((each.y(row) - at[1]) * unit[1]) ** 2;
+        const distance = (x.place(each.x[row]!) - left) ** 2 + (y.place(each.y(row)) - top) ** 2;
         if (distance < best) [best, time] = [distance, each.time[row]!];
       }
     }
@@ -136,29 +138,26 @@ export class Plot {
   }
 
   private showCursor(): void {
-    if (!this.plot || !this.isNear) return;
+    const { frame } = this;
+    if (!frame || !this.isNear) return;
     const at = this.time.cursor;
-    const visible = at !== null;
     this.moveLine(this.line, at);
     this.moveLine(this.mark, this.time.mark);
     this.series.forEach((each, index) => {
-      const dot = this.dots[index]!;
-      const row = visible && this.isShown(each) && !each.curve.reduced ? each.rowWithin(at) : null;
-      dot.hidden = row === null;
-      if (row === null) return;
-      const [left, top] = [this.plot!.valToPos(each.x[row]!, "x"), this.plot!.valToPos(each.y(row), "y")];
-      dot.hidden = !(left >= 0 && left <= this.size.width && top >= 0 && top <= this.size.height);
-      dot.style.transform = `translate(${left}px, ${top}px)`;
+      const row = at !== null && this.isShown(each) && !each.curve.reduced ? each.rowWithin(at) : null;
+      const [left, top] = row === null ? [NaN, NaN] : [frame.x.place(each.x[row]!), frame.y.place(each.y(row))];
+      this.dots[index]!.hidden = !frame.has(left, top);
+      this.dots[index]!.style.transform = `translate(${left}px, ${top}px)`;
     });
   }
 
   private moveLine(line: HTMLElement, at: number | null): void {
-    const left = at === null || this.isPath ? -1 : this.plot!.valToPos(at, "x");
-    line.hidden = !(left >= 0 && left <= this.size.width);
+    const left = at === null || this.isPath ? NaN : this.frame!.x.place(at);
+    line.hidden = !this.frame!.has(left, 0);
     line.style.transform = `translateX(${left}px)`;
   }
 
-  // Whether a line is one whose values are shown at the cursor.
+  // True if a line is one whose values are shown at the cursor.
   isShown(series: Series): boolean {
     const isLane = this.chart.y.named && !series.curve.name; // of an ordinate without quantity
     const isAlong = series.time !== null || !(this.isPath || series.isPath); // no outline, no unordered points
@@ -166,52 +165,27 @@ export class Plot {
     return !series.hidden && series.x.length > 1 && !isLane && !isNameless && isAlong;
   }
 
-  private ranges(): [Range, Range] {
+  private ends(): { x: Range; y: Range } {
     const { x, y } = this.chart;
-    const range = this.axis.zoom;
-    const whole = ascending(y.ends);
-    if (!range) return [x.ends, whole];
-    if (this.isPath) return [range, this.ordinate ?? whole];
+    const zoom = this.axis.zoom;
+    if (!zoom) return { x: x.ends, y: y.ends };
+    const range = this.isPath ? this.ordinate : this.reach(zoom);
+    if (!range) return { x: zoom, y: y.ends };
+    return { x: zoom, y: y.ends[0] < y.ends[1] ? range : [range[1], range[0]] };
+  }
+
+  // The ordinates of all lines within a range of the abscissa, with margins; null: as drawn.
+  private reach(range: Range): Range | null {
+    const { y } = this.chart;
     const reaches = this.series.filter((each) => !each.hidden).map((each) => each.reach(range)).filter((each) => each !== null);
-    if (!reaches.length || y.named) return [range, whole];
+    if (!reaches.length || y.named) return null;
     const [low, high] = [Math.min(...reaches.map((each) => each[0])), Math.max(...reaches.map((each) => each[1]))];
-    if (y.logarithmic) return [range, low > 0 ? [low / 1.2, high * 1.2] : whole];
+    if (y.logarithmic) return low > 0 ? [low / 1.2, high * 1.2] : null;
     const margin = MARGIN * (high - low) || MARGIN * Math.abs(high) || 1;
-    return [range, [low - margin, high + margin]];
-  }
-
-  private options({ width, height, margins, point, isNarrow }: Place): uPlot.Options {
-    const { x, y } = this.chart;
-    const [rangeX, rangeY] = this.ranges();
-    const isWhole = () => this.axis.zoom === null;
-    return {
-      width,
-      height,
-      padding: [margins[0], margins[1], null, null],
-      cursor: { show: false },
-      legend: { show: false },
-      scales: {
-        x: { time: false, distr: x.logarithmic ? 3 : 1, range: (_, low, high) => [low ?? rangeX[0], high ?? rangeX[1]], min: rangeX[0], max: rangeX[1] },
-        y: {
-          dir: y.ends[0] > y.ends[1] ? -1 : 1,
-          distr: y.logarithmic ? 3 : 1, range: (_, low, high) => [low ?? rangeY[0], high ?? rangeY[1]], min: rangeY[0], max: rangeY[1],
-        },
-      },
-      series: [{}, { show: true, stroke: "transparent", points: { show: false } }],
-      axes: [axisOptions(x, margins[2], ACROSS, point, isNarrow, isWhole), axisOptions(y, margins[3], UP, point, false, isWhole)],
-      hooks: {
-        ready: [() => this.redraw()],
-        drawAxes: [(plot) => drawBelow(plot, this.chart, this.shapes, point)],
-        draw: [(plot) => drawAbove(plot, this.chart, this.series, this.layers, point, isWhole())],
-      },
-    };
+    return [low - margin, high + margin];
   }
 }
 
-function ascending([one, other]: Range): Range {
-  return one < other ? [one, other] : [other, one];
-}
-
-function px(sizes: Record<string, number>): Record<string, string> {
-  return Object.fromEntries(Object.entries(sizes).map(([name, size]) => [name, `${size}px`]));
+function px(...sizes: number[]): string {
+  return sizes.map((size) => `${size}px`).join(" ");
 }

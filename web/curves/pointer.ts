@@ -1,6 +1,6 @@
-// Mouse, touch and keys on a plot: the cursor, zoom and pan. uPlot has none of touch, wheel and keys.
+// Mouse, touch and keys on a plot: the cursor, zoom and pan.
 
-import type { Range } from "./axis";
+import type { Frame, Range } from "./frame";
 import type { Plot } from "./plot";
 
 const CLICK = 4; // px, up to which a drag is a click
@@ -19,7 +19,8 @@ interface Place {
   y: number;
 }
 
-export function listen(plot: Plot, area: HTMLElement, onFocus: () => void, picking: Picking | null): void {
+export function listen(plot: Plot, onFocus: () => void, picking: Picking | null): void {
+  const area = plot.area;
   const touches = new Map<number, PointerEvent>();
   let begin: (Place & { shift: boolean }) | null = null;
   let lastTap = 0;
@@ -33,7 +34,7 @@ export function listen(plot: Plot, area: HTMLElement, onFocus: () => void, picki
   };
   const follow = (event: PointerEvent | null, { x, y }: Place) => {
     picking?.hover(event, { x, y });
-    const at = plot.isPath ? plot.nearestTime(x, y) : plot.snap(plot.valueAt(Math.min(Math.max(x, 0), area.clientWidth)));
+    const at = plot.isPath ? plot.nearestTime(x, y) : plot.snap(plot.frame!.x.value(within(x, plot.frame!.width)));
     if (at !== null) plot.time.moveCursor(at);
   };
 
@@ -58,9 +59,9 @@ export function listen(plot: Plot, area: HTMLElement, onFocus: () => void, picki
     if (event.pointerType !== "mouse" && touches.size === 2 && before) {
       pinch(plot, [...touches.values()], event, placeOf);
     } else if (begin?.shift && before) {
-      plot.axis.pan((before.clientX - event.clientX) / area.clientWidth);
+      plot.axis.pan((before.clientX - event.clientX) / plot.frame!.width);
     } else if (begin) {
-      select(selection, begin, to, plot.isPath || picking !== null, area);
+      select(selection, begin, to, plot.isPath || picking !== null, plot.frame!);
       follow(event, to);
     } else follow(event, to);
     if (before) touches.set(event.pointerId, event);
@@ -78,8 +79,9 @@ export function listen(plot: Plot, area: HTMLElement, onFocus: () => void, picki
       picking?.pick(to);
       return;
     }
-    const x = sorted(plot.valueAt(from.x), plot.valueAt(Math.min(Math.max(to.x, 0), area.clientWidth)));
-    const y = sorted(plot.ordinateAt(from.y), plot.ordinateAt(Math.min(Math.max(to.y, 0), area.clientHeight)));
+    const { x: abscissas, y: ordinates, width, height } = plot.frame!;
+    const x = sorted(abscissas.value(from.x), abscissas.value(within(to.x, width)));
+    const y = sorted(ordinates.value(from.y), ordinates.value(within(to.y, height)));
     if (picking) picking.brush(x, y);
     else plot.zoom(x, y);
   };
@@ -93,9 +95,9 @@ export function listen(plot: Plot, area: HTMLElement, onFocus: () => void, picki
     (event) => {
       if (!event.ctrlKey && !plot.root.contains(document.activeElement)) return;
       event.preventDefault();
-      const at = plot.valueAt(placeOf(event).x);
-      if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) plot.axis.pan((event.deltaX || event.deltaY) / area.clientWidth);
-      else plot.axis.zoomBy(Math.exp(WHEEL * event.deltaY), at);
+      const { x, width } = plot.frame!;
+      if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) plot.axis.pan((event.deltaX || event.deltaY) / width);
+      else plot.axis.zoomBy(Math.exp(WHEEL * event.deltaY), x.value(placeOf(event).x));
     },
     { passive: false },
   );
@@ -137,14 +139,18 @@ function pinch(plot: Plot, [one, other]: PointerEvent[], moved: PointerEvent, pl
   const still = one!.pointerId === moved.pointerId ? other! : one!;
   const before = one!.pointerId === moved.pointerId ? one! : other!;
   const [was, is] = [Math.abs(before.clientX - still.clientX), Math.abs(moved.clientX - still.clientX)];
-  if (was > 10 && is > 10) plot.axis.zoomBy(was / is, plot.valueAt(placeOf(still).x));
+  if (was > 10 && is > 10) plot.axis.zoomBy(was / is, plot.frame!.x.value(placeOf(still).x));
 }
 
-function select(selection: HTMLElement, from: Place, to: Place, both: boolean, area: HTMLElement): void {
-  const [left, right] = sorted(from.x, Math.min(Math.max(to.x, 0), area.clientWidth));
-  const [top, bottom] = both ? sorted(from.y, Math.min(Math.max(to.y, 0), area.clientHeight)) : [0, area.clientHeight];
+function select(selection: HTMLElement, from: Place, to: Place, both: boolean, { width, height }: Frame): void {
+  const [left, right] = sorted(from.x, within(to.x, width));
+  const [top, bottom] = both ? sorted(from.y, within(to.y, height)) : [0, height];
   selection.hidden = right - left < CLICK;
   Object.assign(selection.style, { left: `${left}px`, top: `${top}px`, width: `${right - left}px`, height: `${bottom - top}px` });
+}
+
+function within(place: number, length: number): number {
+  return Math.min(Math.max(place, 0), length);
 }
 
 function sorted(one: number, other: number): Range {

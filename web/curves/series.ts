@@ -3,7 +3,7 @@
 import type { Curve } from "../generated/charts";
 import type { Page, Values } from "../page/document";
 import { format } from "../page/numbers";
-import type { Range } from "./axis";
+import type { Range } from "./frame";
 
 export class Series {
   hidden = false;

@@ -1,6 +1,6 @@
 // Where an axis has its ticks between two ends: round numbers, of which there are never more than a few.
 //
-// uPlot's own are found by adding a step until an end is passed, which never happens where the sum is rounded back.
+// They are multiples of a step: adding it until an end is passed never ends where the sum is rounded back.
 
 const STEPS = [1, 2, 2.5, 5, 10];
 const SLACK = 1e-9; // of a step, by which an end may miss a multiple

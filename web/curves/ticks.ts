@@ -1,65 +1,33 @@
 // The ticks of an axis: as drawn where the whole is shown, elsewhere round numbers.
 
-import type uPlot from "uplot";
-
-import { FIGURE } from "../generated/colours";
 import type { Axis } from "../generated/charts";
 import { format } from "../page/numbers";
+import type { Range } from "./frame";
 import { linearSplits, logarithmicSplits } from "./splits";
 
-export const { ink: INK, faint: FAINT, grid: GRID } = FIGURE;
 const SUPERSCRIPTS = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
 const [FEW, MANY] = [6, 15]; // digits of a number
 
-// uPlot reads whole px alone.
-export function fontOf(size: number, weight = "normal"): string {
-  return `${weight} ${Math.round(size)}px "DejaVu Sans", Verdana, sans-serif`;
+export interface Tick {
+  at: number;
+  text: string;
+  hasLine: boolean; // where the axis has a grid
 }
 
-// ``space``: px at least from one tick to the next; ``isNarrow``: of its ticks it has few; ``isWhole``: true while the
-// axis shows what was drawn.
-export function axisOptions(axis: Axis, size: number, space: number, point: number, isNarrow: boolean, isWhole: () => boolean): uPlot.Axis {
-  const drawn = new Map(isNarrow ? axis.few!.map((index) => axis.ticks![index]!) : axis.ticks);
-  const isFixed = () => axis.named || (axis.ticks !== undefined && isWhole());
-  const splits = (plot: uPlot, index: number, low: number, high: number): number[] => {
-    if (isFixed()) return [...drawn.keys()].filter((at) => isWhole() || (at >= low && at <= high));
-    const length = index === 0 ? plot.bbox.width : plot.bbox.height;
-    const most = Math.max(2, Math.floor(length / devicePixelRatio / space));
-    return axis.logarithmic ? logarithmicSplits(low, high, most) : linearSplits(low, high, most);
-  };
-  // Of ticks with texts and without, as a logarithmic axis has them, the former alone have lines.
-  const lined = (_: uPlot, at: number[]): (number | null)[] => {
-    const isPlain = !isFixed() || !at.some((each) => drawn.get(each));
-    return isPlain ? at : at.map((each) => (drawn.get(each) ? each : null));
-  };
-  const values = (_: uPlot, at: number[]): string[] => {
-    if (axis.bare) return at.map(() => "");
-    if (isFixed()) return at.map((each) => drawn.get(each) ?? "");
-    return axis.logarithmic ? labelPowers(at) : labelNumbers(at);
-  };
-  return {
-    size,
-    font: fontOf(axis.size * point),
-    gap: 3,
-    stroke: INK,
-    incrs: [Number.MAX_VALUE], // of uPlot's own splits
-    splits,
-    filter: all, // uPlot's would leave out what is no power of ten
-    values,
-    grid: { filter: lined, show: axis.grid ?? false, stroke: GRID, width: 0.6 * point },
-    ticks: { filter: all, show: axis.marked ?? false, stroke: FAINT, width: 0.8 * point, size: 3.5 * point },
-    border: { show: false }, // `drawAbove` strokes them over grids and lines
-  };
-}
-
-function all(_: uPlot, splits: number[]): number[] {
-  return splits;
-}
-
-// The width (px) of the widest text at the ticks of an axis as drawn.
-export function widthOf(axis: Axis, context: CanvasRenderingContext2D, point: number): number {
-  context.font = fontOf(axis.size * point);
-  return Math.max(0, ...(axis.ticks ?? []).map(([, text]) => context.measureText(text).width));
+// ``most``: how many there may be, about; ``isNarrow``: of those as drawn it has few; ``isWhole``: true while the axis
+// shows what was drawn.
+export function ticksOf(axis: Axis, ends: Range, most: number, isNarrow: boolean, isWhole: boolean): Tick[] {
+  const [low, high] = [Math.min(...ends), Math.max(...ends)];
+  if (axis.named || (axis.ticks && isWhole)) {
+    const drawn = isNarrow ? axis.few!.map((index) => axis.ticks![index]!) : (axis.ticks ?? []);
+    const shown = drawn.filter(([at]) => isWhole || (at >= low && at <= high));
+    // Of ticks with texts and without, as a logarithmic axis has them, the former alone have lines.
+    const isPlain = !shown.some(([, text]) => text);
+    return shown.map(([at, text]) => ({ at, text: axis.bare ? "" : text, hasLine: isPlain || text !== "" }));
+  }
+  const splits = (axis.logarithmic ? logarithmicSplits : linearSplits)(low, high, Math.max(2, Math.floor(most)));
+  const texts = (axis.logarithmic ? labelPowers : labelNumbers)(splits);
+  return splits.map((at, index) => ({ at, text: axis.bare ? "" : texts[index]!, hasLine: true }));
 }
 
 // Digits enough to tell one tick from the next.

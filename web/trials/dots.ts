@@ -1,7 +1,7 @@
 // Marks of trials on a plot, and which of them is near a point.
 
 import type { Dots } from "../generated/charts";
-import type { Positions } from "../curves/drawing";
+import type { Frame } from "../curves/frame";
 import type { Selection, Trial } from "./selection";
 import type { Trials, Variant } from "./trials";
 
@@ -31,23 +31,23 @@ export class DotLayer {
     });
   }
 
-  // ``size``: px of the canvas, a pt of the figure.
-  draw(context: CanvasRenderingContext2D, to: Positions, size: number, selection: Selection): void {
+  // ``point``: px of a pt of the figure.
+  draw(context: CanvasRenderingContext2D, frame: Frame, point: number, selection: Selection): void {
     const chosen = this.rows.filter((row) => selection.has(this.variant, row));
-    if (chosen.length < this.rows.length) this.drawRows(context, to, size, this.rows, FADED);
-    this.drawRows(context, to, size, chosen, 1);
+    if (chosen.length < this.rows.length) this.drawRows(context, frame, point, this.rows, FADED);
+    this.drawRows(context, frame, point, chosen, 1);
   }
 
-  private drawRows(context: CanvasRenderingContext2D, to: Positions, size: number, rows: number[], opacity: number): void {
-    const radius = (this.dots.size / 2) * size;
+  private drawRows(context: CanvasRenderingContext2D, frame: Frame, point: number, rows: number[], opacity: number): void {
+    const radius = (this.dots.size / 2) * point;
     context.globalAlpha = opacity;
     context.setLineDash([]);
     context.lineCap = "butt";
     context.fillStyle = context.strokeStyle = this.dots.colour;
-    context.lineWidth = Math.max(1, 0.29 * this.dots.size * size);
+    context.lineWidth = Math.max(1 / devicePixelRatio, 0.29 * this.dots.size * point);
     context.beginPath();
     for (const row of rows) {
-      const [x, y] = [to.x(this.x[row]!), to.y(this.y[row]!)];
+      const [x, y] = [frame.x.place(this.x[row]!), frame.y.place(this.y[row]!)];
       if (this.dots.cross) {
         context.moveTo(x - radius, y - radius);
         context.lineTo(x + radius, y + radius);
@@ -60,11 +60,11 @@ export class DotLayer {
     context.globalAlpha = 1;
   }
 
-  // The trial whose mark is nearest to a point of the canvas, with its squared distance (px).
-  nearest(x: number, y: number, to: Positions): { trial: Trial; distance: number } | null {
+  // The trial whose mark is nearest to a place in the area, with its squared distance (px).
+  nearest(x: number, y: number, frame: Frame): { trial: Trial; distance: number } | null {
     let [best, found] = [Infinity, -1];
     for (const row of this.rows) {
-      const distance = (to.x(this.x[row]!) - x) ** 2 + (to.y(this.y[row]!) - y) ** 2;
+      const distance = (frame.x.place(this.x[row]!) - x) ** 2 + (frame.y.place(this.y[row]!) - y) ** 2;
       if (distance < best) [best, found] = [distance, row];
     }
     return found < 0 ? null : { trial: { variant: this.variant, row: found }, distance: best };

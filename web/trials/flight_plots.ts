@@ -52,7 +52,7 @@ export class FlightPlots {
     plot.isNear = true;
     plot.root.setAttribute("role", "application");
     plot.root.setAttribute("aria-label", `${title}; arrow keys move the cursor, plus and minus zoom, 0 shows the whole range`);
-    plot.onArea = (area) => listen(plot, area, () => plot.root.focus(), null);
+    listen(plot, () => plot.root.focus(), null);
     listenToKeys(plot, () => undefined, () => false);
     axis.followCursor(() => {
       const entries = axis.cursor === null ? [] : describePlot(plot, axis.cursor);

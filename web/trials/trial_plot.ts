@@ -2,8 +2,7 @@
 
 import type { Series } from "../curves/series";
 import type { Plot } from "../curves/plot";
-import type { Range } from "../curves/axis";
-import type { Positions } from "../curves/drawing";
+import type { Frame, Range } from "../curves/frame";
 import { SHADES } from "../generated/colours";
 import type { Picking } from "../curves/pointer";
 import type { Card } from "./card";
@@ -45,10 +44,10 @@ export class TrialPlot implements Picking {
       const variant = series.curve.metric ? trials.variant(series.curve.name ?? "") : undefined;
       return variant ? [{ series, variant, x: variant.displayed(series.curve.metric!) }] : [];
     });
-    plot.layers.push((context, to, size) => {
-      for (const layer of this.layers) layer.draw(context, to, size, selection);
-      this.drawRug(context, to.x, plot.positions.to.y(0, true));
-      this.drawBrush(context, to);
+    plot.layers.push((context, frame, point) => {
+      for (const layer of this.layers) layer.draw(context, frame, point, selection);
+      this.drawRug(context, frame);
+      this.drawBrush(context, frame);
     });
     selection.follow(() => plot.redraw());
   }
@@ -92,13 +91,10 @@ export class TrialPlot implements Picking {
     const near = this.currentMark();
     this.current = Math.min(Math.max((near ?? (by > 0 ? -1 : marks.length)) + by, 0), marks.length - 1);
     const { trial, x, y } = marks[this.current]!;
-    const { to, left, top } = this.plot.positions;
-    const bounds = this.plot.root.querySelector(".u-over")!.getBoundingClientRect();
+    const { left, top } = this.plot.area.getBoundingClientRect();
     if (!this.layers.length) this.plot.axis.moveCursor(x);
-    this.card.hover(trial, {
-      clientX: bounds.left + (to.x(x) - left) / devicePixelRatio,
-      clientY: bounds.top + (to.y(y) - top) / devicePixelRatio,
-    });
+    const frame = this.plot.frame!;
+    this.card.hover(trial, { clientX: left + frame.x.place(x), clientY: top + frame.y.place(y) });
   }
 
   private pinCurrent(): boolean {
@@ -134,21 +130,20 @@ export class TrialPlot implements Picking {
   }
 
   private trialAt({ x, y }: { x: number; y: number }): Trial | null {
-    const { to, left, top } = this.plot.positions;
-    const at = [left + x * devicePixelRatio, top + y * devicePixelRatio] as const;
+    const frame = this.plot.frame!;
     const nearest = this.layers
-      .flatMap((layer) => layer.nearest(at[0], at[1], to) ?? [])
+      .flatMap((layer) => layer.nearest(x, y, frame) ?? [])
       .sort((one, other) => one.distance - other.distance)[0];
-    if (nearest) return nearest.distance <= (NEAR * devicePixelRatio) ** 2 ? nearest.trial : null;
-    return this.trialOfDistribution(this.plot.valueAt(x), at[1], to.y);
+    if (nearest) return nearest.distance <= NEAR ** 2 ? nearest.trial : null;
+    return this.trialOfDistribution(frame.x.value(x), y, frame);
   }
 
   // Of the line nearest above or below a point the trial whose metric is nearest.
-  private trialOfDistribution(x: number, y: number, toY: (value: number) => number): Trial | null {
-    let [best, trial] = [NEAR * devicePixelRatio, null as Trial | null];
+  private trialOfDistribution(x: number, y: number, frame: Frame): Trial | null {
+    let [best, trial] = [NEAR, null as Trial | null];
     for (const { series, variant, x: numbers } of this.distributions) {
       if (series.hidden) continue;
-      const distance = Math.abs(toY(series.y(series.rowAt(x))) - y);
+      const distance = Math.abs(frame.y.place(series.y(series.rowAt(x))) - y);
       if (distance > best) continue;
       let row = -1;
       for (let each = 0; each < numbers.length; each++) {
@@ -160,24 +155,24 @@ export class TrialPlot implements Picking {
   }
 
   // The range of the brush, of a distribution as high as the axes.
-  private drawBrush(context: CanvasRenderingContext2D, to: Positions): void {
+  private drawBrush(context: CanvasRenderingContext2D, frame: Frame): void {
     if (!this.brushed || this.selection.source !== this) return;
     const { x, y } = this.brushed;
-    const [left, right] = [to.x(x[0]), to.x(x[1])];
-    const [bottom, top] = this.layers.length ? [to.y(y[0]), to.y(y[1])] : [to.y(0, true), to.y(1, true)];
+    const [left, right] = x.map((end) => frame.x.place(end)) as Range;
+    const [bottom, top] = this.layers.length ? (y.map((end) => frame.y.place(end)) as Range) : [frame.height, 0];
     context.fillStyle = SHADES.brush[0];
     context.fillRect(left, bottom, right - left, top - bottom);
   }
 
-  private drawRug(context: CanvasRenderingContext2D, toX: (value: number) => number, bottom: number): void {
+  private drawRug(context: CanvasRenderingContext2D, frame: Frame): void {
     context.setLineDash([]);
-    context.lineWidth = devicePixelRatio;
+    context.lineWidth = 1;
     for (const { series, variant, x } of this.distributions) {
       context.strokeStyle = series.curve.colour;
       context.beginPath();
       for (const row of this.selection.rows(variant)) {
-        context.moveTo(toX(x[row]!), bottom);
-        context.lineTo(toX(x[row]!), bottom - RUG * devicePixelRatio);
+        context.moveTo(frame.x.place(x[row]!), frame.height);
+        context.lineTo(frame.x.place(x[row]!), frame.height - RUG);
       }
       context.stroke();
     }

@@ -26,7 +26,7 @@ const texts = [...picture.querySelectorAll("text")].filter((text) => text.getCli
 return {
   figure: [left, top, right, bottom],
   axes: [left + padding[0], top + padding[1], right - padding[2], bottom - padding[3]],
-  live: plain(picture.parentElement.querySelector(".u-over").getBoundingClientRect()),
+  live: plain(picture.parentElement.querySelector(".chart > .area").getBoundingClientRect()),
   texts: texts.map((text) => plain(text.getBoundingClientRect())),
   sizes: texts.map((text) => parseFloat(getComputedStyle(text).fontSize) * text.getScreenCTM().a),
   words: texts.map((text) => text.textContent),

@@ -15,7 +15,7 @@ from tests.support.pages.node import call
 ENDS = 10_000
 SEED = 58
 FITTING = 6  # ticks that fit
-# Where uPlot's own never end: an axis that begins a little below a power of ten.
+# Where steps that are added never end: an axis that begins a little below a power of ten.
 FREEZING = [(0.95 * 10.0**power, 30.0 * 10.0**power) for power in range(-12, 1)]
 DIGITS = {"1", "2", "25", "3", "4", "5", "6", "7", "8", "9"}  # of a step, and of a tick of a logarithmic axis
 

@@ -24,7 +24,7 @@ const text = (page, selector) => page.$eval(selector, (element) => element.textC
 const flight = await open(run, "#section-states-and-commands");
 const frame = await flight.$("::-p-xpath(//*[@aria-label='plant.altitude over time']/..)");
 await frame.evaluate((element) => element.scrollIntoView({ block: "center" }));
-const area = await flight.waitForFunction((element) => element.querySelector(".u-over"), {}, frame);
+const area = await flight.waitForFunction((element) => element.querySelector(".chart > .area"), {}, frame);
 const box = await area.boundingBox();
 await flight.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
 const pointed = await text(flight, ".explore output");
@@ -45,7 +45,7 @@ await trials.$$eval("[data-figure]", (pictures) => {
   picture.closest(".live").scrollIntoView({ block: "center" });
   picture.closest(".live").querySelector(".chart").focus();
 });
-await trials.waitForFunction(() => document.activeElement.querySelector(".u-over"));
+await trials.waitForFunction(() => document.activeElement.querySelector(".chart > .area"));
 await trials.keyboard.press("ArrowRight");
 await trials.keyboard.press("Enter");
 const pinned = await text(trials, ".card.pinned");

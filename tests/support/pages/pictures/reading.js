@@ -89,7 +89,7 @@
     const marked = [...picture.querySelectorAll("use, circle")]; // where a line has marks alone
     const off = [];
     let marks = 0;
-    for (const area of frame.querySelectorAll(".u-over")) {
+    for (const area of frame.querySelectorAll(".chart > .area")) {
       const { left, top, width, height } = area.getBoundingClientRect();
       for (let each = 0; each < 10; each++) {
         const clientX = left + (0.05 + 0.1 * each) * width;
