@@ -114,8 +114,7 @@ def bundle(output: Path, *, check: bool) -> None:
 
 def notice(name: str | None) -> str:
     """Return the licence of a package as a comment, for a page that has it inside."""
-    return f"/*!
-{name}: {licence(name)}*/" if name == EMBEDDED else ""
+    return f"/*!\n{name}: {licence(name)}*/" if name == EMBEDDED else ""
 
 
 def licence(name: str) -> str:

@@ -57,10 +57,9 @@ function drawRule(context: CanvasRenderingContext2D, frame: Frame, rule: Rule, p
 
 export type Layer = (context: CanvasRenderingContext2D, frame: Frame, point: number) => void;
 
-export function drawAbove(context: CanvasRenderingContext2D, frame: Frame, chart: Chart, all: Series[], layers: Layer[], point: number, isWhole: boolean): void {
+export function drawAbove(context: CanvasRenderingContext2D, frame: Frame, chart: Chart, all: Series[], point: number, isWhole: boolean): void {
   const shown = all.filter((series) => !series.hidden);
   clipped(context, frame, () => {
-    for (const draw of layers) draw(context, frame, point);
     for (const series of shown) {
       const { colour, opacity, width, dashes, joined, marker, beyond } = series.curve;
       context.globalAlpha = opacity;
@@ -111,18 +110,18 @@ function traceLine(context: CanvasRenderingContext2D, frame: Frame, series: Seri
 // Of all rows in a column of pixels the first, least, greatest and last, as one line along which dashes go on: the same
 // picture as of all rows.
 function traceColumns(context: CanvasRenderingContext2D, frame: Frame, series: Series, begin: number, end: number): void {
-  const columnOf = (row: number) => Math.floor(frame.x.place(series.x[row]!) * devicePixelRatio);
   let pen = false;
   let row = begin;
   while (row < end) {
-    const column = columnOf(row);
+    const column = Math.floor(frame.x.place(series.x[row]!) * devicePixelRatio);
+    const next = frame.x.value((column + 1) / devicePixelRatio);
     const first = series.y(row);
     let [least, greatest, last] = [Infinity, -Infinity, NaN];
-    for (; row < end && columnOf(row) === column; row++) {
+    do {
       last = series.y(row);
       if (last < least) least = last;
       if (last > greatest) greatest = last;
-    }
+    } while (++row < end && series.x[row]! < next);
     if (least > greatest) {
       pen = false;
       continue;
@@ -164,7 +163,7 @@ function stroke(context: CanvasRenderingContext2D, colour: string, width: number
   context.setLineDash((dashes ?? []).map((length) => length * width * point));
 }
 
-function clipped(context: CanvasRenderingContext2D, { width, height }: Frame, draw: () => void): void {
+export function clipped(context: CanvasRenderingContext2D, { width, height }: Frame, draw: () => void): void {
   context.save();
   context.beginPath();
   context.rect(0, 0, width, height);

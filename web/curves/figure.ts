@@ -5,8 +5,9 @@ import type { Page } from "../page/document";
 import { fontOf, widthOf } from "./axes";
 import type { SharedAxis } from "./axis";
 import { markCursor } from "./marker";
-import { type Place, Plot } from "./plot";
+import { Plot } from "./plot";
 import { describePlot } from "./readout";
+import type { Place } from "./sheet";
 
 const GAP = 18; // px above axes
 const LABELS = 44; // px at least, left of axes

@@ -5,31 +5,22 @@ import type { Page } from "../page/document";
 import { make } from "../page/elements";
 import { drawAxes } from "./axes";
 import { SharedAxis } from "./axis";
-import { type Layer, type Shape, drawAbove, drawBelow, loadShapes } from "./drawing";
+import { type Layer, type Shape, clipped, drawAbove, drawBelow, loadShapes } from "./drawing";
 import { Frame, type Range } from "./frame";
 import { Series } from "./series";
+import { type Place, Sheet } from "./sheet";
 import { ticksOf } from "./ticks";
 
 const MARGIN = 0.06; // of a zoomed ordinate, above and below its values
 const [ACROSS, UP] = [60, 30]; // px at least from a tick to the next, along the abscissa and the ordinate
 
-export interface Place {
-  left: number; // px, of the root in the figure
-  top: number;
-  width: number;
-  height: number;
-  margins: [top: number, right: number, bottom: number, left: number]; // px, from the root to the axes' area
-  point: number; // px of a pt of the figure
-  isNarrow: boolean; // the abscissa has few ticks
-}
-
 export class Plot {
   readonly root = make("div", { class: "chart" });
   readonly area = make("div", { class: "area" }); // of the axes, over the canvas
-  readonly layers: Layer[] = []; // drawn below the lines
   isNear = false; // to the screen: only then it is drawn again
   frame: Frame | null = null; // null before it has a place
-  private readonly context = make("canvas").getContext("2d")!;
+  private sheets = [new Sheet()];
+  private layer: Layer | null = null;
   private placed: Place | null = null;
   private isPending = false; // a picture
   private ordinate: Range | null = null; // of a path at its own zoom
@@ -70,7 +61,7 @@ export class Plot {
     const { left, top, width, height, margins } = place;
     Object.assign(this.root.style, { left: px(left), top: px(top), width: px(width), height: px(height) });
     this.area.style.inset = px(...margins);
-    this.root.append(this.context.canvas, this.area);
+    this.root.append(...this.sheets.map((sheet) => sheet.canvas), this.area);
     this.update();
     this.draw();
   }
@@ -91,22 +82,32 @@ export class Plot {
 
   private draw(): void {
     this.isPending = false;
-    const { context, chart, placed, frame } = this;
-    const { width, height, margins, point, isNarrow } = placed!;
-    const ratio = devicePixelRatio;
-    const size = { width: Math.round(width * ratio), height: Math.round(height * ratio) };
-    if (context.canvas.width !== size.width || context.canvas.height !== size.height) Object.assign(context.canvas, size);
-    context.resetTransform();
-    context.clearRect(0, 0, size.width, size.height);
-    context.setTransform(ratio, 0, 0, ratio, Math.round(margins[3] * ratio), Math.round(margins[0] * ratio));
+    const { chart, placed, frame } = this;
+    const { point, isNarrow } = placed!;
     const isWhole = this.axis.zoom === null;
     const ticks = {
       x: ticksOf(chart.x, frame!.x.ends, frame!.width / ACROSS, isNarrow, isWhole),
       y: ticksOf(chart.y, frame!.y.ends, frame!.height / UP, false, isWhole),
     };
-    drawAxes(context, frame!, chart, ticks, point);
-    drawBelow(context, frame!, chart, this.shapes, point);
-    drawAbove(context, frame!, chart, this.series, this.layers, point, isWhole);
+    const below = this.sheets[0]!.clear(placed!);
+    drawAxes(below, frame!, chart, ticks, point);
+    drawBelow(below, frame!, chart, this.shapes, point);
+    this.drawLayer();
+    const above = this.layer ? this.sheets[2]!.clear(placed!) : below;
+    drawAbove(above, frame!, chart, this.series, point, isWhole);
+  }
+
+  // A layer between areas and lines, which has a canvas and can be drawn without them.
+  setLayer(layer: Layer): void {
+    this.layer = layer;
+    this.sheets = [new Sheet(), new Sheet(), new Sheet()];
+  }
+
+  drawLayer(): void {
+    const { frame, layer, placed } = this;
+    if (!layer || !placed || !this.isNear) return;
+    const context = this.sheets[1]!.clear(placed);
+    clipped(context, frame!, () => layer(context, frame!, placed.point));
   }
 
   // Zooms to a rectangle of the abscissa and, of a path, of the ordinate; null: as drawn.

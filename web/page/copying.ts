@@ -2,8 +2,14 @@
 
 import { button } from "./elements";
 
-export function copyButton(code: HTMLElement, label: string): HTMLButtonElement {
+// ``whole``: what an element has once it is selected or copied, where its text was cut.
+export function copyButton(code: HTMLElement, label: string, whole?: string): HTMLButtonElement {
+  const complete = () => {
+    if (whole) code.textContent = whole;
+  };
+  code.addEventListener("pointerdown", complete, { once: true });
   const copy = button(label, async () => {
+    complete();
     copy.textContent = (await copyText(code)) ? "Copied" : "Select the text and copy it";
   });
   copy.className = "copy";

@@ -5,6 +5,8 @@ import { make } from "../page/elements";
 import type { Selection } from "./selection";
 import type { Trials } from "./trials";
 
+const LONGEST = 300; // letters of a command that are shown: to lay out ten thousand numbers takes longer than a figure
+
 export function showChosen(selection: Selection, trials: Trials, bar: HTMLElement): void {
   const note = make("div", { class: "chosen", "aria-live": "polite", hidden: "" });
   bar.prepend(note);
@@ -15,8 +17,9 @@ export function showChosen(selection: Selection, trials: Trials, bar: HTMLElemen
     const failures = variants.reduce((sum, [variant, rows]) => sum + rows.filter((row) => variant.success[row] !== 1).length, 0);
     note.replaceChildren(`${count} of ${trials.size} trials, ${failures} ${failures === 1 ? "failure" : "failures"}`);
     for (const [variant, rows] of variants) {
-      const code = make("code", {}, variant.commandOf(rows));
-      note.append(make("div", {}, code, copyButton(code, "Copy command")));
+      const command = variant.commandOf(rows);
+      const code = make("code", {}, command.length > LONGEST ? `${command.slice(0, LONGEST)}\u2026` : command);
+      note.append(make("div", {}, code, copyButton(code, "Copy command", command)));
     }
   });
 }

@@ -1,16 +1,14 @@
 // Marks of trials on a plot, and which of them is near a point.
 
 import type { Dots } from "../generated/charts";
-import type { Frame } from "../curves/frame";
-import type { Selection, Trial } from "./selection";
+import type { Frame, Range } from "../curves/frame";
+import type { Trial } from "./selection";
 import type { Trials, Variant } from "./trials";
-
-const FADED = 0.12; // opacity of what is not selected
 
 export class DotLayer {
   readonly x: Float64Array;
   readonly y: Float64Array;
-  private readonly rows: number[];
+  readonly rows: number[]; // of its outcome, with finite numbers
 
   private constructor(
     private readonly dots: Dots,
@@ -31,33 +29,23 @@ export class DotLayer {
     });
   }
 
-  // ``point``: px of a pt of the figure.
-  draw(context: CanvasRenderingContext2D, frame: Frame, point: number, selection: Selection): void {
-    const chosen = this.rows.filter((row) => selection.has(this.variant, row));
-    if (chosen.length < this.rows.length) this.drawRows(context, frame, point, this.rows, FADED);
-    this.drawRows(context, frame, point, chosen, 1);
-  }
-
-  private drawRows(context: CanvasRenderingContext2D, frame: Frame, point: number, rows: number[], opacity: number): void {
+  // Draws the trials of which ``has`` is true. ``point``: px of a pt of the figure.
+  draw(context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D, frame: Frame, point: number, has: (variant: Variant, row: number) => boolean): void {
     const radius = (this.dots.size / 2) * point;
-    context.globalAlpha = opacity;
-    context.setLineDash([]);
-    context.lineCap = "butt";
     context.fillStyle = context.strokeStyle = this.dots.colour;
     context.lineWidth = Math.max(1 / devicePixelRatio, 0.29 * this.dots.size * point);
     context.beginPath();
-    for (const row of rows) {
+    for (const row of this.rows) {
+      if (!has(this.variant, row)) continue;
       const [x, y] = [frame.x.place(this.x[row]!), frame.y.place(this.y[row]!)];
       if (this.dots.cross) {
         context.moveTo(x - radius, y - radius);
         context.lineTo(x + radius, y + radius);
         context.moveTo(x - radius, y + radius);
         context.lineTo(x + radius, y - radius);
-      } else context.rect(x - 0.89 * radius, y - 0.89 * radius, 1.78 * radius, 1.78 * radius);
+      } else context.fillRect(x - 0.89 * radius, y - 0.89 * radius, 1.78 * radius, 1.78 * radius);
     }
-    if (this.dots.cross) context.stroke();
-    else context.fill();
-    context.globalAlpha = 1;
+    context.stroke();
   }
 
   // The trial whose mark is nearest to a place in the area, with its squared distance (px).
@@ -70,9 +58,7 @@ export class DotLayer {
     return found < 0 ? null : { trial: { variant: this.variant, row: found }, distance: best };
   }
 
-  within(x: [number, number], y: [number, number]): Trial[] {
-    return this.rows
-      .filter((row) => this.x[row]! >= x[0] && this.x[row]! <= x[1] && this.y[row]! >= y[0] && this.y[row]! <= y[1])
-      .map((row) => ({ variant: this.variant, row }));
+  within(x: Range, y: Range): number[] {
+    return this.rows.filter((row) => this.x[row]! >= x[0] && this.x[row]! <= x[1] && this.y[row]! >= y[0] && this.y[row]! <= y[1]);
   }
 }

@@ -11,6 +11,7 @@ import type { Selection, Trial } from "./selection";
 import type { Trials, Variant } from "./trials";
 
 const NEAR = 24; // px, from which on a mark is under the pointer
+const FADED = 0.12; // opacity of what is not chosen
 const RUG = 6; // px, of the ticks of chosen trials below a distribution
 
 interface Distribution {
@@ -31,6 +32,7 @@ export class TrialPlot implements Picking {
   private order: Mark[] | null = null; // from left to right, for keys
   private ordered: Distribution | null = null; // of which they are
   private current = -1;
+  private faded: { frame: Frame; all: OffscreenCanvas } | null = null;
   private brushed: { x: Range; y: Range } | null = null; // what the last brush of this plot has covered
 
   private constructor(
@@ -44,18 +46,24 @@ export class TrialPlot implements Picking {
       const variant = series.curve.metric ? trials.variant(series.curve.name ?? "") : undefined;
       return variant ? [{ series, variant, x: variant.displayed(series.curve.metric!) }] : [];
     });
-    plot.layers.push((context, frame, point) => {
-      for (const layer of this.layers) layer.draw(context, frame, point, selection);
+    if (!this.hasTrials) return;
+    plot.setLayer((context, frame, point) => {
+      if (!selection.isWhole && this.layers.length) this.drawFaded(context, frame, point);
+      for (const layer of this.layers) layer.draw(context, frame, point, (variant, row) => selection.has(variant, row));
       this.drawRug(context, frame);
       this.drawBrush(context, frame);
     });
-    selection.follow(() => plot.redraw());
+    selection.follow(() => plot.drawLayer());
+  }
+
+  private get hasTrials(): boolean {
+    return this.layers.length > 0 || this.distributions.length > 0;
   }
 
   // Null where a plot has no trials.
   static of(plot: Plot, trials: Trials | null, selection: Selection, card: Card): TrialPlot | null {
     const made = trials && new TrialPlot(plot, trials, selection, card);
-    return made && (made.layers.length || made.distributions.length) ? made : null;
+    return made?.hasTrials ? made : null;
   }
 
   hover(event: PointerEvent | null, place: { x: number; y: number }): void {
@@ -69,12 +77,15 @@ export class TrialPlot implements Picking {
   }
 
   brush(x: Range, y: Range): void {
-    const marked = this.layers.flatMap((layer) => layer.within(x, y));
-    const between = this.distributions.flatMap(({ variant, x: numbers }) =>
-      [...numbers.keys()].filter((row) => numbers[row]! >= x[0] && numbers[row]! <= x[1]).map((row) => ({ variant, row })),
-    );
+    const between = (numbers: Float64Array) => [...numbers.keys()].filter((row) => numbers[row]! >= x[0] && numbers[row]! <= x[1]);
     this.brushed = { x, y };
-    this.selection.choose([...marked, ...between], this);
+    this.selection.choose(
+      [
+        ...this.layers.map((layer): [Variant, number[]] => [layer.variant, layer.within(x, y)]),
+        ...this.distributions.map((each): [Variant, number[]] => [each.variant, between(each.x)]),
+      ],
+      this,
+    );
   }
 
   // Keys step from mark to mark or along the first distribution, Enter pins, Escape ends a selection.
@@ -120,7 +131,7 @@ export class TrialPlot implements Picking {
     this.ordered = shown;
     this.current = -1;
     const all = this.layers.flatMap((layer) =>
-      layer.within([-Infinity, Infinity], [-Infinity, Infinity]).map((trial) => ({ trial, x: layer.x[trial.row]!, y: layer.y[trial.row]! })),
+      layer.rows.map((row) => ({ trial: { variant: layer.variant, row }, x: layer.x[row]!, y: layer.y[row]! })),
     );
     shown?.x.forEach((x, row) => {
       if (Number.isFinite(x)) all.push({ trial: { variant: shown.variant, row }, x, y: shown.series.y(shown.series.rowAt(x)) });
@@ -164,17 +175,27 @@ export class TrialPlot implements Picking {
     context.fillRect(left, bottom, right - left, top - bottom);
   }
 
+  // All trials, as they were drawn last at these places.
+  private drawFaded(context: CanvasRenderingContext2D, frame: Frame, point: number): void {
+    if (this.faded?.frame !== frame) {
+      const [width, height] = [frame.width, frame.height].map((length) => Math.ceil(length * devicePixelRatio));
+      const all = new OffscreenCanvas(width!, height!).getContext("2d")!;
+      all.scale(devicePixelRatio, devicePixelRatio);
+      for (const layer of this.layers) layer.draw(all, frame, point, () => true);
+      this.faded = { frame, all: all.canvas };
+    }
+    context.globalAlpha = FADED;
+    const { all } = this.faded;
+    context.drawImage(all, 0, 0, all.width / devicePixelRatio, all.height / devicePixelRatio);
+    context.globalAlpha = 1;
+  }
+
   private drawRug(context: CanvasRenderingContext2D, frame: Frame): void {
-    context.setLineDash([]);
-    context.lineWidth = 1;
     for (const { series, variant, x } of this.distributions) {
-      context.strokeStyle = series.curve.colour;
-      context.beginPath();
-      for (const row of this.selection.rows(variant)) {
-        context.moveTo(frame.x.place(x[row]!), frame.height);
-        context.lineTo(frame.x.place(x[row]!), frame.height - RUG);
-      }
-      context.stroke();
+      context.fillStyle = series.curve.colour;
+      const isMarked = new Uint8Array(frame.width + 1); // many trials have one place
+      for (const row of this.selection.rows(variant)) isMarked[Math.round(frame.x.place(x[row]!))] = 1;
+      isMarked.forEach((marked, place) => marked && context.fillRect(place - 0.5, frame.height - RUG, 1, RUG));
     }
   }
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from markupsafe import Markup, escape
@@ -55,19 +55,26 @@ def write_svg(
 
 def _elements(frame: FluidFrame, chart: Chart, title: str, trials: TrialPositions, label_size: float) -> str:
     """Return the elements of the picture, from the back to the front."""
-    below = "".join(draw_area(frame, each) for each in chart.areas)
-    below += "".join(draw_rule(frame, each) for each in chart.rules)
-    dots = "".join(draw_dots(frame, each, *trials(each)) for each in chart.dots)
-    curves = "".join(
-        frame.stretch(draw_curve(frame, each)) + ("" if each.beyond else draw_marks(frame, each))
-        for each in chart.curves
-    )
     return "".join(
         (
             *draw_axes(frame),
-            frame.clip(frame.stretch(below) + dots + curves),
+            *_inside(frame, chart, trials),
             *(draw_marks(frame, curve) for curve in chart.curves if curve.beyond),
             *(draw_note(frame, note) for note in chart.notes),
             *draw_labels(frame, title, label_size),
         )
     )
+
+
+def _inside(frame: FluidFrame, chart: Chart, trials: TrialPositions) -> Iterator[str]:
+    """Yield the elements within the axes; paths that follow each other share one."""
+    paths = [draw_area(frame, each) for each in chart.areas]
+    paths += [draw_rule(frame, each) for each in chart.rules]
+    paths += [draw_dots(frame, each, *trials(each)) for each in chart.dots]
+    for each in chart.curves:
+        paths.append(draw_curve(frame, each))
+        if each.marker and not each.beyond:
+            yield frame.stretch("".join(paths))
+            yield frame.clip(draw_marks(frame, each))
+            paths.clear()
+    yield frame.stretch("".join(paths))

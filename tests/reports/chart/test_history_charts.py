@@ -141,9 +141,7 @@ def test_the_picture_has_the_texts_and_points_of_the_chart(odd):
     ticks = [text for axis in (chart.x, chart.y) for _, text in axis.ticks]
     assert texts == [*ticks, "time, s"]
     assert root.get("aria-label") == "what it shows"
-    wide, high = (
-        float(each) for each in root.xpath("//*[@viewBox][@width='100%'][@height='100%']/@viewBox")[0].split()[2:]
-    )
+    wide, high = (float(each) for each in root.xpath("//*[@viewBox][@fill='none']/@viewBox")[0].split()[2:])
     path = root.xpath("//*[@stroke-linejoin]/@d")[0]
     strokes = [stroke for stroke in path.split("M") if stroke]
     assert len(strokes) == 2  # on either side of the gap

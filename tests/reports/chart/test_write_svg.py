@@ -142,9 +142,10 @@ def test_dots_of_trials(trials, cross):
         return
     (path,) = paths
     if cross:
-        assert path.get("d").count("M") == 2
-        copies = list(root.iter("{*}use")) or [path]
-        centres = np.array([position(each, area) for each in copies])
+        ends = np.array(NUMBER.findall(path.get("d")), dtype=float).reshape(-1, 2).cumsum(axis=0).reshape(-1, 4, 2)
+        assert path.get("d").count("m") == 2 * len(ends)
+        centres = ends.mean(axis=1)
+        np.testing.assert_allclose(np.abs(ends - centres[:, np.newaxis]), 1.5 * POINT, atol=0.06)
     else:
         assert "stroke-linecap:round" in path.get("style")
         centres = np.array([NUMBER.findall(each)[:2] for each in path.get("d").split("m")[1:]]).astype(float)

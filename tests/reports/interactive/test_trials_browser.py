@@ -22,12 +22,13 @@ from tests.support.pages.driven import driven, scroll_to_plot
 pytestmark = pytest.mark.usefixtures("fmus")
 
 VARIANT = "astar_guidance"
-# How many px of a canvas have about the colour of failures, fully opaque.
+# How many px of a figure's canvases have about the colour of failures, fully opaque.
 STRONG = """
-const canvas = arguments[0].querySelector("canvas");
-const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
-copy.drawImage(canvas, 0, 0);
-const pixels = copy.getImageData(0, 0, canvas.width, canvas.height).data;
+const all = [...arguments[0].querySelectorAll("canvas")];
+const [{ width, height }] = all;
+const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+for (const canvas of all) copy.drawImage(canvas, 0, 0);
+const pixels = copy.getImageData(0, 0, width, height).data;
 let count = 0;
 for (let at = 0; at < pixels.length; at += 4) {
   const [red, green, blue, opacity] = pixels.subarray(at, at + 4);
@@ -108,11 +109,14 @@ def test_a_brush_counts_its_trials_and_has_their_command(browser, batch):
         ).click_and_hold().move_by_offset(width - 4, height - 4).release().perform()
         note = driver.find_element(By.CSS_SELECTOR, ".chosen")
         assert note.text.startswith(f"{len(mine)} of {len(table)} trials, {failures} failures")
-        command = note.find_element(By.TAG_NAME, "code").get_attribute("textContent")
+        code = note.find_element(By.TAG_NAME, "code")
+        assert code.get_attribute("textContent").endswith("\u2026")
+        code.click()  # as who selects it does
+        command = code.get_attribute("textContent")
         numbers, _, end = command.removeprefix("for trial in ").partition("; do perilune replay ")
         assert [int(number) for number in numbers.split()] == sorted(row["trial"] for row in mine)
         assert end.endswith("; done")
-        ActionChains(driver).send_keys(Keys.ESCAPE).perform()
+        area.find_element(By.XPATH, "..").send_keys(Keys.ESCAPE)
         assert not note.is_displayed()
 
 

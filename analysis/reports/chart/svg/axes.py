@@ -11,7 +11,7 @@ from ...common.colours import FAINT, GRID, INK
 from ...font.text import ASCENT, DESCENT, MIDDLE
 from ...interactive.charts import Axis
 from ...interactive.measures import AXES_WIDTH, GRID_WIDTH
-from .fluid import FluidFrame
+from .fluid import VISIBLE, FluidFrame
 
 MARGIN = 3.0  # pt, around everything
 STROKE, GAP = 3.5, 3.5  # pt: of a tick, from there to its text
@@ -51,7 +51,7 @@ def _abscissa(frame: FluidFrame, ticks: list[tuple[float, str]], grid: str, edge
     below = frame.stretch_across(_edge(strokes), STROKE)
     texts = [(frame.along(at), "100%", text) for at, (_, text) in zip(x, ticks, strict=True)]
     offset = (0.0, text_offset(frame.x) + ASCENT * frame.x.size)
-    return frame.stretch(_grid(grid) + _edge(edges)) + below + _texts(frame.x, "middle", offset, texts)
+    return frame.stretch_edges(_grid(grid) + _edge(edges)) + below + _texts(frame.x, "middle", offset, texts)
 
 
 def _have_lines(axis: Axis, ticks: Sequence[tuple[float, str]]) -> np.ndarray:
@@ -87,4 +87,4 @@ def draw_labels(frame: FluidFrame, title: str, size: float) -> Iterator[str]:
         if text:
             style = f'font-size="{size:g}" text-anchor="{anchor}" fill="{INK}" transform="{shift}"'
             written = f"<text {style}>{escape(text)}</text>"
-            yield f'<g class="{STILL}"><svg x="{x}" y="{y}" overflow="visible">{written}</svg></g>'
+            yield f'<g class="{STILL}"><svg x="{x}" y="{y}" {VISIBLE}>{written}</svg></g>'

@@ -14,6 +14,7 @@ from ...interactive.charts import Axis, Backing, Chart, Curve, Note
 from .frame import Frame
 
 POINT = 1.375  # px of a pt: the least text has 11 px
+VISIBLE = 'overflow="visible"'
 
 
 @dataclass(frozen=True)
@@ -27,29 +28,34 @@ class FluidFrame(Frame):
     margins: tuple[float, float, float, float]
 
     def along(self, x: float) -> str:
-        return f"{100.0 * x / self.width:.3f}%"
+        return _percentage(x / self.width)
 
     def rise(self, y: float) -> str:
-        return f"{100.0 * y / self.height:.3f}%"
+        return _percentage(y / self.height)
 
     def put(self, x: float, y: float, element: str) -> str:
         """Return an element, which is written for the origin, at a position."""
-        return f'<svg x="{self.along(x)}" y="{self.rise(y)}" overflow="visible">{element}</svg>'
+        return f'<svg x="{self.along(x)}" y="{self.rise(y)}" {VISIBLE}>{element}</svg>'
 
     def stretch(self, elements: str) -> str:
-        return _stretch(elements, self.width, self.height, 'width="100%" height="100%"')
+        """Return paths without what lies outside."""
+        return _stretch(elements, self.width, self.height, 'fill="none"')
+
+    def stretch_edges(self, elements: str) -> str:
+        """Return paths that may lie on the edge."""
+        return _stretch(elements, self.width, self.height, VISIBLE)
 
     def stretch_up(self, elements: str, width: float) -> str:
-        """Return paths left of the rectangle that are as high as it is, and have a ``width`` of their own."""
-        return _stretch(elements, width, self.height, f'x="{-width:g}" width="{width:g}" height="100%"')
+        """Return paths left of the rectangle that are as high as it is, and have a fixed ``width``."""
+        return _stretch(elements, width, self.height, f'x="{-width:g}" width="{width:g}" {VISIBLE}')
 
     def stretch_across(self, elements: str, height: float) -> str:
-        """Return paths below the rectangle that are as wide as it is, and have a ``height`` of their own."""
-        return _stretch(elements, self.width, height, f'y="100%" width="100%" height="{height:g}"')
+        """Return paths below the rectangle that are as wide as it is, and have a fixed ``height``."""
+        return _stretch(elements, self.width, height, f'y="100%" height="{height:g}" {VISIBLE}')
 
     def clip(self, elements: str) -> str:
         """Return elements without what lies outside."""
-        return f'<svg width="100%" height="100%" fill="none">{elements}</svg>'
+        return f"<svg>{elements}</svg>" if elements else ""
 
     def repeat(self, element: str, positions: Sequence[tuple[float, float]]) -> str:
         if len(positions) == 1:
@@ -61,7 +67,11 @@ class FluidFrame(Frame):
 
 def _stretch(elements: str, width: float, height: float, frame: str) -> str:
     view = f'viewBox="0 0 {width:g} {height:g}" preserveAspectRatio="none"'
-    return f'<svg {frame} overflow="visible" {view}>{elements}</svg>' if elements else ""
+    return f"<svg {frame} {view}>{elements}</svg>" if elements else ""
+
+
+def _percentage(share: float) -> str:
+    return f"{round(100.0 * share, 3):g}%"
 
 
 def in_pixels(chart: Chart) -> Chart:

@@ -11,7 +11,6 @@ from .frame import Frame
 from .polyline import in_tenths
 
 CROSS_WIDTH = 0.29  # of the size of a cross
-CROSS = ((-0.5, -0.5, 0.5, 0.5), (-0.5, 0.5, 0.5, -0.5))
 
 
 def draw_marks(frame: Frame, curve: Curve) -> str:
@@ -26,10 +25,7 @@ def draw_marks(frame: Frame, curve: Curve) -> str:
 def draw_dots(frame: Frame, dots: Dots, x: np.ndarray, y: np.ndarray) -> str:
     """Return marks of trials at abscissas and ordinates, [trials], as one path; those that coincide are one."""
     positions = np.unique(_within(frame, frame.across(x), frame.down(y)), axis=0)
-    if not dots.cross:
-        return frame.stretch(_round(positions, dots.size, dots.colour))
-    paint = f'stroke="{dots.colour}" stroke-width="{CROSS_WIDTH * dots.size:.3g}"'
-    return _shapes(frame, positions, CROSS, dots.size, paint)
+    return (_crosses if dots.cross else _round)(positions, dots.size, dots.colour)
 
 
 def _within(frame: Frame, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -60,6 +56,15 @@ def _round(positions: np.ndarray, diameter: float, colour: str) -> str:
     # A page's style sheet has the other ends for strokes, which an attribute would not change.
     style = 'style="stroke-linecap:round"'
     return f'<path d="{path}" stroke="{colour}" stroke-width="{diameter:.3g}" {style}/>' if path else ""
+
+
+def _crosses(positions: np.ndarray, size: float, colour: str) -> str:
+    """Crosses, all in one path, which are as narrow as the figure: thousands of elements would delay the page."""
+    arm = int(np.rint(5.0 * size))
+    ends = np.array([(-arm, -arm), (arm, arm), (-arm, arm), (arm, -arm)])  # tenths, from the middle
+    moves = np.diff((positions[:, np.newaxis] + ends).reshape(-1, 2), axis=0, prepend=0).reshape(-1, 2, 2).tolist()
+    path = "".join(f"m{in_tenths(move)}l{in_tenths(line)}" for move, line in moves)
+    return f'<path d="{path}" stroke="{colour}" stroke-width="{CROSS_WIDTH * size:.3g}"/>' if path else ""
 
 
 def _shapes(frame: Frame, positions: np.ndarray, outline: Sequence[Sequence[float]], size: float, paint: str) -> str:

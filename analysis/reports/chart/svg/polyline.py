@@ -8,24 +8,24 @@ import numpy as np
 
 from ...interactive.envelope import envelope
 
-SPANS_PER_POINT = 2  # of an envelope, along the abscissa
-TOLERANCE = 0.05  # pt, by which a point that is left out may lie aside
+SPANS_PER_PIXEL = 1.5  # of an envelope, along the abscissa
+TOLERANCE = 0.07  # px, by which a point that is left out may lie aside
 PASSES = 8
-FAR = 1e6  # pt, where a line ends that goes on
+FAR = 1e6  # px, where a line ends that goes on
 
 
 def path_of(x: np.ndarray, y: np.ndarray, *, steps: bool, width: float | None = None) -> str:
-    """Return the path through points (pt), [rows]; it is interrupted where a coordinate is not finite.
+    """Return the path through points (px), [rows]; it is interrupted where a coordinate is not finite.
 
     ``steps``: an ordinate holds until the next row. A line with ascending abscissas of more rows than can be told
-    apart over ``width`` (pt) is its envelope.
+    apart over ``width`` (px) is its envelope.
     """
     if steps:
         changes = np.flatnonzero(np.append(True, ~((y[1:] == y[:-1]) | (np.isnan(y[1:]) & np.isnan(y[:-1])))))
         rows = np.union1d(changes, [y.size - 1])
         x, y = np.repeat(x[rows], 2)[1:], np.repeat(y[rows], 2)[:-1]
     if width is not None and np.all(np.diff(x) >= 0.0):
-        x, y = envelope(x, y, int(SPANS_PER_POINT * width))
+        x, y = envelope(x, y, int(SPANS_PER_PIXEL * width))
     points = np.clip(np.stack([x, y]), -FAR, FAR)
     return "".join(_stroke(_thin(points[:, rows])) for rows in _finite_runs(np.isfinite(x) & np.isfinite(y)))
 

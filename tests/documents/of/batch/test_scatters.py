@@ -67,7 +67,7 @@ def test_every_finite_trial_has_its_mark():
     assert title == "Contact points"
     assert [panel.label for panel in panels] == ["near: 2 of 4 failed", "far: 0 of 1 failed"]
     near, far = (paths(panel.figure.svg) for panel in panels)
-    assert (near["#9a9a9a"].count("h0"), near["#d55e00"].count("M")) == (2, 2)  # a cross has two strokes
+    assert (near["#9a9a9a"].count("h0"), near["#d55e00"].count("m")) == (2, 2)  # a cross has two strokes
     assert (far["#9a9a9a"].count("h0"), far["#d55e00"]) == (1, "")
     assert notes[1] == 'Dashed: <data value="10.0">10</data> m around the origin.'
     assert notes[2:] == ["near: 1 of 4 trials have no finite value and are not plotted."]
@@ -80,7 +80,7 @@ def test_the_circle_is_round_and_to_scale():
     path = next(path for path in root.xpath("//*[@stroke='#222222']/@d") if path.count("M") > 30)
     starts = np.array([re.findall(NUMBER, stroke)[:2] for stroke in path.split("M")[1:]], dtype=float)
     width, height = np.ptp(starts, axis=0)
-    view = root.xpath("//*[@viewBox][@width='100%'][@height='100%']/@viewBox")[0].split()
+    view = root.xpath("//*[@viewBox][@fill='none']/@viewBox")[0].split()
     np.testing.assert_allclose([wide, high], list(map(float, view[2:])))
     ticks_at = {}  # of the texts at the abscissa's ticks, px
     for text in root.xpath("//*[local-name()='g'][@text-anchor='middle']/*[local-name()='text']"):
