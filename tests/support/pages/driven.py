@@ -62,7 +62,7 @@ def driven(
 def scroll_to_plot(driver: Chrome, frame: WebElement) -> WebElement:
     """Return the area of a figure's first plot, which is drawn once the figure is near to the screen."""
     driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", frame)
-    return WebDriverWait(driver, PATIENCE, 0.05).until(lambda _: frame.find_elements(By.CSS_SELECTOR, ".chart > .area"))[0]
+    return WebDriverWait(driver, PATIENCE, 0.05).until(lambda _: frame.find_elements(By.CSS_SELECTOR, ".area"))[0]
 
 
 UNFOLD = """
