@@ -114,7 +114,10 @@ export function listenToKeys(plot: Plot, onFocus: () => void, onPress: (key: str
 
 // What a key does; false where it does nothing.
 export function press(plot: Plot, key: string, shift: boolean): boolean {
-  const step = (rows: number) => plot.time.goTo(plot.snap(plot.time.cursor ?? -Infinity, rows));
+  const step = (rows: number) => {
+    const at = plot.snap(plot.time.cursor ?? -Infinity, rows);
+    if (Number.isFinite(at)) plot.time.goTo(at); // no line has rows
+  };
   const rows = shift ? ROWS : 1;
   switch (key) {
     case "ArrowLeft": step(-rows); break;
