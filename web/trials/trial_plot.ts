@@ -18,6 +18,7 @@ interface Distribution {
   series: Series;
   variant: Variant;
   x: Float64Array;
+  places?: { frame: Frame; x: Float32Array }; // whole px, since many trials have the same
 }
 
 interface Mark {
@@ -191,10 +192,11 @@ export class TrialPlot implements Picking {
   }
 
   private drawRug(context: CanvasRenderingContext2D, frame: Frame): void {
-    for (const { series, variant, x } of this.distributions) {
-      context.fillStyle = series.curve.colour;
-      const isMarked = new Uint8Array(frame.width + 1); // many trials have one place
-      for (const row of this.selection.rows(variant)) isMarked[Math.round(frame.x.place(x[row]!))] = 1;
+    for (const each of this.distributions) {
+      if (each.places?.frame !== frame) each.places = { frame, x: Float32Array.from(each.x, (x) => Math.round(frame.x.place(x))) };
+      context.fillStyle = each.series.curve.colour;
+      const isMarked = new Uint8Array(frame.width + 1);
+      for (const row of this.selection.rows(each.variant)) isMarked[each.places.x[row]!] = 1;
       isMarked.forEach((marked, place) => marked && context.fillRect(place - 0.5, frame.height - RUG, 1, RUG));
     }
   }
