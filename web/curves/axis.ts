@@ -1,6 +1,6 @@
 // An abscissa that several figures share: what of it is shown, and where the cursor is.
 
-import { type Range, Scale } from "./frame";
+import { type Range, Scale } from "../chart/frame";
 
 export class SharedAxis {
   cursor: number | null = null;

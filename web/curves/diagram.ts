@@ -5,7 +5,7 @@ import type { Page } from "../page/document";
 import { make } from "../page/elements";
 import { reveal } from "../page/folding";
 import type { SharedAxis } from "./axis";
-import { Series } from "./series";
+import { Series } from "../chart/series";
 
 const MOST = 12; // signals that a card lists
 

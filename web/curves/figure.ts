@@ -2,12 +2,12 @@
 
 import type { Axis, Chart } from "../generated/charts";
 import type { Page } from "../page/document";
-import { fontOf, widthOf } from "./axes";
+import { fontOf, widthOf } from "../chart/axes";
 import type { SharedAxis } from "./axis";
 import { markCursor } from "./marker";
 import { Plot } from "./plot";
 import { describePlot } from "./readout";
-import type { Place } from "./sheet";
+import type { Place } from "../chart/sheet";
 
 const GAP = 18; // px above axes
 const LABELS = 44; // px at least, left of axes

@@ -2,7 +2,7 @@
 
 import type { Axis, Chart } from "../generated/charts";
 import type { SharedAxis } from "./axis";
-import { Scale } from "./frame";
+import { Scale } from "../chart/frame";
 
 export function markCursor(picture: SVGElement, charts: Chart[], sharing: (axis: Axis) => SharedAxis): void {
   const frame = document.createElement("div");

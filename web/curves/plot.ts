@@ -3,13 +3,13 @@
 import type { Axis, Chart } from "../generated/charts";
 import type { Page } from "../page/document";
 import { make } from "../page/elements";
-import { drawAxes } from "./axes";
+import { drawAxes } from "../chart/axes";
 import { SharedAxis } from "./axis";
-import { type Layer, type Shape, clipped, drawAbove, drawBelow, loadShapes } from "./drawing";
-import { Frame, type Range } from "./frame";
-import { Series } from "./series";
-import { type Place, Sheet } from "./sheet";
-import { ticksOf } from "./ticks";
+import { type Layer, type Shape, clipped, drawAbove, drawBelow, loadShapes } from "../chart/drawing";
+import { Frame, type Range } from "../chart/frame";
+import { Series } from "../chart/series";
+import { type Place, Sheet } from "../chart/sheet";
+import { ticksOf } from "../chart/ticks";
 
 const MARGIN = 0.06; // of a zoomed ordinate, above and below its values
 const [ACROSS, UP] = [60, 30]; // px at least from a tick to the next, along the abscissa and the ordinate

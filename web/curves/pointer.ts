@@ -1,6 +1,6 @@
 // Mouse, touch and keys on a plot: the cursor, zoom and pan.
 
-import type { Frame, Range } from "./frame";
+import type { Frame, Range } from "../chart/frame";
 import type { Plot } from "./plot";
 
 const CLICK = 4; // px, up to which a drag is a click

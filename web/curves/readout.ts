@@ -2,7 +2,7 @@
 
 import { format } from "../page/numbers";
 import type { Plot } from "./plot";
-import type { Series } from "./series";
+import type { Series } from "../chart/series";
 
 // A text and a colour for each line.
 export function describePlot(plot: Plot, at: number): [text: string, colour: string][] {

@@ -1,7 +1,7 @@
 // Marks of trials on a plot, and which of them is near a point.
 
 import type { Dots } from "../generated/charts";
-import type { Frame, Range } from "../curves/frame";
+import type { Frame, Range } from "../chart/frame";
 import type { Trial } from "./selection";
 import type { Trials, Variant } from "./trials";
 

@@ -1,8 +1,8 @@
 // A plot of trials, dots or distributions: from a mark to its trial, and a brush that chooses trials in all figures.
 
-import type { Series } from "../curves/series";
+import type { Series } from "../chart/series";
 import type { Plot } from "../curves/plot";
-import type { Frame, Range } from "../curves/frame";
+import type { Frame, Range } from "../chart/frame";
 import { SHADES } from "../generated/colours";
 import type { Picking } from "../curves/pointer";
 import type { Card } from "./card";

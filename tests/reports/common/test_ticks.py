@@ -62,7 +62,7 @@ def linear_ends():
 @pytest.mark.parametrize(("name", "ends"), [("linearSplits", linear_ends()), ("logarithmicSplits", logarithmic_ends())])
 def test_any_ends_have_a_few_ticks(name, ends):
     for (low, high), ticks in zip(
-        ends, call("curves/splits.ts", name, [[*each, FITTING] for each in ends]), strict=True
+        ends, call("chart/splits.ts", name, [[*each, FITTING] for each in ends]), strict=True
     ):
         slack = 1e-8 * (high - low)
         assert len(ticks) <= 4 * FITTING, (low, high)
@@ -78,14 +78,14 @@ def test_what_is_seen_has_ticks():
             if high > low > 0.0 and high / low > 1.0 + 1e-9 and high < 1e300 and low > 1e-300
         ]  # fmt: skip
         for (low, high), ticks in zip(
-            wide, call("curves/splits.ts", name, [[*each, FITTING] for each in wide]), strict=True
+            wide, call("chart/splits.ts", name, [[*each, FITTING] for each in wide]), strict=True
         ):
             assert len(ticks) >= 2, (name, low, high)
 
 
 def test_logarithmic_ticks_are_whole_multiples_of_powers_of_ten():
     ends = [(low, high) for low, high in logarithmic_ends() if low > 0.0 and high > 30.0 * low]
-    for ticks in call("curves/splits.ts", "logarithmicSplits", [[*each, FITTING] for each in ends]):
+    for ticks in call("chart/splits.ts", "logarithmicSplits", [[*each, FITTING] for each in ends]):
         for at in ticks:
             digits = "".join(map(str, Decimal(repr(at)).normalize().as_tuple().digits))
             assert digits in DIGITS, at
@@ -93,7 +93,7 @@ def test_logarithmic_ticks_are_whole_multiples_of_powers_of_ten():
 
 def test_linear_ticks_are_evenly_spaced():
     ends = [(low, high) for low, high in linear_ends() if high - low > 1e-6 * max(abs(low), abs(high))]
-    for ticks in call("curves/splits.ts", "linearSplits", [[*each, FITTING] for each in ends]):
+    for ticks in call("chart/splits.ts", "linearSplits", [[*each, FITTING] for each in ends]):
         steps = [Fraction(other) - Fraction(one) for one, other in itertools.pairwise(ticks)]
         for step in steps:
             assert abs(step / steps[0] - 1) < Fraction(1, 10**6)

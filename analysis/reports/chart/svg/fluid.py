@@ -70,8 +70,8 @@ def _stretch(elements: str, width: float, height: float, frame: str) -> str:
     return f"<svg {frame} {view}>{elements}</svg>" if elements else ""
 
 
-def _percentage(share: float) -> str:
-    return f"{round(100.0 * share, 3):g}%"
+def _percentage(fraction: float) -> str:
+    return f"{round(100.0 * fraction, 3):g}%"
 
 
 def in_pixels(chart: Chart) -> Chart:
