@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ..reports.common.colours import Look
-from ..reports.interactive.charts import Curve, Marker
+if TYPE_CHECKING:  # figures take as long to import as a verb without any takes to answer
+    from ..reports.common.colours import Look
+    from ..reports.interactive.charts import Curve, Marker
 
 
 class Quantity(NamedTuple):

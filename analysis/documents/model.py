@@ -6,6 +6,7 @@ A renderer decides how a node is shown; which nodes a medium has follows from th
 |---|---|---|---|
 | `Text`, `Verdict`, `KeyNumbers` | yes | yes | yes |
 | `Table` | its first rows | its first rows | yes |
+| `Listing` | yes | its first rows | yes |
 | `Commands` | yes | no | yes |
 | `Figures` | no | the first ones | yes |
 | `Diagram` | no | where there are no figures | yes |
@@ -21,17 +22,18 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-from markupsafe import Markup
+if TYPE_CHECKING:  # figures take as long to import as a verb without any takes to answer
+    from markupsafe import Markup
 
-from ..reports.chart.write_svg import TrialPositions, no_trials
-from ..reports.common.colours import Look
-from ..reports.diagram.diagram import Diagram as BlockDiagram
-from ..reports.figures.section import Section as SystemFigure
-from ..reports.interactive.charts import Chart
-from ..reports.time_histories import ComponentHistory
-from .cell import Cell, Head, LegendEntry, Rich, Row, RowHeading, RowNote
+    from ..reports.chart.write_svg import TrialPositions
+    from ..reports.common.colours import Look
+    from ..reports.diagram.diagram import Diagram as BlockDiagram
+    from ..reports.figures.section import Section as SystemFigure
+    from ..reports.interactive.charts import Chart
+    from ..reports.time_histories import ComponentHistory
+    from .cell import Cell, Head, LegendEntry, Rich, Row, RowHeading, RowNote
 
 
 class Medium(Enum):
@@ -44,11 +46,15 @@ class Medium(Enum):
 
 @dataclass(frozen=True)
 class Text:
-    """A statement of a result, without a full stop; ``style`` is that of a page."""
+    """A statement of a result, without a full stop; ``style`` is that of a page.
+
+    ``is_wrapped``: a terminal breaks a long one into several lines.
+    """
 
     kind: ClassVar[str] = "text"
     content: Rich
     style: Literal["", "lead", "fail"] = ""
+    is_wrapped: bool = False
 
 
 @dataclass(frozen=True)
@@ -138,6 +144,19 @@ class Table:
 
 
 @dataclass(frozen=True)
+class Listing:
+    """Rows of words without heads, below a ``heading``; a terminal wraps their last cell, unless it is code.
+
+    ``columns`` are the widths (characters) of all columns but the last in a terminal, by default those of their cells.
+    """
+
+    kind: ClassVar[str] = "listing"
+    rows: Sequence[Sequence[Cell]]
+    heading: str = ""
+    columns: Sequence[int] = ()
+
+
+@dataclass(frozen=True)
 class Figure:
     """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` describe it to those who do not see.
 
@@ -158,7 +177,7 @@ class Figure:
     look: Look | None = None
     is_printed: bool = True
     is_reduced: bool = False  # a page has only envelopes of its curves
-    trials: TrialPositions = no_trials
+    trials: TrialPositions | None = None
 
 
 @dataclass(frozen=True)
@@ -305,6 +324,7 @@ Node = (
     | Commands
     | Repeat
     | Table
+    | Listing
     | Figures
     | Diagram
     | Blocks

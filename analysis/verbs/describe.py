@@ -10,12 +10,13 @@ from typing import Any, Unpack
 
 from ...common.errors import InputError, suggestion
 from ...common.paths import names_fmu
-from ...common.visible import on_one_line
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
 from ..authoring.campaign import describe_campaign
 from ..authoring.description import describe_system, variables_of
 from ..authoring.fits import blocks_of_slot, slots
+from ..documents.model import Document
+from ..documents.of.description import description_document
 from ..options.declared.library import DESCRIBE, DescribeOptions
 from ..options.option import FilePath
 from ..options.verb import verb
@@ -27,11 +28,10 @@ from ..runtime.system.fmu import load_fmu
 from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
-from .common.description_text import description_lines
-from .result import NoProblems
+from .common.documented import Documented
 
 
-class Description(NoProblems, dict[str, Any]):
+class Description(Documented, dict[str, Any]):
     """What a system, an FMU, a component or a slot has, by key; see `describe`.
 
     ``prepare`` makes ready what has a block diagram: a system, or an FMU that is simulated alone.
@@ -48,13 +48,9 @@ class Description(NoProblems, dict[str, Any]):
             raise InputError("`report`", os.fspath(path), problem, "describe one of them, or leave it out")
         write_system_page(self.prepare(), Path(path))
 
-    def lines(self) -> list[str]:
-        """What `perilune describe` prints."""
-        return [on_one_line(line) for line in description_lines(self)]
-
-    def to_json(self) -> dict[str, object]:
-        """The same for other programs."""
-        return dict(self)
+    def document(self) -> Document:
+        """Return what is described as lists of words."""
+        return description_document(self)
 
 
 @verb(DESCRIBE)

@@ -13,16 +13,15 @@ from ...common.paths import LAWS, SEARCHES
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
+from ..documents.model import Document
+from ..documents.of.inventory import inventory_document
 from ..options.declared.library import LIST
 from ..options.verb import verb
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.reading import read_description
 from ..stability.request.reading import read_declaration
-from .common.description_text import wrap
-from .result import NoProblems
+from .common.documented import Documented
 
-TITLE = 18  # columns of a title
-LISTS = ("parameter_sets", "campaigns", "loops")  # of a system
 KINDS = ("systems", "campaigns", "laws", "searches", "fmus")
 
 
@@ -46,7 +45,7 @@ class FmuEntry:
 
 
 @dataclass(frozen=True)
-class Inventory(NoProblems):
+class Inventory(Documented):
     """``systems`` and ``fmus`` by name, those of the working folder too; names of ``laws`` and ``searches``.
 
     ``campaigns_only`` is True of systems of which only campaigns are listed.
@@ -58,26 +57,10 @@ class Inventory(NoProblems):
     fmus: Mapping[str, FmuEntry]
     campaigns_only: bool = False
 
-    def lines(self) -> list[str]:
-        """What `perilune list` prints."""
-        lines = []
-        for name, system in self.systems.items():
-            lines.append(name)
-            for title in LISTS[1:2] if self.campaigns_only else LISTS:
-                names = getattr(system, title)
-                lines += wrap(f"  {title.replace('_', ' '):{TITLE - 2}}{', '.join(names) or 'none'}", TITLE)
-        for title, names in (("laws", self.laws), ("searches", self.searches)):
-            lines += wrap(f"{title:{TITLE}}{', '.join(names)}", TITLE) if names else []
-        lines += ["FMUs"] if self.fmus else []
-        width = max((len(name) for name in self.fmus), default=0)
-        for name, fmu in self.fmus.items():
-            built = "+".join(fmu.built) or "not built"
-            lines += wrap(f"  {name:{width}}  {built:13}  {fmu.description}", width + 19)
-        return lines
-
-    def to_json(self) -> dict[str, object]:
-        """The same for other programs."""
-        return {name: entry for name, entry in asdict(self).items() if name != "campaigns_only"}
+    def document(self) -> Document:
+        """Return systems, laws, searches and FMUs as lists."""
+        content = {name: entry for name, entry in asdict(self).items() if name != "campaigns_only"}
+        return inventory_document(content, ("campaigns",)) if self.campaigns_only else inventory_document(content)
 
     def only(self, kind: str) -> Inventory:
         """The same with one of `KINDS` alone."""

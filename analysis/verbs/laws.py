@@ -23,14 +23,13 @@ from ..options.option import FilePath
 from ..options.verb import verb
 from .common.documented import Documented
 from .options.design import LAW, SEARCH, LawOptions, SearchOptions
-from .result import NoProblems
 
 if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
     from matplotlib.figure import Figure as Plot
 
 
 @dataclass(frozen=True)
-class Law(Documented, NoProblems, laws.Law):
+class Law(Documented, laws.Law):
     """A network operator's law: its matrix and parameters, as formula, drawing and parameter set.
 
     ``component`` is what the parameter set is for.

@@ -16,7 +16,6 @@ from ...common.bounds import bound_of
 from ...common.errors import ExitStatus, InputError
 from ...common.paths import names_fmu
 from ...common.regular import read_input
-from ...common.visible import on_one_line
 from ...fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE
 from ..campaigns.definition.checks import check_plan
 from ..campaigns.definition.file import SYNTHESIS, read_campaign
@@ -27,6 +26,8 @@ from ..compose.likeness import find_difference
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound
+from ..documents.model import Document
+from ..documents.of.validation import validation_document
 from ..options.declared.library import VALIDATE, ValidateOptions
 from ..options.option import FilePath
 from ..options.verb import verb
@@ -45,7 +46,7 @@ from ..stability.request.declaration import Declaration
 from ..stability.request.reading import read_declaration
 from ..stability.request.request import Subject
 from .common.arguments import path_list
-from .common.description_text import wrap
+from .common.documented import Documented
 from .compose import compose_file
 
 ELEMENT = r"[A-Za-z_][A-Za-z0-9_]*(\[[0-9]+(,[0-9]+)*\])?"
@@ -63,7 +64,7 @@ class FileCheck:
 
 
 @dataclass(frozen=True)
-class Validation(Sequence[FileCheck]):
+class Validation(Documented, Sequence[FileCheck]):
     """The checks, in the order of the paths."""
 
     checks: tuple[FileCheck, ...]
@@ -79,18 +80,9 @@ class Validation(Sequence[FileCheck]):
     def __len__(self) -> int:
         return len(self.checks)
 
-    def lines(self) -> list[str]:
-        """What `perilune validate` prints: notes, and what is valid."""
-        lines = []
-        for check in self.checks:
-            for note in check.notes:
-                lines += wrap(f"{check.path}: note: {note}", 4)
-            lines += [] if check.problems else [f"{check.path}: OK"]
-        return [on_one_line(line) for line in lines]
-
-    def to_json(self) -> list[dict[str, object]]:
-        """Path, problems and notes of each."""
-        return [asdict(check) for check in self.checks]
+    def document(self) -> Document:
+        """Return notes, and what is valid."""
+        return validation_document([asdict(check) for check in self.checks])
 
     def problems(self) -> list[str]:
         """The problems of all paths."""

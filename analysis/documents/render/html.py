@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ...reports.chart.panel import chart_panel, stack_panel, wide_figure
+from ...reports.chart.write_svg import no_trials
 from ...reports.common.page import write_page
 from ...reports.common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, swatch
 from ...reports.interactive.bundles import MISSING
@@ -154,7 +155,7 @@ def panel_of(figure: Figure) -> Panel:
         figure.height,
         width,
         title=figure.chart.title,
-        trials=figure.trials,
+        trials=figure.trials or no_trials,
         reduced=figure.is_reduced,
     )
     return panel._replace(legend=legend)

@@ -17,6 +17,7 @@ from ..model import (
     Figure,
     Figures,
     KeyNumbers,
+    Listing,
     Medium,
     Node,
     Table,
@@ -37,9 +38,9 @@ def document_view(document: Document) -> str:
     """Return the HTML of a document: its statements, the first rows of its tables, its first figures."""
     nodes = nodes_of(document, Medium.NOTEBOOK)
     grids = [
-        Grid(heads_of(node), [[_cell(cell) for cell in row] for row in rows_of(node)])
+        Grid(_heads(node), [[_cell(cell) for cell in row] for row in _rows(node)])
         for node in nodes
-        if isinstance(node, Table)
+        if isinstance(node, Table | Listing)
     ]
     figures, key = figures_of(document), _key(nodes)
     words = [text for node in nodes for text in _words(node)]
@@ -95,6 +96,17 @@ def _plot_diagram(nodes: Sequence[Node]) -> Plot | None:
 
     chart, width, height = diagram.draw()
     return plot_charts([chart], height / POINTS, width / POINTS)
+
+
+def _heads(node: Table | Listing) -> Sequence[str]:
+    """Return a head for each column; of a listing its heading."""
+    if isinstance(node, Table):
+        return heads_of(node)
+    return [node.heading, *[""] * (len(node.rows[0]) - 1 if node.rows else 0)]
+
+
+def _rows(node: Table | Listing) -> Sequence[Sequence[Cell]]:
+    return rows_of(node) if isinstance(node, Table) else node.rows
 
 
 def _cell(cell: Cell) -> Markup | str:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from ....common.visible import on_one_line
 from ...campaigns.plain_text import align_columns
 from ..model import (
     Commands,
     Document,
     Fold,
     KeyNumbers,
+    Listing,
     Medium,
     Node,
     Only,
@@ -20,13 +22,16 @@ from ..model import (
     Verdict,
     select,
 )
+from .columns import listing_lines, wrap_line
 from .words import cell_text, heads_of, number_line, rich_text, rows_of
+
+CONTINUED = 4  # columns before further lines of a statement
 
 
 def document_lines(document: Document) -> list[str]:
-    """Return the lines that a terminal shows of a document."""
+    """Return the lines that a terminal shows of a document; line breaks in names of others are escaped."""
     sections = [line for section in document.sections for line in _section_lines(section)]
-    return [*_lines(document.summary), *sections]
+    return [on_one_line(line) for line in (*_lines(document.summary), *sections)]
 
 
 def _section_lines(section: Section) -> list[str]:
@@ -42,8 +47,8 @@ def _lines(nodes: Iterable[Node]) -> list[str]:
 
 def _node_lines(node: Node) -> list[str]:
     match node:
-        case Text(content):
-            return [rich_text(content)]
+        case Text(content, _, is_wrapped):
+            return wrap_line(rich_text(content), CONTINUED) if is_wrapped else [rich_text(content)]
         case Printed(lines):
             return list(lines)
         case Only():
@@ -58,6 +63,8 @@ def _node_lines(node: Node) -> list[str]:
             return ["", summary, *_lines(nodes)]
         case Fold(summary):
             return [summary]
+        case Listing():
+            return listing_lines(node)
         case Table() if node.rows:
             rows = [[cell_text(cell) for cell in row] for row in rows_of(node)[: node.listed]]
             more = len(rows_of(node)) - len(rows)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from pathlib import Path
 
 from ....common.to_json import to_json
@@ -10,12 +10,16 @@ from ...documents.model import Document
 from ...options.option import FilePath
 
 
-class Documented(ABC):
+class Documented:
     """A result whose `document` says everything that is shown of it."""
 
-    @abstractmethod
     def document(self) -> Document:
         """Return the result as a document."""
+        raise NotImplementedError
+
+    def problems(self) -> Sequence[str]:
+        """Return a line for each requirement that is not met and each simulation that did not complete."""
+        return []
 
     def lines(self) -> list[str]:
         """Return the lines that the verb prints."""

@@ -49,10 +49,6 @@ class Stored(Documented):
 
         return plot_figures(figures_of(self.document()))
 
-    def problems(self) -> list[str]:
-        """None."""
-        return []
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Required(Stored):

@@ -1,0 +1,54 @@
+"""Rows of words as lines of a terminal, in columns of which the last one is wrapped."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+
+from ..cell import Code
+from ..model import Listing
+from .words import cell_text
+
+WIDEST = 100  # columns of a line
+LONGEST = 48  # characters of a column, beyond which an entry pushes the rest of its line on
+INDENT = "  "  # of rows below a heading
+
+
+def wrap_line(line: str, indent: int) -> list[str]:
+    """Return a line as lines of at most WIDEST columns, all but the first indented; words are not broken."""
+    if len(line) <= WIDEST:
+        return [line.rstrip()]
+    return textwrap.wrap(
+        line,
+        WIDEST,
+        subsequent_indent=" " * indent,
+        break_long_words=False,
+        break_on_hyphens=False,
+        replace_whitespace=False,
+        drop_whitespace=True,
+        expand_tabs=False,
+    )
+
+
+def listing_lines(listing: Listing) -> list[str]:
+    """Return the heading of a listing and its rows, in columns as wide as stated, or as entries up to LONGEST."""
+    heading, before = ([listing.heading], INDENT) if listing.heading else ([], "")
+    rows = [[before + cell_text(row[0]), *map(cell_text, row[1:])] for row in listing.rows]
+    if listing.columns:
+        gap, widths = "", [len(before) + listing.columns[0], *listing.columns[1:]]
+        indent = sum(widths)
+    else:
+        gap, widths = "  ", [_width(column) for column in zip(*rows, strict=True)][:-1]
+        indent = min(sum(widths) + len(gap) * len(widths), LONGEST)
+    lines = [
+        gap.join(entry.ljust(width) for entry, width in zip(row, [*widths, 0], strict=True)).rstrip() for row in rows
+    ]
+    wrapped = (
+        [line] if isinstance(row[-1], Code) else wrap_line(line, indent)
+        for row, line in zip(listing.rows, lines, strict=True)
+    )
+    return [*heading, *(part for parts in wrapped for part in parts)]
+
+
+def _width(column: Sequence[str]) -> int:
+    return max((len(entry) for entry in column if len(entry) <= LONGEST), default=0)
