@@ -13,11 +13,10 @@ import pyarrow
 import pyarrow.parquet
 
 from ...common.errors import InputError
-from ...common.regular import check_folder
 from ..campaigns.columns import Column, describe_column
 from ..campaigns.execute.campaign import read_folder
 from ..campaigns.folder.campaign_folder import CampaignFolder
-from ..campaigns.folder.files import FOLDER, IDENTITY, NEW_FOLDER, NUMBER_PREFIXES, check_names, numbers
+from ..campaigns.folder.files import IDENTITY, NEW_FOLDER, NUMBER_PREFIXES, check_names, numbers
 from ..commands.campaigns import replay_of_folder
 
 ROW_LIMIT = 20_000_000  # of a campaign: a column of it is 40 MB
@@ -130,7 +129,6 @@ def open_campaign(folder: Path, is_stopped: Callable[[], bool]) -> OpenCampaign:
 
     Raises InputError for what is no such folder, for a link in it, for damage, and above `ROW_LIMIT` rows.
     """
-    check_folder(folder.absolute() / FOLDER, NEW_FOLDER)
     campaign = OpenCampaign(read_folder(folder), is_stopped)
     if campaign.rows > ROW_LIMIT:
         problem = f"{campaign.rows} trials of all variants; {ROW_LIMIT} can be shown"

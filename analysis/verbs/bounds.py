@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,11 +19,14 @@ from ..campaigns.execute.workers import worker_count
 from ..commands.campaigns import campaign_name
 from ..design.trajectories.descent_problem import check_roles, descent_problem
 from ..design.trajectories.many_bounds import INTERVALS, bound_descents
+from ..documents.model import Document
+from ..documents.of.design.trial_bounds import trial_bounds_document
 from ..options.command import write_command
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..runtime.ssp.archive import SystemArchive
 from ..runtime.system.options import SystemOptions
+from .common.documented import Documented
 from .common.stores import check_stored_system
 from .options.design import BOUNDS, BoundsOptions
 
@@ -33,7 +35,7 @@ DECIMALS = {"propellant": 6, "duration": 2}  # of the columns of its table, kg a
 
 
 @dataclass(frozen=True, eq=False)
-class TrialBounds:
+class TrialBounds(Documented):
     """Least ``propellant`` (kg) and its ``duration`` (s) of every trial of a ``campaign``, arrays (trials,), on
     ``intervals`` intervals; nan where there is no such descent. ``file`` is that of the stored table, if requested.
     """
@@ -44,20 +46,9 @@ class TrialBounds:
     intervals: int
     file: Path | None = None
 
-    def lines(self) -> list[str]:
-        """Return what `perilune design bounds` prints."""
-        known = self.propellant[np.isfinite(self.propellant)]
-        lines = [f"{self.campaign}: {self.propellant.size} trials ({self.intervals} intervals)"]
-        if known.size:
-            mean, low, high = math.fsum(known) / known.size, known.min(), known.max()
-            lines.append(f"  bound {mean:.3f} kg on average, {low:.3f} to {high:.3f} kg")
-        return lines + ([] if self.file is None else [f"stored: {self.file}"])
-
-    def to_json(self) -> dict[str, object]:
-        """Return the numbers of all trials, None where there is none."""
-        columns = {"propellant_kg": self.propellant, "duration_s": self.duration}
-        lists = {name: [x if math.isfinite(x) else None for x in column.tolist()] for name, column in columns.items()}
-        return {"campaign": self.campaign, "intervals": self.intervals, **lists}
+    def document(self) -> Document:
+        """Return the bounds' mean and range, and where they are stored."""
+        return trial_bounds_document(**vars(self))
 
     def problems(self) -> list[str]:
         """Return a line for the trials that have no bound."""

@@ -17,6 +17,8 @@ from ..compose.files import add_mark, check_unedited, write_source
 from ..compose.source import SystemSource, read_source
 from ..compose.text import write_toml
 from ..compose.way_back import source_of
+from ..documents.model import Document
+from ..documents.of.files import composition_document
 from ..options.declared.library import COMPOSE, ComposeOptions
 from ..options.option import FilePath
 from ..options.verb import verb
@@ -27,11 +29,11 @@ from ..runtime.system.options import SystemOptions
 from ..runtime.system.prepared import prepare_system
 from ..runtime.system.times import MissingStopTimeError
 from ..stability.request.reading import read_declaration
-from .result import NoProblems
+from .common.documented import Documented
 
 
 @dataclass(frozen=True)
-class Composition(NoProblems):
+class Composition(Documented):
     """Contents of a `system.toml`, and the ``paths`` that were written."""
 
     source: SystemSource
@@ -42,13 +44,9 @@ class Composition(NoProblems):
         """The text of the `system.toml`."""
         return write_toml(self.source)
 
-    def lines(self) -> list[str]:
-        """Return the lines that `perilune compose` prints: the paths, or the `system.toml` where none is written."""
-        return [str(path) for path in self.paths] or self.toml.splitlines()
-
-    def to_json(self) -> dict[str, object]:
-        """The same for other programs."""
-        return {"system": self.source.name, "paths": [path.as_posix() for path in self.paths], "toml": self.toml}
+    def document(self) -> Document:
+        """Return the paths, or the `system.toml` where none is written."""
+        return composition_document(self.source.name, self.paths, self.toml)
 
 
 @verb(COMPOSE)

@@ -8,28 +8,26 @@ from typing import Unpack
 
 from ...common.errors import InputError
 from ...common.paths import BUILD, IS_CHECKOUT
+from ..documents.model import Document
+from ..documents.of.files import site_document
 from ..options.declared.library import DOCS, DocsOptions
 from ..options.verb import verb
 from .common.browser import open_page
-from .result import NoProblems
+from .common.documented import Documented
 
 FIRST_PAGE = BUILD / "site" / "index.html"
 
 
 @dataclass(frozen=True)
-class Documentation(NoProblems):
+class Documentation(Documented):
     """The site's first ``page``, and whether a browser has opened it."""
 
     page: Path
     is_opened: bool
 
-    def lines(self) -> list[str]:
-        """The path of the page."""
-        return [str(self.page)]
-
-    def to_json(self) -> dict[str, object]:
-        """The same for other programs."""
-        return {"page": str(self.page), "opened": self.is_opened}
+    def document(self) -> Document:
+        """Return the path of the page."""
+        return site_document(self.page, self.is_opened)
 
 
 @verb(DOCS)

@@ -16,6 +16,8 @@ from ...fmus_src.export.compilers import CompilationFailed, CompilerMissing, ava
 from ...fmus_src.export.judge.subset import SubsetError
 from ...fmus_src.export.own_blocks import defines
 from ...fmus_src.export.ssp_package import DESCRIPTION
+from ..documents.model import Document
+from ..documents.of.files import exported_document
 from ..exports.block_files import check_there, export_file, find_block_file
 from ..exports.fmus import build_fmu, zig_is_here
 from ..exports.request import ExportRequest, Written
@@ -28,23 +30,18 @@ from ..options.system import AssemblyOptions
 from ..options.verb import verb
 from ..runtime.ssp.archive import open_system, system_names
 from ..runtime.system.options import system_options
-from .result import NoProblems
+from .common.documented import Documented
 
 
 @dataclass(frozen=True)
-class Exported(Written, NoProblems):
+class Exported(Documented, Written):
     """What was written, and its version of FMI."""
 
     fmi: int
 
-    def lines(self) -> list[str]:
-        """What `perilune export` prints: a path each."""
-        return [str(path) for path in self.paths]
-
-    def to_json(self) -> dict[str, object]:
-        """The same for other programs."""
-        kind = {"flavours": list(self.flavours), "platforms": list(self.platforms), "fmi": self.fmi}
-        return {"paths": self.lines(), **kind}
+    def document(self) -> Document:
+        """Return a path each."""
+        return exported_document(**vars(self))
 
 
 @verb(EXPORT)

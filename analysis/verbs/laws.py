@@ -16,9 +16,9 @@ from ..design.synthesis import outcome
 from ..design.synthesis.synthesis import run_synthesis
 from ..design.synthesis.synthesis_file import find_search, read_synthesis
 from ..documents.model import Document
-from ..documents.of.law import law_document
-from ..documents.of.law_figures import INCH, law_chart, law_diagram
-from ..documents.of.synthesis import synthesis_document
+from ..documents.of.design.law import law_document
+from ..documents.of.design.law_figures import INCH, law_chart, law_diagram
+from ..documents.of.design.synthesis import synthesis_document
 from ..options.option import FilePath
 from ..options.verb import verb
 from .common.documented import Documented

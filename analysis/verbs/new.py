@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from ..authoring import block, system
+from ..documents.model import Document
+from ..documents.of.files import new_files_document
 from ..options.declared.library import NEW_BLOCK, NEW_SYSTEM
 from ..options.verb import verb
-from .result import NoProblems
+from .common.documented import Documented
 
 
-class NewFiles(NoProblems, block.Written):
+class NewFiles(Documented, block.Written):
     """The ``paths`` that were written, and the ``commands`` that come next."""
 
-    def lines(self) -> list[str]:
-        """What `perilune new` prints."""
-        names = ", ".join(map(str, self.paths))
-        return [f"written: {names}", "next:", *(f"  {command}" for command in self.commands)]
-
-    def to_json(self) -> dict[str, object]:
-        """The same for other programs."""
-        return {"paths": [Path(path).as_posix() for path in self.paths], "next": self.commands}
+    def document(self) -> Document:
+        """Return the paths, and the commands that come next."""
+        return new_files_document(self)
 
 
 @verb(NEW_BLOCK)

@@ -28,8 +28,8 @@ from ..design.trajectories.vehicle import (
 )
 from ..design.transfers.hover_study import HoverStudy, hover_study
 from ..documents.model import Document
-from ..documents.of.landing_bound import landing_bound_document
-from ..documents.of.transfer import transfer_document
+from ..documents.of.design.landing_bound import landing_bound_document
+from ..documents.of.design.transfer import transfer_document
 from ..options.option import FilePath, options_of
 from ..options.verb import verb
 from ..runtime.system.options import SystemOptions, system_options
@@ -146,11 +146,7 @@ class LandingBound(Documented, LandingStudy):
 
     def document(self) -> Document:
         """Return the bound, its checks and its path."""
-        return landing_bound_document(self)
-
-    def lines(self) -> list[str]:
-        """Return the lines that the verb prints."""
-        return super().lines() + ([] if self.file is None else [f"stored: {self.file}"])
+        return landing_bound_document(self, self.file)
 
     def problems(self) -> list[str]:
         """Whether the bound is more propellant than is on board."""

@@ -15,6 +15,8 @@ from ..campaigns.execute.cluster.connection import cluster
 from ..campaigns.execute.runner import fly_campaign, merge_rows
 from ..campaigns.folder.numbering import numbers_of
 from ..campaigns.summary_text import select_metrics
+from ..documents.model import Document
+from ..documents.of.campaign_folders import prepared_document, shards_document
 from ..options.declared.campaigns import MERGE, PREPARE, SHARD, MergeOptions, PrepareOptions, ShardOptions
 from ..options.option import FilePath
 from ..options.verb import verb
@@ -22,28 +24,20 @@ from ..runtime.system.options import trust_of
 from .batch import BatchResult
 from .common.campaign_text import campaign_requirements, failure_lines, find_failed
 from .common.campaigns import name_foreign, read_campaign, resume_hint
-from .result import NoProblems
+from .common.documented import Documented
 
 
 @dataclass(frozen=True)
-class PreparedCampaign(NoProblems):
+class PreparedCampaign(Documented):
     """A campaign's ``folder`` with ``shards`` of ``shard_size`` trials, the last one with the rest."""
 
     folder: Path
     shards: int
     shard_size: int
 
-    def to_json(self) -> dict[str, object]:
-        """Folder, number and size of shards."""
-        return {"folder": str(self.folder), "shards": self.shards, "shard_size": self.shard_size}
-
-    def lines(self) -> list[str]:
-        """What `perilune prepare` prints."""
-        last = self.shards - 1
-        return [
-            f"written: {self.folder}, shards 0-{last}, {self.shard_size} trials each, the rest in the last",
-            f"simulate them: perilune shard {self.folder} 0-{last}, in any parts; then: perilune merge {self.folder}",
-        ]
+    def document(self) -> Document:
+        """Return the folder, and the commands that simulate and merge its shards."""
+        return prepared_document(**vars(self))
 
 
 @verb(PREPARE)
@@ -67,7 +61,7 @@ def prepare(
 
 
 @dataclass(frozen=True)
-class ShardResult:
+class ShardResult(Documented):
     """How many shards were simulated, how many were complete before, and how many of ``count`` are missing."""
 
     simulated: int
@@ -76,21 +70,9 @@ class ShardResult:
     count: int
     failures: tuple[str, ...]
 
-    def to_json(self) -> dict[str, object]:
-        """The numbers of shards."""
-        return {
-            "simulated": self.simulated,
-            "complete_before": self.complete_before,
-            "missing": self.missing,
-            "count": self.count,
-        }
-
-    def lines(self) -> list[str]:
-        """What `perilune shard` prints."""
-        return [
-            f"shards: {self.simulated} simulated, {self.complete_before} already complete, "
-            f"{self.missing} of {self.count} missing"
-        ]
+    def document(self) -> Document:
+        """Return the numbers of shards."""
+        return shards_document(self.simulated, self.complete_before, self.missing, self.count)
 
     def problems(self) -> list[str]:
         """Failed simulations of each variant."""
@@ -101,9 +83,11 @@ class ShardResult:
 def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpack[ShardOptions]) -> ShardResult:
     """Simulate some shards of a campaign's folder: `perilune shard`. Complete ones stay as they are.
 
-    ``numbers`` are shards, the first is 0, or texts "A-B"; ``scheduler`` and ``retry_crashed`` are as in `batch`.
-    Raises InputError, for a number that is no shard's too.
+    ``numbers`` are shards, the first is 0, or a list of them and of texts "A-B"; ``scheduler`` and ``retry_crashed``
+    are as in `batch`. Raises InputError, for a number that is no shard's too.
     """
+    if isinstance(numbers, str):
+        raise InputError("shard", numbers, "a text, not a list of shards", f"give [{numbers!r}]")
     shards = [numbers] if isinstance(numbers, int) else numbers_of([str(number) for number in numbers])
     campaign = open_folder(Path(folder), trust_of(options))
     name_foreign(campaign)

@@ -9,27 +9,25 @@ from pathlib import Path
 from typing import Unpack
 
 from ...common.errors import InputError
+from ..documents.model import Document
+from ..documents.of.campaign_folders import served_document
 from ..options.declared.campaigns import SHOW, ShowOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..show.server import CampaignServer
 from .common.arguments import path_list
-from .result import NoProblems
+from .common.documented import Documented
 
 
 @dataclass(frozen=True)
-class ServedCampaigns(NoProblems):
+class ServedCampaigns(Documented):
     """Campaigns that were served until Ctrl-C."""
 
     folders: tuple[Path, ...]
 
-    def lines(self) -> list[str]:
-        """What `perilune show` prints at its end."""
-        return ["stopped"]
-
-    def to_json(self) -> dict[str, object]:
-        """The folders, for other programs."""
-        return {"folders": [str(folder) for folder in self.folders]}
+    def document(self) -> Document:
+        """Return that the server has ended."""
+        return served_document(self.folders)
 
 
 @verb(SHOW)

@@ -16,7 +16,7 @@ from lxml import etree
 from perilune.analysis.cli import main
 from perilune.analysis.design.synthesis.synthesis import run_synthesis
 from perilune.analysis.design.synthesis.synthesis_file import read_synthesis
-from perilune.analysis.documents.of.synthesis import synthesis_document
+from perilune.analysis.documents.of.design.synthesis import synthesis_document
 from perilune.analysis.documents.render.terminal import document_lines
 from tests.support.laws.campaign_text import CAMPAIGN, TEXT
 

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ....common.errors import InputError
+from ....common.regular import check_folder
 from ....fmus_src.kernel.functions import VERSION
 from ...options.choices import FUSED
 from ...runtime.fused.refusals import check_fused
@@ -17,7 +18,7 @@ from ...runtime.system.prepared import PreparedSystem
 from ..definition.checks import check_plan, prepare_variants
 from ..definition.plan import BatchPlan
 from ..folder.campaign_folder import CampaignFolder
-from ..folder.files import SUMMARY, shard_path
+from ..folder.files import FOLDER, NEW_FOLDER, SUMMARY, shard_path
 from ..folder.lock import lock_folder
 from ..folder.manifest import FILE, WRITE, Manifest, read_manifest
 from ..folder.numbering import Numbering
@@ -172,6 +173,7 @@ def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> PreparedCampaign:
 def read_folder(folder: Path) -> CampaignFolder:
     """Read the folder of a campaign that is complete, or still running. Raises InputError for any other."""
     folder = folder.absolute()
+    check_folder(folder / FOLDER, NEW_FOLDER)
     if (folder / SUMMARY).is_file():
         return CampaignFolder.complete(folder, read_summary(folder / SUMMARY))
     if not (folder / FILE).is_file():

@@ -177,11 +177,15 @@ class CampaignFolder:
         return table
 
     def schema(self, shard: Shard) -> pyarrow.Schema:
-        """Read which columns a shard has. Raises InputError where it lacks a variant or a metric."""
+        """Read which columns a shard has. Raises InputError where it lacks a variant or a metric, or has another."""
         schema = read_schema(shard.path)
-        for name in ("variant", *(f"metric.{name}" for name in self.provenance["metrics"])):
+        metrics = [f"metric.{name}" for name in self.provenance["metrics"]]
+        for name in ("variant", *metrics):
             if name not in schema.names:
                 raise InputError(shard.path, name, "no such column", NEW_FOLDER)
+        for name in schema.names:
+            if name.startswith("metric.") and name not in metrics:
+                raise InputError(shard.path, name, "no metric of the campaign", NEW_FOLDER)
         return schema
 
     def traces(self, variant: str) -> dict[int, Path]:

@@ -12,7 +12,6 @@ import numpy as np
 import pyarrow
 import pyarrow.compute
 import pyarrow.dataset
-import pyarrow.parquet
 from pyarrow.fs import LocalFileSystem
 
 from ....common.errors import suggestion
@@ -66,12 +65,16 @@ class OpenedResults:
     @cached_property
     def columns(self) -> dict[str, Column]:
         """Unit and meaning of every column, in their order."""
-        names = pyarrow.parquet.read_schema(self.source.shards[0].path).names
+        names = self._stored_schema.names
         return {name: describe_column(name, self.provenance) for name in names}
 
     @cached_property
+    def _stored_schema(self) -> pyarrow.Schema:
+        return self.source.schema(self.source.shards[0])
+
+    @cached_property
     def _schema(self) -> pyarrow.Schema:
-        fields = pyarrow.parquet.read_schema(self.source.shards[0].path).remove_metadata()
+        fields = self._stored_schema.remove_metadata()
         units = {name: column.unit for name, column in self.columns.items()}
         return pyarrow.schema(
             [field.with_metadata({"unit": units[field.name]}) if units[field.name] else field for field in fields]

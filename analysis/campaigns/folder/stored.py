@@ -12,6 +12,7 @@ import numpy as np
 import pyarrow
 
 from ....common.errors import InputError
+from ....common.regular import check_folder
 from ..definition.campaign import Group, Metric, groups_of
 from ..definition.expressions import Expression
 from ..trials import TrialTable, join_trials
@@ -96,6 +97,7 @@ def read_batch(folder: Path) -> StoredBatch:
     """Read the batch in a folder. Raises InputError where files are missing, damaged, or of two batches."""
     for name in (SUMMARY, FOLDER):
         _check_there(folder, name)
+    check_folder(folder / FOLDER, NEW_FOLDER)
     document = read_summary(folder / SUMMARY)
     source = CampaignFolder.complete(folder, document)
     metrics = read_metrics(document, folder / SUMMARY)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 
-from ..cell import Code
+from ..cell import Code, CommandLine
 from ..model import Listing
 from .words import cell_text
 
@@ -44,7 +44,7 @@ def listing_lines(listing: Listing) -> list[str]:
         gap.join(entry.ljust(width) for entry, width in zip(row, [*widths, 0], strict=True)).rstrip() for row in rows
     ]
     wrapped = (
-        [line] if isinstance(row[-1], Code) else wrap_line(line, indent)
+        [line] if isinstance(row[-1], Code | CommandLine) else wrap_line(line, indent)
         for row, line in zip(listing.rows, lines, strict=True)
     )
     return [*heading, *(part for parts in wrapped for part in parts)]

@@ -166,6 +166,22 @@ def test_a_wrong_shard_is_named_when_it_is_read(folder, harm, ask):
     assert "\n" not in str(caught.value)
 
 
+def test_a_linked_folder_of_trials_is_refused_by_all_readers(folder, tmp_path):
+    (folder / "trials").rename(tmp_path / "elsewhere")
+    (folder / "trials").symlink_to(tmp_path / "elsewhere")
+    for ask in (perilune.open_results, perilune.compare):
+        with pytest.raises(perilune.InputError, match="trials: a link, not a folder"):
+            ask(folder)
+
+
+def test_a_metric_that_the_campaign_does_not_declare_is_named(folder):
+    table = pyarrow.parquet.read_table(shard(folder, 0))
+    other = table.append_column("metric.other", pyarrow.array(np.zeros(table.num_rows)))
+    pyarrow.parquet.write_table(other, shard(folder, 0))
+    with pytest.raises(perilune.InputError, match=r"000000\.parquet: metric\.other: no metric of the campaign"):
+        _ = perilune.open_results(folder).columns
+
+
 def test_what_is_no_folder_of_results(folder, tmp_path):
     shard(folder, 1).unlink()
     with pytest.raises(perilune.InputError, match="trials from 25 on are missing"):
@@ -200,6 +216,8 @@ def test_a_campaign_that_flies(fmus, tmp_path):
     assert (nothing.trials, nothing.flown) == (60, 0)
     with pytest.raises(perilune.InputError, match="no shard is flown yet"):
         nothing.arrow()
+    with pytest.raises(perilune.InputError, match=r"shard: 0-1: a text, not a list of shards; give \['0-1'\]"):
+        perilune.shard(folder, "0-1")
     perilune.shard(folder, [0, 2])
     results = perilune.open_results(folder)
     assert repr(results) == f"StoredResults({SYSTEM}, 35 of 60 trials: analytic_guidance)"

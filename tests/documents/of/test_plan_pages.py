@@ -14,9 +14,9 @@ from perilune.analysis.design.trajectories.landing_study import landing_study
 from perilune.analysis.design.trajectories.vehicle import Landing, Margins, Transfer, Vehicle
 from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.design.transfers.programme import find_programme
-from perilune.analysis.documents.of.landing_bound import landing_bound_document
-from perilune.analysis.documents.of.programme_sketch import sketch_chart
-from perilune.analysis.documents.of.transfer import transfer_document
+from perilune.analysis.documents.of.design.landing_bound import landing_bound_document
+from perilune.analysis.documents.of.design.programme_sketch import sketch_chart
+from perilune.analysis.documents.of.design.transfer import transfer_document
 from perilune.analysis.documents.render.html import write_document
 from tests.support.lengths import either
 from tests.support.pages.browser import start

@@ -7,7 +7,7 @@ import pytest
 
 from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_VEHICLE
 from perilune.analysis.design.transfers.hover_study import hover_study
-from perilune.analysis.documents.of.transfer import transfer_document
+from perilune.analysis.documents.of.design.transfer import transfer_document
 from perilune.analysis.documents.render.html import write_document
 from perilune.analysis.reports.run_report import write_run_report
 from tests.support.lengths import either

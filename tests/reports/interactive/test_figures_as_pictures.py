@@ -19,9 +19,9 @@ from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_
 from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import RecordedRun
+from perilune.analysis.documents.of.design.landing_bound import landing_bound_document
+from perilune.analysis.documents.of.design.transfer import transfer_document
 from perilune.analysis.documents.of.differences import differences_document
-from perilune.analysis.documents.of.landing_bound import landing_bound_document
-from perilune.analysis.documents.of.transfer import transfer_document
 from perilune.analysis.documents.render.html import write_document
 from perilune.analysis.reports.run_report import write_run_report
 from perilune.common.paths import ROOT

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from ...design.laws.expression_tree import (
+from ....design.laws.expression_tree import (
     BINARY,
     IDENTITY,
     OUTPUT_NUMBERS,
@@ -17,16 +17,16 @@ from ...design.laws.expression_tree import (
     expression_tree,
     nodes_of,
 )
-from ...design.laws.law import Law
-from ...design.laws.layers import Edge, Layout
-from ...reports.chart.lines import line
-from ...reports.chart.marks import outline, rectangle
-from ...reports.chart.symbols import BARB, arrow, mark, marker
-from ...reports.common.colours import BLUE, FAINT, INK, VERMILION
-from ...reports.common.quantities import MINUS
-from ...reports.font.text import text_width
-from ...reports.interactive.charts import Area, Axis, Backing, Chart, Curve, Note
-from ..model import Diagram
+from ....design.laws.law import Law
+from ....design.laws.layers import Edge, Layout
+from ....reports.chart.lines import line
+from ....reports.chart.marks import outline, rectangle
+from ....reports.chart.symbols import BARB, arrow, mark, marker
+from ....reports.common.colours import BLUE, FAINT, INK, VERMILION
+from ....reports.common.quantities import MINUS
+from ....reports.font.text import text_width
+from ....reports.interactive.charts import Area, Axis, Backing, Chart, Curve, Note
+from ...model import Diagram
 
 INCH = 72.0  # pt
 COLUMN, ROW = 1.75 * INCH, 0.66 * INCH  # pt, between layers and between neighbours

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterable
 from dataclasses import asdict
 
-from ...design.trajectories.path import PlannedPath
-from ...design.trajectories.vehicle import limits_document
-from ...design.transfers.hover_study import Curve, HoverStudy
+from ....design.trajectories.path import PlannedPath
+from ....design.trajectories.vehicle import limits_document
+from ....design.transfers.hover_study import Curve, HoverStudy
 
 NAMES = ("t2_s", "t5_s", "w_s", "tp_s", "t7_s")
 

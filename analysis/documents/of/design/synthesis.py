@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ...design.synthesis.outcome import SynthesisResult
-from ..cell import Cell, Phrase, Quantity
-from ..model import Document, KeyNumbers, Section, Table, Text, Verdict
+from ....design.synthesis.outcome import SynthesisResult
+from ...cell import Cell, Phrase, Quantity
+from ...model import Document, KeyNumbers, Section, Table, Text, Verdict
 from .law import formula_nodes
 from .law_figures import law_diagram
 

@@ -8,20 +8,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...design.trajectories.landing_study import LandingStudy
-from ...design.trajectories.path import PlannedPath
-from ...design.transfers.hover_study import Curve, HoverStudy
-from ...reports.chart.axes import linear_axis
-from ...reports.chart.equal import Ends, to_scale
-from ...reports.chart.lines import line
-from ...reports.chart.symbols import arrow, mark, marker
-from ...reports.chart.ticks import axis_ends
-from ...reports.common.colours import FAINT, INK, Look, look
-from ...reports.common.panels import HALF_WIDTH, PANEL_HEIGHT, far
-from ...reports.common.quantities import number
-from ...reports.interactive import charts
-from ...reports.interactive.charts import NO_BOX, Axis, Chart, Note
-from ..model import Figure
+from ....design.trajectories.landing_study import LandingStudy
+from ....design.trajectories.path import PlannedPath
+from ....design.transfers.hover_study import Curve, HoverStudy
+from ....reports.chart.axes import linear_axis
+from ....reports.chart.equal import Ends, to_scale
+from ....reports.chart.lines import line
+from ....reports.chart.symbols import arrow, mark, marker
+from ....reports.chart.ticks import axis_ends
+from ....reports.common.colours import FAINT, INK, Look, look
+from ....reports.common.panels import HALF_WIDTH, PANEL_HEIGHT, far
+from ....reports.common.quantities import number
+from ....reports.interactive import charts
+from ....reports.interactive.charts import NO_BOX, Axis, Chart, Note
+from ...model import Figure
 
 POINTS = 72.0  # in an inch
 NAMES = ("simplified programme", "true optimum", "point-mass bound")

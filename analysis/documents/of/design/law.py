@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...design.laws.expression_tree import OUTPUT_NUMBERS
-from ...design.laws.formula import formula
-from ...design.laws.law import Law
-from ..cell import Code
-from ..model import Document, Node, Section, Table, Text
+from ....design.laws.expression_tree import OUTPUT_NUMBERS
+from ....design.laws.formula import formula
+from ....design.laws.law import Law
+from ...cell import Code
+from ...model import Document, Node, Section, Table, Text
 from .law_figures import law_diagram
 
 OUTPUTS = {f"z{number}": f"u{index} = " for index, number in enumerate(OUTPUT_NUMBERS, 1)}

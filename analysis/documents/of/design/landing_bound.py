@@ -5,19 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict
 from functools import partial
+from pathlib import Path
 
-from ...design.trajectories.landing_study import LandingStudy
-from ...design.trajectories.vehicle import limits_document
-from ..cell import Cell, Inline, Phrase, Quantity
-from ..model import Document, Figures, KeyNumbers, Node, Note, Section, Text
+from ....design.trajectories.landing_study import LandingStudy
+from ....design.trajectories.vehicle import limits_document
+from ...cell import Cell, Inline, Phrase, Quantity
+from ...model import Document, Figures, KeyNumbers, Node, Note, Section, Text
 from .plan_figures import bound_figure, bound_series, time_figures
 from .transfer import burns_phrase
 
 PITCH = "Angle of thrust above the site's horizontal, deg"
 
 
-def landing_bound_document(study: LandingStudy) -> Document:
-    """Return the document of a bound: its propellant, what confirms it, its path."""
+def landing_bound_document(study: LandingStudy, file: Path | None = None) -> Document:
+    """Return the document of a bound: its propellant, what confirms it, its path; ``file`` is where it is stored."""
     bound, series = study.bound, bound_series(study)
     numbers: list[tuple[str, Cell]] = [
         ("propellant", Quantity(study.propellant, "kg", 6)),
@@ -34,6 +35,7 @@ def landing_bound_document(study: LandingStudy) -> Document:
         KeyNumbers(numbers),
         Note(_limits(study)),
         *(Text(each) for each in _checks(study)),
+        *([] if file is None else [Text(f"stored: {file}")]),
     ]
     path = Note(
         "Dot: the end. Arrows: thrust at even times against the local horizontal, none where the engine is off."

@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterable, Sequence
 from functools import partial
 
-from ...design.transfers.adjoint import AdjointSolution
-from ...design.transfers.hover_study import HoverStudy
-from ..cell import Cell, Inline, LegendEntry, Phrase, Quantity
-from ..model import Document, Figures, KeyNumbers, Node, Note, Section, Table, Text
+from ....design.transfers.adjoint import AdjointSolution
+from ....design.transfers.hover_study import HoverStudy
+from ...cell import Cell, Inline, LegendEntry, Phrase, Quantity
+from ...model import Document, Figures, KeyNumbers, Node, Note, Section, Table, Text
 from .plan_figures import NAMES, Series, curve_figures, path_figure, plan_series, time_figures
 from .programme_sketch import sketch_figure
 from .transfer_json import transfer_json

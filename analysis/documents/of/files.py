@@ -1,0 +1,42 @@
+"""Documents of results that are files: exported FMUs and systems, templates, composed systems, the documentation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from ...authoring.block import Written
+from ..cell import Code, CommandLine
+from ..model import Document, Listing, Node, Text
+
+
+def exported_document(paths: Iterable[Path], flavours: Iterable[str], platforms: Iterable[str], fmi: int) -> Document:
+    """Return the document of exported files."""
+    texts = list(map(str, paths))
+    json = {"paths": texts, "flavours": list(flavours), "platforms": list(platforms), "fmi": fmi}
+    return Document("Exported", _code(texts), [], json)
+
+
+def new_files_document(written: Written) -> Document:
+    """Return the document of files that were written from templates: their paths, the commands that come next."""
+    nodes: list[Node] = [
+        Text(f"written: {', '.join(map(str, written.paths))}"),
+        Listing([[CommandLine(command)] for command in written.commands], "next:"),
+    ]
+    json = {"paths": [Path(path).as_posix() for path in written.paths], "next": written.commands}
+    return Document("New files", nodes, [], json)
+
+
+def composition_document(system: str, paths: Iterable[Path], toml: str) -> Document:
+    """Return the document of a composed system: the written paths, or its `system.toml` where none is written."""
+    json = {"system": system, "paths": [path.as_posix() for path in paths], "toml": toml}
+    return Document(system, _code(map(str, paths)) or _code(toml.splitlines()), [], json)
+
+
+def site_document(page: Path, is_opened: bool) -> Document:
+    """Return the document of the documentation: the path of its first page."""
+    return Document("Documentation", _code([str(page)]), [], {"page": str(page), "opened": is_opened})
+
+
+def _code(lines: Iterable[str]) -> list[Text]:
+    return [Text([Code(line)]) for line in lines]
