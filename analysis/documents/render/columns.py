@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import textwrap
 from collections.abc import Sequence
 
@@ -47,7 +48,7 @@ def listing_lines(listing: Listing) -> list[str]:
         [line] if isinstance(row[-1], Code | CommandLine) else wrap_line(line, indent)
         for row, line in zip(listing.rows, lines, strict=True)
     )
-    return [*heading, *(part for parts in wrapped for part in parts)]
+    return [*heading, *itertools.chain.from_iterable(wrapped)]
 
 
 def _width(column: Sequence[str]) -> int:
