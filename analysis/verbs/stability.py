@@ -9,31 +9,29 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from ...common.errors import suggestion
 from ..commands.stability import study_command
+from ..documents.model import Document
+from ..documents.of.stability.figures import SIZE, Diagram, loop_charts
+from ..documents.of.stability.printed import stability_problems
+from ..documents.of.stability.study import decisive_loop, stability_document
 from ..options.declared.studies import STABILITY, StabilityOptions
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..reports.common.notebook import Grid, notebook_view
-from ..reports.stability.figures import SIZE, Diagram, loop_charts
-from ..reports.stability.orders import order_sentences
-from ..reports.stability.page import write_stability_page
-from ..reports.stability.words import gain_margin, phase_margin, size, verdict
 from ..runtime.flight.results import require_pandas
 from ..runtime.system.options import system_options
 from ..stability.request.request import read_request
 from ..stability.results import report
 from ..stability.results.data import write_data
-from ..stability.results.document import KEYS, document
+from ..stability.results.document import KEYS
 from ..stability.results.report import LoopReport
-from ..stability.results.requirement import Verdict
 from ..stability.study import study
-from .common.stability_text import stability_lines, stability_problems
+from .common.documented import Documented
 
 if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
     from matplotlib.figure import Figure as Plot
 
 
 @dataclass(repr=False)
-class StabilityReport(report.StabilityReport):
+class StabilityReport(Documented, report.StabilityReport):
     """A study: ``loops``, ``points``, ``sweeps``, ``joint`` and a ``verdict``; gains as factors, angles in rad."""
 
     def __repr__(self) -> str:
@@ -51,16 +49,12 @@ class StabilityReport(report.StabilityReport):
             raise KeyError(f"{name} is not studied at {point}; {suggestion(point, named)}")
         return next(iter(named.values())) if point is None else named[point]
 
-    def to_json(self) -> dict[str, object]:
-        """What `perilune stability --json` writes: dB, deg and s."""
-        return document(self)
-
-    def lines(self) -> list[str]:
-        """What `perilune stability` prints."""
-        return stability_lines(self)
+    def document(self) -> Document:
+        """Return the study with its verdict, margins, operating points and loops."""
+        return stability_document(self)
 
     def problems(self) -> list[str]:
-        """Requirements that are not met or withheld, and what could not be studied."""
+        """Return requirements that are not met or withheld, and what could not be studied."""
         return stability_problems(self)
 
     def to_pandas(self) -> Any:
@@ -78,10 +72,6 @@ class StabilityReport(report.StabilityReport):
             for loop in self.loops
         ]
         return DataFrame(rows).set_index(["loop", "point"])
-
-    def report(self, path: FilePath) -> None:
-        """Write the page of `perilune stability --report`: one HTML file."""
-        write_stability_page(self, Path(path))
 
     def write_data(self, folder: FilePath) -> None:
         """Write the files of `perilune stability --data`: responses and A, B, C, D for python-control and MATLAB."""
@@ -117,35 +107,11 @@ class StabilityReport(report.StabilityReport):
     def _plot(self, diagram: Diagram, name: str | None, point: str | None) -> Plot:
         from ..reports.chart.plot import plot_charts
 
-        loop = self._decisive() if name is None else self.loop(name, point)
+        loop = decisive_loop(self) if name is None else self.loop(name, point)
         charts = loop_charts(loop, diagram)
         first, *others = (chart.title for chart in charts)
         titles = [f"{loop.name} at {loop.point}; {first}", *others]
         return plot_charts(charts, SIZE / len(charts), 1.2 * SIZE if diagram is Diagram.BODE else SIZE, titles=titles)
-
-    def _decisive(self) -> LoopReport:
-        return next((loop for loop in self.loops if loop.verdict is Verdict.FAIL), self.loops[0])
-
-    def _repr_html_(self) -> str:
-        head = ("loop", "operating point", "gain margin, dB", "phase margin, deg", "modulus", "disk", "")
-        rows = [
-            (
-                loop.name,
-                loop.point,
-                gain_margin(loop.margins),
-                phase_margin(loop.margins),
-                *(size(loop.margins.size(KEYS[key])) for key in ("modulus_margin", "disk_margin")),
-                verdict(loop.verdict),
-            )
-            for loop in self.loops
-        ]
-        words = [
-            str(self.verdict),
-            *order_sentences(self),
-            *(f"{item.name} at {item.point} not studied" for item in self.unstudied),
-        ]
-        plot = self.plot_bode() if self.loops else None
-        return notebook_view(f"{self.system}: stability", words, [Grid(head, rows)], plot)
 
 
 @verb(STABILITY)

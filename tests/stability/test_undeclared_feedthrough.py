@@ -16,7 +16,7 @@ from scipy.io import loadmat
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.reports.stability.orders import order_sentences, withheld_line
+from perilune.analysis.documents.of.stability.orders import order_sentences, withheld_line
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.stability.loops.margin_values import MARGINS, Quantity
 from perilune.analysis.stability.orders import in_both_orders

@@ -9,7 +9,6 @@ import pytest
 
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.reports.compare.page import write_comparison_page
-from perilune.analysis.reports.stability.page import write_stability_page
 from tests.support.pages.comparison_samples import write_sample
 from tests.support.pages.paper import FORMATS, printed, words_of
 
@@ -51,7 +50,7 @@ def test_a_stability_study_is_short(browser, tmp_path, studies, times, full):
     page = tmp_path / "page.html"
     report = studies.pair
     loops = [larger(loop, 1.4**number, number) for number in range(times) for loop in report.loops]
-    write_stability_page(replace(report, loops=tuple(loops)), page)
+    replace(report, loops=tuple(loops)).report(page)
     for paper in FORMATS:
         sheets = printed(browser, page, tmp_path, paper)
         assert 1 < len(sheets.pages) <= MOST_OF_A_STUDY

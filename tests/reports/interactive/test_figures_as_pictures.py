@@ -132,8 +132,8 @@ PAGES = either(KINDS | SHIPPED, KINDS)
 TEMPLATES = {
     "run_report.html": [write_run, write_own, write_mission, write_landing],
     "comparison.html": [write_comparison],
-    "stability.html": [write_stability],
     "document.html": [
+        write_stability,
         write_batch,
         write_many_trials,
         write_recorded,

@@ -6,7 +6,6 @@ from pathlib import Path
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.reports.compare.page import write_comparison_page
 from perilune.analysis.reports.run_report import write_run_report
-from perilune.analysis.reports.stability.page import write_stability_page
 from tests.support.loops.studies import Studies
 from tests.support.pages.comparison_samples import write_sample
 from tests.support.pages.mission_samples import FIGURES, mission
@@ -18,7 +17,7 @@ def write_studies(studies: Studies, folder: Path) -> None:
     """Write page.html: a study with all that a page can show."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        write_stability_page(studies.everything, folder / "page.html")
+        studies.everything.report(folder / "page.html")
 
 
 def write_comparison(folder: Path) -> None:

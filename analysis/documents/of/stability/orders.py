@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ...stability.loops.margin_values import UNLIMITED, UNSTABLE
-from ...stability.results.report import JointReport, LoopReport, StabilityReport
-from ...stability.results.requirement import Requirement, Verdict
+from ....stability.loops.margin_values import UNLIMITED, UNSTABLE
+from ....stability.results.report import JointReport, LoopReport, StabilityReport
+from ....stability.results.requirement import Requirement, Verdict
 
 
 def order_loops(report: StabilityReport) -> tuple[LoopReport, ...]:

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from perilune.analysis.reports.stability.page import write_stability_page
 from tests.support.lengths import either
 from tests.support.pages.browser import start
 from tests.support.pages.checks import text_of, without_policy
@@ -46,7 +45,7 @@ def few(studies, tmp_path_factory):
     path = tmp_path_factory.mktemp("stability") / "page.html"
     everything = studies.everything
     loops = tuple(loop for loop in everything.loops if loop.loop != "pair")
-    write_stability_page(replace(everything, loops=loops), path)
+    replace(everything, loops=loops).report(path)
     path.write_text(unfolded(path), encoding="utf-8")
     return path
 

@@ -11,27 +11,29 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from perilune.analysis.reports.chart.marks import SQUARE, hatch
-from perilune.analysis.reports.chart.panel import POINTS
-from perilune.analysis.reports.common.colours import BLUE, GREEN, VERMILION
-from perilune.analysis.reports.common.panels import HALF_WIDTH, PANEL_WIDTH
-from perilune.analysis.reports.common.quantities import NONE
-from perilune.analysis.reports.font.text import text_width
-from perilune.analysis.reports.interactive.measures import LABEL_SIZE
-from perilune.analysis.reports.stability.bode import bode_charts
-from perilune.analysis.reports.stability.figures import HEIGHT, loop_panels, sight_panels
-from perilune.analysis.reports.stability.frequency import (
+from perilune.analysis.documents.model import Fold
+from perilune.analysis.documents.of.stability.bode import bode_charts
+from perilune.analysis.documents.of.stability.figures import HEIGHT, loop_figures, sight_figures
+from perilune.analysis.documents.of.stability.frequency import (
     WHITE,
     limits_of,
     nearest_phase,
     phase_of,
     sensitivity_chart,
 )
-from perilune.analysis.reports.stability.nyquist import balance_chart, nichols_chart, nyquist_chart
-from perilune.analysis.reports.stability.parts import modes
-from perilune.analysis.reports.stability.poles import thin
-from perilune.analysis.reports.stability.sets import margin_chart, sweep_charts
-from perilune.analysis.reports.stability.words import complex_number, in_decibels, numeral
+from perilune.analysis.documents.of.stability.nyquist import balance_chart, nichols_chart, nyquist_chart
+from perilune.analysis.documents.of.stability.parts import modes
+from perilune.analysis.documents.of.stability.poles import thin
+from perilune.analysis.documents.of.stability.sets import margin_chart, sweep_charts
+from perilune.analysis.documents.of.stability.words import complex_number, fold_long, in_decibels, numeral
+from perilune.analysis.documents.render.cell_markup import cell_markup
+from perilune.analysis.reports.chart.marks import SQUARE, hatch
+from perilune.analysis.reports.chart.panel import POINTS, stack_panel
+from perilune.analysis.reports.common.colours import BLUE, GREEN, VERMILION
+from perilune.analysis.reports.common.panels import HALF_WIDTH, PANEL_WIDTH
+from perilune.analysis.reports.common.quantities import NONE
+from perilune.analysis.reports.font.text import text_width
+from perilune.analysis.reports.interactive.measures import LABEL_SIZE
 from perilune.analysis.stability.loops.margin_values import Quantity
 from perilune.analysis.stability.loops.readings import Curve
 from perilune.analysis.stability.results.responses import Mode
@@ -66,8 +68,9 @@ def test_many_modes_fold_away(report):
     actual = tuple(Mode(complex(0.5 + k / 100), complex(-0.1), 1.0, 0.1, "loop", 1.0, 1.0) for k in range(40))
     table = modes(replace(report.loops[0], modes=actual)).table
     assert len(table.rows) == 40
-    assert table.is_long
-    assert not modes(replace(report.loops[0], modes=actual[:30])).table.is_long
+    assert fold_long(table, "modes") == Fold("All 40 modes", [table])
+    short = modes(replace(report.loops[0], modes=actual[:30])).table
+    assert fold_long(short, "modes") is short
 
 
 def bars(chart):
@@ -222,8 +225,7 @@ def test_ticks_near_1_do_not_touch(report, distance):
     """The labels have as many decimals as the distance needs; a panel of the page has room for two at least."""
     poles = 1.0 - distance * np.array([1.0, 0.4 + 0.3j, 0.4 - 0.3j])
     loop = replace(report.loops[0], modes=(), poles_z=poles)
-    (panel,) = (panel for panel in loop_panels(loop, "a") if panel.label == "Poles near z = 1")
-    (chart,) = panel.figure.charts
+    (chart,) = (figure.chart for figure in loop_figures(loop, "a") if figure.label == "Poles near z = 1")
     low, high = chart.x.ends
     width = POINTS * PANEL_WIDTH * chart.box[2]
     middles = [(at - low) / (high - low) * width for at, _ in chart.x.ticks]
@@ -235,18 +237,19 @@ def test_ticks_near_1_do_not_touch(report, distance):
 
 def test_planes_have_one_scale(report):
     """A unit is as long along the real axis as along the imaginary one; the texts of ticks lie within the panel."""
-    for panel in loop_panels(report.loops[0], "a"):
-        if panel.label not in ("Nyquist", "Poles", "Poles near z = 1"):
+    for figure in loop_figures(report.loops[0], "a"):
+        if figure.label not in ("Nyquist", "Poles", "Poles near z = 1"):
             continue
-        (chart,) = panel.figure.charts
+        chart = figure.chart
         across = POINTS * PANEL_WIDTH * chart.box[2] / (chart.x.ends[1] - chart.x.ends[0])
         up = POINTS * HEIGHT * chart.box[3] / (chart.y.ends[1] - chart.y.ends[0])
         assert across == pytest.approx(up, rel=1e-3)
 
 
 def test_axes_of_a_bode_diagram_lie_above_each_other(report):
-    (bode, _) = sight_panels(report.loops[0], "a")
-    gain, phase = (chart for drawing in bode.figure.drawings for chart in drawing.charts)
+    (bode, _) = sight_figures(report.loops[0], "a")
+    panel = stack_panel(bode.label, bode.name, bode.words, (bode.chart, bode.below), bode.height, HALF_WIDTH)
+    gain, phase = (chart for drawing in panel.figure.drawings for chart in drawing.charts)
     assert (gain.box[0], gain.box[2]) == (phase.box[0], phase.box[2])
     assert gain.x.label == phase.x.label == "rad/s"
     assert gain.x.bare
@@ -263,12 +266,11 @@ def test_clouds_are_thinned_without_losing_their_outline():
 
 
 def test_words():
-    assert in_decibels(2.0) == '<data value="2.0">6.021</data>'
-    assert in_decibels(math.inf) == "<span>none (no crossing)</span>"
-    assert in_decibels(0.0) == "<span>none (no crossing)</span>"
-    assert numeral(np.float64(0.5)) == '<data value="0.5">0.5</data>'
-    assert numeral(math.nan) == f"<span>{NONE}</span>"
-    assert "0.5 ± 0.25 j" in complex_number(0.5 + 0.25j)
+    assert cell_markup(in_decibels(2.0)) == '<data value="2.0">6.021</data>'
+    assert in_decibels(math.inf) == in_decibels(0.0) == "none (no crossing)"
+    assert cell_markup(numeral(np.float64(0.5))) == '<data value="0.5">0.5</data>'
+    assert numeral(math.nan) == NONE
+    assert cell_markup(complex_number(0.5 + 0.25j)) == '<data value="0.5+0.25j">0.5 ± 0.25 j</data>'
 
 
 def test_lower_half_of_pairs_is_left_out(report, page):

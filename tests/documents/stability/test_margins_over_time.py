@@ -8,8 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perilune.analysis.reports.stability.over_time import courses, over_time_chart
-from perilune.analysis.reports.stability.page import write_stability_page
+from perilune.analysis.documents.of.stability.over_time import courses, over_time_chart
 from perilune.analysis.stability.loops.margin_values import Quantity
 from perilune.analysis.stability.loops.readings import Crossing
 from tests.support.loops.exact_margins import crossings
@@ -67,7 +66,7 @@ def test_another_flight_is_no_part_of_the_line(report):
 
 def test_the_page_begins_with_it(report, stability_page, tmp_path):
     two = [loop for loop in report.loops if loop.name != "other" and loop.point != "p20"]
-    write_stability_page(replace(report, loops=tuple(two)), tmp_path / "page.html")
+    replace(report, loops=tuple(two)).report(tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert_self_contained(page)
     headings = [element.text for element in parse(page).xpath("//h2")]

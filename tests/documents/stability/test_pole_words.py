@@ -8,17 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from lxml import html
 
+from perilune.analysis.documents.of.stability.parts import modes
+from perilune.analysis.documents.of.stability.words import left_out
+from perilune.analysis.documents.render.words import cell_text, rich_text
 from perilune.analysis.reports.common.quantities import NONE
-from perilune.analysis.reports.stability.parts import modes
-from perilune.analysis.reports.stability.words import left_out
 from perilune.analysis.stability.loops.encirclements import encirclements
 from perilune.analysis.stability.results.responses import Mode
-
-
-def plain(markup):
-    return html.fromstring(f"<p>{markup}</p>").text_content()
 
 
 def mode(z, period=0.1):
@@ -33,7 +29,7 @@ def loop(studies):
 
 def test_a_negative_real_pole_is_no_pair(loop):
     part = modes(replace(loop, modes=(mode(0.5 + 0.2j), mode(0.5 - 0.2j), mode(0.3), mode(-0.027))))
-    rows = [[plain(cell) for cell in row] for row in part.table.rows]
+    rows = [[cell_text(cell) for cell in row] for row in part.table.rows]
     assert [row[0] for row in rows] == ["0.5 ± 0.2 j", "0.3", "\N{MINUS SIGN}0.027"]
     assert "±" in rows[0][2]
     assert "±" not in rows[1][2] + rows[2][2]
@@ -51,7 +47,7 @@ def test_a_count_that_is_no_whole_number_is_explained(loop):
     with pytest.raises(ValueError, match="no whole number: an open-loop pole is slower than") as caught:
         encirclements(response, 0.05, np.pi)
     uncounted = replace(loop, classical=replace(loop.classical, encirclements=None))
-    words = plain(left_out("encirclements", str(caught.value), uncounted))
+    words = rich_text(left_out("encirclements", str(caught.value), uncounted))
     assert words.startswith("Encirclements of \N{MINUS SIGN}1 are not counted: between 0.05 and 3.14159 rad/s")
     assert "The verdict does not rest on the count: the closed loop is stable by its poles, largest |z| 0." in words
     assert "0 times" not in words

@@ -7,21 +7,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from markupsafe import Markup
 
-from ...stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
-from ...stability.loops.readings import decibels
-from ...stability.results.report import LoopReport, StabilityReport
-from ..chart.axes import linear_axis
-from ..chart.lines import line
-from ..chart.marks import across, level
-from ..chart.panel import chart_panel
-from ..chart.symbols import marker, marks
-from ..chart.ticks import axis_ends
-from ..common.colours import COLOURS, INK, VERMILION, Look, look
-from ..common.panels import Panel, swatch
-from ..common.quantities import number
-from ..interactive.charts import NO_BOX, Chart, Curve, Note
+from ....reports.chart.axes import linear_axis
+from ....reports.chart.lines import line
+from ....reports.chart.marks import across, level
+from ....reports.chart.symbols import marker, marks
+from ....reports.chart.ticks import axis_ends
+from ....reports.common.colours import COLOURS, INK, VERMILION, Look, look
+from ....reports.common.panels import PANEL_HEIGHT
+from ....reports.common.quantities import number
+from ....reports.interactive import charts
+from ....reports.interactive.charts import NO_BOX, Chart, Curve
+from ....stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from ....stability.loops.readings import decibels
+from ....stability.results.report import LoopReport, StabilityReport
+from ...cell import LegendEntry
+from ...model import Figure, Figures, Node, Note
 from .frequency import FORBIDDEN, WHITE
 from .shared import together
 from .words import numeral
@@ -48,7 +49,7 @@ class Course:
 
 
 def _sides(loop: LoopReport, quantity: Quantity) -> tuple[float, float]:
-    """The nearest margin up or in lag, and the nearest down or in lead, in the quantity's unit."""
+    """Return the nearest margin up or in lag, and the nearest down or in lead, in the quantity's unit."""
     if loop.margins.unstable:
         return math.nan, math.nan
     if quantity is Quantity.MODULUS:
@@ -64,7 +65,7 @@ def _sides(loop: LoopReport, quantity: Quantity) -> tuple[float, float]:
 
 
 def courses(report: StabilityReport) -> list[Course]:
-    """Loops that are studied at several times of the same flight: with the same settings, at different times."""
+    """Return loops that are studied at several times of the same flight: with the same settings, at different times."""
     points = {point.name: point for point in report.points}
     flights: dict[tuple[str, str], list[LoopReport]] = {}
     for loop in report.loops:
@@ -101,7 +102,7 @@ def _requirements(course: Course) -> set[tuple[Quantity, float]]:
 
 
 def course_look(index: int) -> Look:
-    """The look of the index-th course; vermilion is the limits'."""
+    """Return the look of the index-th course; vermilion is the limits'."""
     return look(index + (index >= COLOURS.index(VERMILION)))
 
 
@@ -122,7 +123,7 @@ def over_time_chart(histories: Sequence[Course], quantity: Quantity) -> Chart:
         rules += [level(edge, VERMILION, 1.2) for edge in ((limit, -limit) if is_below else (limit,))]
         words = f"required {number(limit)} {unit}".strip()
         at, colour = (1.0, limit), VERMILION.lower()
-        notes.append(Note(words, at, (True, False), (-2.0, -3.0), ("right", "top"), colour, 8.0))
+        notes.append(charts.Note(words, at, (True, False), (-2.0, -3.0), ("right", "top"), colour, 8.0))
     times = np.concatenate([history.times for history in histories])
     return Chart(
         NO_BOX,
@@ -158,42 +159,39 @@ def _margin_curves(course: Course, quantity: Quantity, style: Look, top: float) 
         here = course.times[sizes == kind]
         if here.size:
             dots.append(marks(here, np.full(here.size, height), mark, beyond=True))
-    return lines + dots
+    return [replace(curve, name=_names(course)) for curve in lines + dots]
 
 
-@dataclass(frozen=True)
-class OverTime:
-    """Its panels, one for each margin; the legend's swatches with their loops; operating points with their times."""
-
-    panels: list[Panel]
-    legend: list[tuple[Markup, str]]
-    points: list[tuple[str, Markup]]
-
-
-def over_time(report: StabilityReport) -> OverTime | None:
-    """None where no loop is studied at two times of one flight."""
-    histories = courses(report)
-    if not histories:
-        return None
-    seen = {loop.point for course in histories for loops in course.loops for loop in loops}
-    points = sorted((point for point in report.points if point.name in seen), key=lambda point: point.time)
-    return OverTime(
-        [_panel(histories, quantity, f"over-time-{index + 1}") for index, quantity in enumerate(QUANTITIES)],
-        [(swatch(course_look(index)), _names(course)) for index, course in enumerate(histories)],
-        [(point.name, numeral(point.time)) for point in points],
-    )
+def over_time_nodes(histories: Sequence[Course], report: StabilityReport) -> list[Node]:
+    """Return the margins of loops over the time of flight, and at which operating points they were studied."""
+    studied = {loop.point for course in histories for loops in course.loops for loop in loops}
+    points = sorted((point for point in report.points if point.name in studied), key=lambda point: point.time)
+    times = [part for point in points for part in (", ", f"{point.name} at ", numeral(point.time), " s")]
+    return [
+        Figures(
+            lambda: [_figure(histories, key, f"over-time-{index + 1}") for index, key in enumerate(QUANTITIES)],
+            [LegendEntry(course_look(index), [_names(course)]) for index, course in enumerate(histories)],
+        ),
+        Note([
+            "Below 0: lower gain margins, phase leads; the nearer margin of each loop is filled, the other hollow. "
+            "Shaded: less than required. Cross at 0: unstable, no margin; triangle at the top: no crossover, margin "
+            "unlimited. Each mark is one operating point, linearised there; times between them were not studied; the "
+            "table of operating points says for how long each linearisation is valid. Points: ",
+            *times[1:],
+            ".",
+        ]),
+    ]  # fmt: skip
 
 
 def _names(course: Course) -> str:
     return together([loops[0] for loops in course.loops])
 
 
-def _panel(histories: list[Course], quantity: Quantity, name: str) -> Panel:
-    sizes = [size for course in histories for size in course.sizes[quantity].tolist()]
-    minimum = min(sizes)
+def _figure(histories: Sequence[Course], quantity: Quantity, name: str) -> Figure:
+    minimum = min(size for course in histories for size in course.sizes[quantity].tolist())
     loops = sum(len(course.loops) for course in histories)
     words = f"{quantity.capitalize()} of {loops} loops over the time of flight, minimum "
     infinite = {math.inf: "unlimited", -math.inf: "that of an unstable loop"}
     words += infinite.get(minimum) or number(minimum, 3)
     chart = over_time_chart(histories, quantity)
-    return chart_panel(quantity.capitalize(), name, words, chart, title=chart.title)
+    return Figure(quantity.capitalize(), name, words, chart, PANEL_HEIGHT, is_narrow=True)

@@ -12,20 +12,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from perilune import StabilityReport
 from perilune.analysis.cli import main
+from perilune.analysis.documents.of.stability.sets import joint_chart
 from perilune.analysis.reports.common.quantities import NONE
-from perilune.analysis.reports.stability.page import write_stability_page
-from perilune.analysis.reports.stability.sets import joint_chart
 from perilune.analysis.stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from perilune.analysis.stability.loops.readings import Classical, Curve
-from perilune.analysis.stability.results.report import StabilityReport
 from perilune.analysis.stability.results.requirement import Requirement, Scope
 from perilune.analysis.stability.results.responses import Mode
 from tests.support.lengths import either
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.loops.exact_systems import end_of_stability, late_double_integrator
 from tests.support.loops.studies import LATE, PAIR, TRIALS
-from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+from tests.support.pages.checks import assert_self_contained, data_values, parse, section_of, text_of
 
 DECIBEL = 20.0 / np.log(10.0)
 
@@ -33,14 +32,8 @@ DECIBEL = 20.0 / np.log(10.0)
 def write(report, page):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        write_stability_page(report, page)
+        report.report(page)
     return page.read_text(encoding="utf-8")
-
-
-def section(page, heading):
-    """Return the section with a heading of the second level."""
-    (actual,) = (part for part in parse(page).xpath("//section") if part.xpath("h2")[0].text == heading)
-    return actual
 
 
 def rows_in(place):
@@ -48,7 +41,7 @@ def rows_in(place):
 
 
 def rows_under(page, heading):
-    return rows_in(section(page, heading))
+    return rows_in(section_of(page, heading))
 
 
 def assert_no_infinities(page):
@@ -82,7 +75,7 @@ def test_verdict_comes_first_with_every_requirement(report, page):
     wanted += [item for joint in report.joint for item in joint.requirements]
     failing = [item for item in wanted if item.passed is False]
     assert (len(wanted), len(failing)) == (25, 6)  # 3 of the campaign, 3 of the relay's loop
-    tables = section(page, "Verdict").xpath(".//table")
+    tables = section_of(page, "Verdict").xpath(".//table")
     for table, items in zip(tables, (failing, wanted), strict=True):
         listed = [(row[3], row[5], row[6]) for row in rows_in(table)]
         words = {True: "✓ pass", False: "✗ fail", None: f"{NONE} not applicable"}
@@ -111,7 +104,7 @@ def test_what_is_not_applicable_is_said_with_its_reason(report, page, studies, t
     reasons = [(part, reason) for loop in report.loops for part, reason in loop.not_applicable.items()]
     assert reasons
     for part, reason in reasons:
-        assert f"{part} is not applicable: {reason}" in text
+        assert f"{part.capitalize()} is not applicable: {reason}." in text
     for words in (
         "poles are not known without a linearisation",
         "not counted",
@@ -170,7 +163,7 @@ def test_an_unstable_loop_has_no_margins(studies, tmp_path):
     assert_no_infinities(page)
     (row,) = rows_under(page, "Margins")
     assert row[2:] == ["unstable"] * 7 + ["✗ fail"]
-    assert {row[4] for row in rows_in(section(page, "Verdict").xpath(".//table")[0])} > {"unstable"}
+    assert {row[4] for row in rows_in(section_of(page, "Verdict").xpath(".//table")[0])} > {"unstable"}
     assert "The closed loop is unstable: its crossings are not margins." in text_of(page)
     names = [row[0] for row in rows_under(page, "Loops")]
     assert "upper gain crossing" in names

@@ -1,4 +1,4 @@
-"""The figures of a stability page as panels with what a screen reader says, and single figures by their names."""
+"""The figures of a stability study with their words for a screen reader, and single figures by their names."""
 
 from __future__ import annotations
 
@@ -10,22 +10,23 @@ from functools import partial
 
 import numpy as np
 
-from ...stability.loops.margin_values import MARGINS, UNSTABLE
-from ...stability.loops.readings import decibels
-from ...stability.results.report import JointReport, LoopReport, StabilityReport
-from ...stability.results.varied import SweepReport
-from ..chart.axes import linear_axis
-from ..chart.equal import Ends, to_scale
-from ..chart.panel import POINTS, chart_panel, stack_panel
-from ..common.panels import HALF_WIDTH, PANEL_WIDTH, Panel
-from ..common.quantities import number
-from ..interactive.charts import Chart
+from ....reports.chart.axes import linear_axis
+from ....reports.chart.equal import Ends, to_scale
+from ....reports.chart.panel import POINTS
+from ....reports.common.panels import PANEL_WIDTH
+from ....reports.common.quantities import number
+from ....reports.interactive.charts import Chart
+from ....stability.loops.margin_values import MARGINS, UNSTABLE
+from ....stability.loops.readings import decibels
+from ....stability.results.report import JointReport, LoopReport, StabilityReport
+from ....stability.results.varied import SweepReport
+from ...model import Figure
 from .bode import bode_charts
 from .frequency import Limits, margin_words, sensitivity_chart
 from .nyquist import INVERSE, balance_chart, nichols_chart, nyquist_chart
 from .poles import are_crowded, cloud_chart, intervals, pole_chart, poles_of
 from .sets import amplitude_charts, describing_chart, joint_chart, margin_chart, step_chart, sweep_charts
-from .shared import Panels
+from .shared import ByPart
 
 HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
 SIGHT_HEIGHT = 3.5  # in; of what is seen at first sight, two beside each other
@@ -33,16 +34,20 @@ LOW = 2.4  # in; of histograms, sensitivities and joint margins
 SIGHT = "sight"  # key of the figures that are seen at first sight
 
 
-def _panel(
-    label: str, name: str, description: str, chart: Chart, height: float = HEIGHT, width: float = PANEL_WIDTH
-) -> Panel:
-    """A panel with the title of the chart above its axes."""
-    return chart_panel(label, name, description, chart, height, width, title=chart.title)
+def _small(label: str, name: str, words: str, chart: Chart, height: float = HEIGHT) -> Figure:
+    """Return a figure of which three stand in a row."""
+    return Figure(label, name, words, chart, height, is_narrow=True)
 
 
-def _plane_panel(label: str, name: str, description: str, chart: Chart, height: float = HEIGHT) -> Panel:
-    """A panel of a complex plane, whose axes have one scale."""
-    return _panel(label, name, description, _to_scale(chart, PANEL_WIDTH, height), height)
+def _stack(label: str, name: str, words: str, charts: tuple[Chart, Chart]) -> Figure:
+    """Return such a figure of two charts over one abscissa."""
+    upper, lower = charts
+    return Figure(label, name, words, upper, HEIGHT, is_narrow=True, below=lower)
+
+
+def _plane(label: str, name: str, words: str, chart: Chart, height: float = HEIGHT) -> Figure:
+    """Return such a figure of a complex plane, whose axes have one scale."""
+    return _small(label, name, words, _to_scale(chart, PANEL_WIDTH, height), height)
 
 
 def _to_scale(chart: Chart, width: float, height: float, *, fluid: bool = True) -> Chart:
@@ -56,72 +61,77 @@ def _to_scale(chart: Chart, width: float, height: float, *, fluid: bool = True) 
     )
 
 
-def sight_panels(loop: LoopReport, name: str) -> list[Panel]:
-    """What is seen of a loop at first sight: Bode and Nichols with margins and limits."""
-    margins = margin_words(loop)
-    bode, nichols = f"Bode diagram of {loop.name}: {margins}", f"Nichols diagram of {loop.name}: {margins}"
+def sight_figures(loop: LoopReport, name: str) -> list[Figure]:
+    """Return the figures at first sight of a loop: Bode and Nichols with margins and limits."""
+    nichols = f"Nichols diagram of {loop.name}: {margin_words(loop)}"
     return [
-        stack_panel("Bode", f"{name}-bode", bode, bode_charts(loop), SIGHT_HEIGHT, HALF_WIDTH),
-        _panel("Nichols", f"{name}-nichols", nichols, nichols_chart(loop), SIGHT_HEIGHT, HALF_WIDTH),
+        bode_figure(loop, "Bode", f"{name}-bode", SIGHT_HEIGHT),
+        Figure("Nichols", f"{name}-nichols", nichols, nichols_chart(loop), SIGHT_HEIGHT),
     ]
 
 
-def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
-    """The other figures of a loop: Nyquist; poles, those near z = 1, step response."""
+def bode_figure(loop: LoopReport, label: str, name: str, height: float) -> Figure:
+    """Return gain and phase of a loop above each other."""
+    gain, phase = bode_charts(loop)
+    return Figure(label, name, f"Bode diagram of {loop.name}: {margin_words(loop)}", gain, height, below=phase)
+
+
+def loop_figures(loop: LoopReport, name: str) -> list[Figure]:
+    """Return the other figures of a loop: Nyquist; poles, those near z = 1, step response."""
     unstable = loop.margins.unstable
     modulus = margin_words(loop) if unstable else f"modulus margin {number(float(loop.robust.modulus_margin), 3)}"
     words = f"Nyquist diagram of {loop.name}: {modulus}"
-    panels = [_plane_panel("Nyquist", f"{name}-nyquist", words, nyquist_chart(loop))]
+    figures = [_plane("Nyquist", f"{name}-nyquist", words, nyquist_chart(loop))]
     poles = poles_of(loop)
     if poles.size:
         outside = int(np.sum(np.abs(poles) >= 1.0))
         words = f"{poles.size} closed-loop poles of {loop.name}, {outside} on or outside the unit circle"
-        panels.append(_plane_panel("Poles", f"{name}-poles", words, pole_chart(loop, near=False)))
+        figures.append(_plane("Poles", f"{name}-poles", words, pole_chart(loop, near=False)))
         if are_crowded(poles):
             words = f"Closed-loop poles of {loop.name} near z = 1"
-            panels.append(_plane_panel("Poles near z = 1", f"{name}-poles-near", words, pole_chart(loop, near=True)))
+            figures.append(_plane("Poles near z = 1", f"{name}-poles-near", words, pole_chart(loop, near=True)))
     if loop.step is not None:
         last = float(loop.step[1][-1])
         words = f"Step response of {loop.name}, {number(last, 3)} at {number(float(loop.step[0][-1]))} s"
-        panels.append(_panel("Step response", f"{name}-step", words, step_chart(loop)))
-    return panels
+        figures.append(_small("Step response", f"{name}-step", words, step_chart(loop)))
+    return figures
 
 
-def loop_figures(loop: LoopReport, name: str) -> Panels:
-    """All figures of a loop: those of first sight, by an empty key those that belong to no part, and the parts'."""
+def figures_by_part(loop: LoopReport, name: str) -> ByPart:
+    """Return all figures of a loop: those at first sight, by an empty key those of no part, and the parts'."""
     return {
-        SIGHT: sight_panels(loop, name),
-        "": loop_panels(loop, name),
-        "robust": [sensitivity_panel(loop, name)],
-        "dispersed": dispersion_panels(loop, name),
-        "amplitudes": amplitude_panels(loop, name),
-    } | {f"nonlinear-{index}": nonlinear_panels(loop, name, index) for index in range(len(loop.nonlinearities))}
+        SIGHT: sight_figures(loop, name),
+        "": loop_figures(loop, name),
+        "robust": [sensitivity_figure(loop, name)],
+        "dispersed": dispersion_figures(loop, name),
+        "amplitudes": amplitude_figures(loop, name),
+    } | {f"nonlinear-{index}": nonlinear_figures(loop, name, index) for index in range(len(loop.nonlinearities))}
 
 
-def sensitivity_panel(loop: LoopReport, name: str) -> Panel:
-    """Sensitivity and complementary sensitivity."""
+def sensitivity_figure(loop: LoopReport, name: str) -> Figure:
+    """Return sensitivity and complementary sensitivity."""
     peaks = [number(decibels(peak), 3) for peak in (loop.robust.sensitivity_peak, loop.robust.complementary_peak)]
     words = f"Sensitivities of {loop.name}: peaks {peaks[0]} dB and {peaks[1]} dB"
-    return _panel("Sensitivities", f"{name}-sensitivity", words, sensitivity_chart(loop), LOW)
+    return _small("Sensitivities", f"{name}-sensitivity", words, sensitivity_chart(loop), LOW)
 
 
-def dispersion_panels(loop: LoopReport, name: str) -> list[Panel]:
-    """Histograms of the margins over the trials of a campaign, and the cloud of poles."""
+def dispersion_figures(loop: LoopReport, name: str) -> list[Figure]:
+    """Return histograms of the margins over the trials of a campaign, and the cloud of poles."""
     dispersion = loop.dispersion
     if dispersion is None:
         return []
     limits = {item.quantity: item.limit for item in dispersion.requirements}
-    panels = []
+    figures = []
     for quantity in MARGINS:
         smallest = _smallest_size(dispersion.sizes(quantity))
         words = f"Histogram of the {quantity} of {loop.name} over {dispersion.trials} trials, {smallest}"
         label, key = f"{quantity.capitalize()} over trials", f"{name}-trials-{quantity.replace(' ', '-')}"
-        panels.append(_panel(label, key, words, margin_chart(dispersion, quantity, limits.get(quantity)), LOW))
+        figures.append(_small(label, key, words, margin_chart(dispersion, quantity, limits.get(quantity)), LOW))
     if np.any(np.isfinite(dispersion.poles)):
         words = f"Closed-loop poles of {loop.name} in {dispersion.trials} trials"
         near = ", near z = 1" if are_crowded(poles_of(loop)) else ""
-        panels.append(_plane_panel(f"Poles over trials{near}", f"{name}-cloud", words, cloud_chart(loop), LOW))
-    return panels
+        figures.append(_plane(f"Poles over trials{near}", f"{name}-cloud", words, cloud_chart(loop), LOW))
+    return figures
 
 
 def _smallest_size(sizes: np.ndarray) -> str:
@@ -131,51 +141,51 @@ def _smallest_size(sizes: np.ndarray) -> str:
     return ", ".join([*([f"{unstable} unstable"] if unstable else []), *words]) or "none with a crossing"
 
 
-def amplitude_panels(loop: LoopReport, name: str) -> list[Panel]:
-    """Gain and phase over the amplitude, where there are several."""
+def amplitude_figures(loop: LoopReport, name: str) -> list[Figure]:
+    """Return gain and phase over the amplitude, where there are several."""
     if len(loop.amplitudes) < 2:
         return []
     words = f"Gain and phase of {loop.name} over {len(loop.amplitudes)} amplitudes at the cut"
-    return [stack_panel("Gain and phase", f"{name}-amplitudes", words, amplitude_charts(loop), HEIGHT)]
+    return [_stack("Gain and phase", f"{name}-amplitudes", words, amplitude_charts(loop))]
 
 
-def nonlinear_panels(loop: LoopReport, name: str, index: int) -> list[Panel]:
-    """The describing function of one element, and harmonic balance."""
+def nonlinear_figures(loop: LoopReport, name: str, index: int) -> list[Figure]:
+    """Return the describing function of one element, and harmonic balance."""
     element = loop.nonlinearities[index]
     cycles = len(element.cycles)
     words = f"Describing function of {element.name} with {cycles} predicted limit cycle{'s' if cycles != 1 else ''}"
     balance = f"L of {loop.name} and {INVERSE} of {element.name} in the complex plane"
     return [
-        _panel("Describing function", f"{name}-describing-{index}", words, describing_chart(element)),
-        _plane_panel("Harmonic balance", f"{name}-balance-{index}", balance, balance_chart(loop, element)),
+        _small("Describing function", f"{name}-describing-{index}", words, describing_chart(element)),
+        _plane("Harmonic balance", f"{name}-balance-{index}", balance, balance_chart(loop, element)),
     ]
 
 
-def joint_panel(joint: JointReport, name: str) -> Panel:
-    """The disk margin of several channels over frequency."""
+def joint_figure(joint: JointReport, name: str) -> Figure:
+    """Return the disk margin of several channels over frequency."""
     words = f"Disk margin of {joint.name} over frequency, least {number(float(joint.disk_margin), 3)}"
     if not joint.stable:
         words = f"Distance of {joint.name} from the critical point over frequency; the closed loop is unstable"
     elif math.isfinite(joint.disk_frequency):
         words += f" at {number(float(joint.disk_frequency))} rad/s"
-    return _panel(f"{joint.name}, {joint.point}", name, words, joint_chart(joint), LOW)
+    return _small(f"{joint.name}, {joint.point}", name, words, joint_chart(joint), LOW)
 
 
-def sweep_panel(sweep: SweepReport, report: StabilityReport, name: str) -> Panel:
-    """Margins over a parameter with the study's limits."""
+def sweep_figure(sweep: SweepReport, report: StabilityReport, name: str) -> Figure:
+    """Return margins over a parameter with the study's limits."""
     limits = Limits(report.limits.get("gain_margin_db"), report.limits.get("phase_margin_deg"), None)
     words = f"Gain and phase margin of {sweep.loop} over {sweep.parameter}, {sweep.values.size} values"
     if unstable := sum(item.unstable for item in sweep.margins):
         words += f", {unstable} of them unstable"
     label = f"{sweep.loop} over {sweep.parameter}"
-    return stack_panel(label, name, words, sweep_charts(sweep, limits), HEIGHT)
+    return _stack(label, name, words, sweep_charts(sweep, limits))
 
 
 SIZE = 4.6  # in, of a single diagram
 
 
 class Diagram(StrEnum):
-    """What can be drawn of a loop."""
+    """A diagram of a loop."""
 
     BODE = "bode"
     NYQUIST = "nyquist"

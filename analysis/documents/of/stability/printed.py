@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from ...reports.stability.orders import order_loops, order_sentences, withheld_line
-from ...stability.loops.margin_values import MARGINS, UNLIMITED, Quantity
-from ...stability.results.report import JointReport, LoopReport, StabilityReport, Unstudied
-from ...stability.results.requirement import Requirement, Verdict
-from ...stability.results.varied import SweepCrossing, SweepReport
+from ....stability.loops.margin_values import MARGINS, UNLIMITED, Quantity
+from ....stability.results.report import JointReport, LoopReport, StabilityReport, Unstudied
+from ....stability.results.requirement import Requirement, Verdict
+from ....stability.results.varied import SweepCrossing, SweepReport
+from .orders import order_loops, order_sentences, withheld_line
 
 
 def stability_lines(report: StabilityReport) -> list[str]:

@@ -8,9 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perilune.analysis.reports.stability.figures import sight_panels
-from perilune.analysis.reports.stability.page import write_stability_page
-from perilune.analysis.reports.stability.shared import alike, picture_of, together
+from perilune.analysis.documents.model import Figure
+from perilune.analysis.documents.of.stability.figures import sight_figures
+from perilune.analysis.documents.of.stability.shared import alike, picture_of, together
+from perilune.analysis.reports.chart.axes import fine_axis, linear_axis
+from perilune.analysis.reports.chart.lines import line
+from perilune.analysis.reports.interactive.charts import NO_BOX, Chart
 from tests.support.pages.checks import assert_self_contained, parse, text_of
 
 AXES = ("x", "y", "z")
@@ -32,7 +35,7 @@ def bode(loop):
 
 
 def bode_picture(loop, name):
-    return picture_of("".join(drawing.svg for drawing in sight_panels(loop, name)[0].figure.drawings))
+    return picture_of(sight_figures(loop, name)[0])
 
 
 @pytest.mark.parametrize(("change", "same"), [(1e-9, True), (1e-4, True), (-1e-4, True), (0.1, False), (1.0, False)])
@@ -44,9 +47,19 @@ def test_what_is_closer_than_half_a_line_is_the_same(loop, bode, change, same):
 
 
 def test_other_words_are_another_figure(loop, bode):
-    label = bode.strokes.index(">rad/s<")
-    assert not alike(bode, replace(bode, strokes=f"{bode.strokes[:label]}>rad<{bode.strokes[label + 7 :]}"))
-    assert not alike(bode, replace(bode, places=bode.places[:-1]))
+    figure = sight_figures(loop, "other")[0]
+    phase = figure.below
+    (tick, _), *ticks = phase.x.ticks
+    changed = (
+        replace(phase, x=replace(phase.x, label="rad")),
+        replace(phase, x=replace(phase.x, ticks=[(tick, "first"), *ticks])),
+        replace(phase, title="gain"),
+        replace(phase, curves=[replace(phase.curves[0], colour="#000000"), *phase.curves[1:]]),
+        replace(phase, rules=phase.rules[:-1]),
+    )
+    assert alike(bode, picture_of(figure))
+    for chart in changed:
+        assert not alike(bode, picture_of(replace(figure, below=chart))), chart.title
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +68,7 @@ def page(studies, loop, tmp_path_factory):
     factors = dict(zip(AXES, (1.0, 1.0 + 1e-7, 1.5), strict=True))
     loops = tuple(scaled(loop, factor, name=f"force[{axis}]") for axis, factor in factors.items())
     path = tmp_path_factory.mktemp("shared") / "page.html"
-    write_stability_page(replace(studies.late, loops=loops, sweeps=()), path)
+    replace(studies.late, loops=loops, sweeps=()).report(path)
     return path.read_text(encoding="utf-8")
 
 
@@ -86,8 +99,9 @@ def test_names_of_loops_are_said_briefly(loop):
     assert together([loop, replace(loop, point="elsewhere")]) == f"late at {loop.point}, late at elsewhere"
 
 
-def test_numbers_of_places_are_read_as_they_stand():
-    actual = picture_of('<path id="a-b" d="M 1.5 -2 L 3e-1 4"/><text x="5" style="font: 8px">6</text>')
-    np.testing.assert_array_equal(actual.places, [1.5, -2.0, 0.3, 4.0, 5.0])
-    assert ">6<" in actual.strokes
-    assert "8px" in actual.strokes
+def test_places_are_those_on_paper():
+    """Of a figure of 4.95 in by 2 in, whose abscissa is logarithmic: what lies beyond the axes is at their edge."""
+    points = line(np.array([1.0, 10.0, 1000.0]), np.array([0.0, np.nan, 1.0]), "#000000")
+    chart = Chart(NO_BOX, fine_axis((1.0, 100.0)), linear_axis((0.0, 2.0), 2), curves=[points])
+    picture = picture_of(Figure("a", "a", "a", chart, 2.0))
+    np.testing.assert_allclose(picture.places[-6:], [0.0, 0.5 * 356.4, 356.4, 0.0, np.nan, 72.0])

@@ -1,4 +1,4 @@
-"""Parts of one loop's section on a stability page: a heading, a sentence and a table each."""
+"""Parts of one loop: a heading, a table and a note each."""
 
 from __future__ import annotations
 
@@ -6,15 +6,14 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from markupsafe import Markup
 
-from ...stability.loops.margin_values import MARGINS
-from ...stability.results.report import LoopReport
-from ...stability.results.responses import Mode, Nonlinearity
-from ...stability.results.varied import LEVELS, Dispersion
-from ..common.panels import Panel
-from ..common.quantities import MINUS, NONE, display_unit, label_with_unit
-from .tables import Cell, Table
+from ....reports.common.quantities import MINUS, NONE, display_unit, label_with_unit
+from ....stability.loops.margin_values import MARGINS
+from ....stability.results.report import LoopReport
+from ....stability.results.responses import Mode, Nonlinearity
+from ....stability.results.varied import LEVELS, Dispersion
+from ...cell import Cell, Head, Rich
+from ...model import Figure, Table
 from .words import (
     NO_CROSSING,
     UNSTABLE_WORD,
@@ -23,10 +22,12 @@ from .words import (
     in_decibels,
     in_degrees,
     mode_numbers,
+    numbers,
     numeral,
     per_cent,
     phase_margin,
     samples,
+    sentences,
     size,
     state,
     text_of_closed_loop,
@@ -35,18 +36,19 @@ from .words import (
 
 @dataclass(frozen=True)
 class Part:
-    """A heading with a table; ``note`` stands below it, ``code`` is a command in a line of its own, figures follow."""
+    """A heading with a table of ``rows``; a note and a ``command`` stand below it, figures follow."""
 
     key: str
     heading: str
     table: Table
-    note: Cell = ""
-    code: str = ""
-    figures: list[Panel] = field(default_factory=list)
+    note: Rich = ""
+    command: str = ""
+    rows: str = "rows"
+    figures: list[Figure] = field(default_factory=list)
 
 
 def method(loop: LoopReport) -> Part:
-    """Linearised and measured response side by side, and whether they agree."""
+    """Return linearised and measured response side by side, and whether they agree."""
     rows: list[tuple[Cell, ...]] = []
     if loop.linearised is not None:
         a = loop.linearised
@@ -79,11 +81,11 @@ def method(loop: LoopReport) -> Part:
             ("", "compared up to, rad/s", numeral(compared.frequency)),
             ("", "responses agree", "yes" if compared.agrees else "no"),
         ]
-    return Part("method", "Method", Table(("method", "quantity", "value"), "ttn", rows))
+    return Part("method", "Method", Table(["method", "quantity", *numbers("value")], rows))
 
 
 def classical(loop: LoopReport) -> Part:
-    """Every crossing, the delay margin and the encirclements."""
+    """Return every crossing, the delay margin and the encirclements."""
     margins = loop.classical
     rows: list[tuple[Cell, ...]] = []
     kind = "crossing" if loop.margins.unstable else "margin"
@@ -110,11 +112,13 @@ def classical(loop: LoopReport) -> Part:
     rows.append(("unstable poles of the open loop", unstable, "", ""))
     rows.append(("closed loop", text_of_closed_loop(loop.stable), "", ""))
     note = "The closed loop is unstable: its crossings are not margins." if loop.margins.unstable else ""
-    return Part("classical", "Classical", Table(("quantity", "value", "unit", "at rad/s"), "tntn", rows), note)
+    return Part(
+        "classical", "Classical", Table(["quantity", *numbers("value"), "unit", *numbers("at rad/s")], rows), note
+    )
 
 
 def robust(loop: LoopReport) -> Part:
-    """Distances from the critical point."""
+    """Return distances from the critical point."""
     margins = loop.robust
     token = state(loop.margins)
     rows: list[tuple[Cell, ...]] = [
@@ -126,11 +130,11 @@ def robust(loop: LoopReport) -> Part:
         ("— phase, deg", token or in_degrees(margins.disk_phase), ""),
     ]
     note = "The closed loop is unstable: peaks of the response bound nothing." if loop.margins.unstable else ""
-    return Part("robust", "Robust", Table(("quantity", "value", "at rad/s"), "tnn", rows), note)
+    return Part("robust", "Robust", Table(["quantity", *numbers("value", "at rad/s")], rows), note)
 
 
 def upper(modes: tuple[Mode, ...]) -> list[Mode]:
-    """Modes without the lower ones of conjugate pairs."""
+    """Return modes without the lower ones of conjugate pairs."""
     return [
         mode
         for mode in modes
@@ -139,7 +143,7 @@ def upper(modes: tuple[Mode, ...]) -> list[Mode]:
 
 
 def modes(loop: LoopReport) -> Part:
-    """Closed-loop modes; of a conjugate pair one."""
+    """Return closed-loop modes; of a conjugate pair one."""
     rows: list[tuple[Cell, ...]] = [
         (
             complex_number(mode.z),
@@ -151,18 +155,18 @@ def modes(loop: LoopReport) -> Part:
         )
         for mode in upper(loop.modes)
     ]
-    head = ("z", "|z|", "s, rad/s", "damping", "frequency, rad/s", "kind", "controllability", "observability")
+    sizes, shares = ("z", "|z|", "s, rad/s", "damping", "frequency, rad/s"), ("controllability", "observability")
     note = "A conjugate pair is one row, with ±."
     if any(mode.z.imag == 0.0 and mode.z.real < 0.0 for mode in loop.modes):
         note += (
             " A real z below 0 is one pole, no pair: it changes its sign with every sample and shrinks to |z| in each, "
             f"so s = ln(z)/T, damping and frequency are left out ({NONE})."
         )
-    return Part("modes", "Modes", Table(head, "nnnnntnn", rows, "modes"), note)
+    return Part("modes", "Modes", Table([*numbers(*sizes), "kind", *numbers(*shares)], rows), note, rows="modes")
 
 
 def structure(loop: LoopReport) -> Part:
-    """Controllability and observability."""
+    """Return controllability and observability."""
     margins = loop.structure
     assert margins is not None
     rows: list[tuple[Cell, ...]] = [
@@ -171,32 +175,30 @@ def structure(loop: LoopReport) -> Part:
         ("observable at the break point", numeral(margins.observable), numeral(margins.least_observable)),
         ("both: order of the loop", numeral(margins.order), ""),
     ]
-    return Part("structure", "Structure", Table(("part", "rank", "smallest retained singular value"), "tnn", rows))
+    return Part("structure", "Structure", Table(["part", *numbers("rank", "smallest retained singular value")], rows))
 
 
 def dispersion_rows(dispersion: Dispersion) -> Part:
-    """Least, 5 % and median margins over the campaign, and the command that studies the worst case again."""
+    """Return least, 5 % and median margins over the campaign, and the command that studies the worst case again."""
     rows: list[tuple[Cell, ...]] = []
     for quantity in MARGINS:
         unit = "" if quantity.unit == "1" else f", {quantity.unit}"
         cells = [size(value) for value in dispersion.levels(quantity).values()]
         rows.append((f"{quantity}{unit}", *cells, size(dispersion.margins[dispersion.worst].size(quantity))))
-    head = ("margin", *LEVELS, f"trial {dispersion.worst}, the worst")
+    heads: list[str | Head] = ["margin", *numbers(*LEVELS, f"trial {dispersion.worst}, the worst")]
     counted = f"{dispersion.unstable} of {dispersion.trials} trials are unstable"
     unstable = counted if dispersion.unstable else "all trials are stable"
-    note = Markup(
-        "Campaign {}: {}. Levels are margins of single trials, over all of them; an unstable trial counts below every "
-        "number, one without a crossing above. The worst trial has the least disk margin{}. Replay command:"
-    ).format(
-        dispersion.campaign,
-        unstable,
-        ", of the unstable ones the largest spectral radius" if dispersion.unstable else "",
+    radius = ", of the unstable ones the largest spectral radius" if dispersion.unstable else ""
+    note = (
+        f"Campaign {dispersion.campaign}: {unstable}. Levels are margins of single trials, over all of them; an "
+        "unstable trial counts below every number, one without a crossing above. The worst trial has the least disk "
+        f"margin{radius}."
     )
-    return Part("dispersed", "Dispersed", Table(head, "tnnnn", rows), note, dispersion.replay)
+    return Part("dispersed", "Dispersed", Table(heads, rows), note, dispersion.replay)
 
 
 def nonlinear(nonlinearity: Nonlinearity, index: int) -> Part:
-    """Limit cycles that harmonic balance predicts, and what the simulation shows."""
+    """Return limit cycles that harmonic balance predicts, and what the simulation shows."""
     rows: list[tuple[Cell, ...]] = []
     for cycle in nonlinearity.cycles:
         lasting = cycle.simulated_amplitude is not None
@@ -212,18 +214,22 @@ def nonlinear(nonlinearity: Nonlinearity, index: int) -> Part:
     if not rows:
         rows.append((NO_CYCLE, "", "", "", ""))
     amplitude, simulated = (label_with_unit(name, nonlinearity.unit) for name in ("amplitude", "simulated amplitude"))
-    head = (amplitude, "period, s", "predicted to be", simulated, "simulated period, s")
+    heads: list[str | Head] = [
+        *numbers(amplitude, "period, s"),
+        "predicted to be",
+        *numbers(simulated, "simulated period, s"),
+    ]
     values = ", ".join(f"{name} {value:.6g}" for name, value in nonlinearity.parameters.items())
     kind = f"{nonlinearity.kind}{': ' + values if values else ''}"
     about = f"{kind}. Amplitudes at the element's input. {nonlinearity.note}"
-    return Part(f"nonlinear-{index}", f"Nonlinear: {nonlinearity.name}", Table(head, "nntnn", rows), about.strip())
+    return Part(f"nonlinear-{index}", f"Nonlinear: {nonlinearity.name}", Table(heads, rows), about.strip())
 
 
 NO_CYCLE = "no limit cycle predicted"
 
 
 def amplitudes(loop: LoopReport) -> Part:
-    """Gain and phase at one frequency over the amplitude of the injected signal."""
+    """Return gain and phase at one frequency over the amplitude of the injected signal."""
     rows: list[tuple[Cell, ...]] = [
         (
             numeral(point.amplitude, loop.unit),
@@ -233,15 +239,13 @@ def amplitudes(loop: LoopReport) -> Part:
         )
         for point in loop.amplitudes
     ]
-    head = (label_with_unit("amplitude", loop.unit), "gain, dB", "phase, deg", "change, %")
-    at = Markup("At {} rad/s; changes are relative to the smallest amplitude's.").format(
-        numeral(loop.amplitude_frequency)
-    )
-    return Part("amplitudes", "Amplitude dependence", Table(head, "nnnn", rows, "amplitudes"), at)
+    heads = numbers(label_with_unit("amplitude", loop.unit), "gain, dB", "phase, deg", "change, %")
+    at = ["At ", numeral(loop.amplitude_frequency), " rad/s; changes are relative to the smallest amplitude's."]
+    return Part("amplitudes", "Amplitude dependence", Table(heads, rows), at, rows="amplitudes")
 
 
 def sampling(loop: LoopReport) -> Part:
-    """Margins with other communication steps."""
+    """Return margins with other communication steps."""
     rows: list[tuple[Cell, ...]] = [
         (
             numeral(item.step),
@@ -251,13 +255,12 @@ def sampling(loop: LoopReport) -> Part:
         )
         for item in loop.sampling
     ]
-    return Part(
-        "sampling", "Sampling", Table(("step, s", "gain margin, dB", "phase margin, deg", "note"), "nnnl", rows)
-    )
+    heads: list[str | Head] = [*numbers("step, s", "gain margin, dB", "phase margin, deg"), *sentences("note")]
+    return Part("sampling", "Sampling", Table(heads, rows))
 
 
 def parts(loop: LoopReport) -> list[Part]:
-    """Everything that is known about a loop, in the order of the page."""
+    """Return everything that is known about a loop, in the order of the page."""
     sections = [method(loop), classical(loop), robust(loop)]
     if loop.structure is not None:
         sections.append(structure(loop))
@@ -273,8 +276,8 @@ def parts(loop: LoopReport) -> list[Part]:
     return [part for part in sections if part.table.rows]
 
 
-def without(loop: LoopReport) -> list[str]:
-    """Parts that this loop has not, and for which no reason is given either: they were not asked for."""
+def list_absent(loop: LoopReport) -> list[str]:
+    """Return parts that this loop does not have and without a reason: they were not asked for."""
     there = {
         "linearisation": loop.linearised is not None,
         "frequency-response test": loop.measured_response is not None,

@@ -1,0 +1,113 @@
+"""The loops of a stability study, an article each: at first sight margins, Bode and Nichols, the rest folded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from ....reports.common.quantities import MINUS, display_unit
+from ....stability.results.report import LoopReport, StabilityReport
+from ...cell import Faint
+from ...model import Figure, Figures, Fold, Group, Items, Missing, Node, Note, Repeat, Text, Tile, Tiles
+from .figures import SIGHT, figures_by_part
+from .how_to_read import HOW_TO_READ
+from .margins import anchor, link, loop_table
+from .paper import Paper, paper_of
+from .parts import Part, list_absent, parts
+from .shared import TOLERANCE, Shared, share
+from .words import fold_long, left_out, numeral, verdict
+
+SEEN = ("Bode", "Nichols")  # labels of the figures at first sight
+
+
+def loop_nodes(report: StabilityReport) -> list[Node]:
+    """Return what L is, how to read figures and tables, and all loops."""
+    figures = [figures_by_part(loop, anchor(index)) for index, loop in enumerate(report.loops)]
+    shared = share(report.loops, figures)
+    paper = paper_of(shared)
+    return [
+        Text(
+            "L is the negative of the loop transfer function, broken at the point named with each loop: the "
+            f"sensitivity is 1/(1 + L), and {MINUS}1 is critical. Each loop is evaluated at its own sample period"
+        ),
+        Note(paper.words, "paper"),
+        Fold("How to read the figures and tables", [Items(HOW_TO_READ, "note")], is_printed=True),
+        *(_article(report, index, one, paper) for index, one in enumerate(shared)),
+    ]
+
+
+def _article(report: StabilityReport, index: int, shared: Shared, paper: Paper) -> Group:
+    loop = report.loops[index]
+    figures = {key: paper.mark(members) for key, members in shared.figures.items()}
+    known = [replace(part, figures=figures.get(part.key, [])) for part in parts(loop)]
+    absent = list_absent(loop)
+    details = [
+        *_figures(figures[""]),
+        *_elsewhere(report, shared, at_sight=False),
+        Tiles([tile for block in _blocks(known) for tile in _tiles(block, shared, paper)]),
+        *([Note(f"Not part of this study for {loop.name}: {', '.join(absent)}.", "screen")] if absent else []),
+    ]
+    nodes = [
+        Note([f"Loop {loop.loop}, sample period ", numeral(loop.sample_period), " s"]),
+        loop_table(loop),
+        Items([[Faint(name), f" {value}"] for name, value in _cut(loop)], "inline"),
+        *(Missing(left_out(part, reason, loop)) for part, reason in loop.not_applicable.items()),
+        *_figures(figures[SIGHT]),
+        *_elsewhere(report, shared, at_sight=True),
+        Fold(f"Plots and details: {loop.name}", details, is_printed=True),
+    ]
+    return Group([f"{loop.name} at {loop.point} ", verdict(loop.verdict)], nodes, anchor=anchor(index))
+
+
+def _cut(loop: LoopReport) -> list[tuple[str, str]]:
+    """Return where a loop is broken, its sign, and which other loops are closed."""
+    return [
+        ("loop broken at", loop.cut),
+        ("return signal", "the same connector" if loop.returned == loop.cut else loop.returned),
+        ("unit", display_unit(loop.unit) or "1"),
+        ("sign", loop.sign),
+        ("other loops closed", ", ".join(loop.closed) or "no other loop is declared"),
+    ]
+
+
+def _figures(figures: Sequence[Figure]) -> list[Node]:
+    return [Figures(lambda: figures)] if figures else []
+
+
+def _elsewhere(report: StabilityReport, shared: Shared, *, at_sight: bool) -> list[Node]:
+    """Return where the figures are that stand with another loop: those at first sight, or the others."""
+    kept = {
+        other: [label for label in labels if (label in SEEN) == at_sight] for other, labels in shared.elsewhere.items()
+    }
+    same = f", which is the same within {TOLERANCE} pt, half the width of a line."
+    return [Note([f"{', '.join(labels)}: see ", link(report, other), same]) for other, labels in kept.items() if labels]
+
+
+def _blocks(known: Sequence[Part]) -> list[list[Part]]:
+    """Return parts that are laid out as one; the short ones next to the long table of the method are one block."""
+    blocks: list[list[Part]] = []
+    for part in known:
+        if part.key != "robust":
+            blocks.append([])
+        blocks[-1].append(part)
+    return blocks
+
+
+def _tiles(block: Sequence[Part], shared: Shared, paper: Paper) -> list[Tile]:
+    """Return a block of parts, with several figures of a part below it, a single one next to it."""
+    nodes = [
+        node
+        for part in block
+        for node in (_group(part, shared, paper), *(_figures(part.figures) if len(part.figures) > 1 else []))
+    ]
+    singles = [Tile(_figures(part.figures)) for part in block if len(part.figures) == 1]
+    return [Tile(nodes, is_wide=len(block[0].figures) > 1), *singles]
+
+
+def _group(part: Part, shared: Shared, paper: Paper) -> Group:
+    nodes = [
+        fold_long(part.table, part.rows),
+        *([Note(part.note)] if part.note else []),
+        *([Repeat(part.command)] if part.command else []),
+    ]
+    return Group(part.heading, nodes, level=4, is_printed=paper.prints(part.key, shared))

@@ -1,0 +1,132 @@
+"""Tables of all loops: requirements with their verdicts, margins, simultaneous margins, margins in both orders."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ....reports.common.quantities import NONE
+from ....stability.loops.margin_values import UNSTABLE, Quantity
+from ....stability.results.report import Judged, LoopReport, StabilityReport
+from ....stability.results.requirement import Scope
+from ...cell import Cell, Lines, Link, Strong
+from ...model import Table
+from .orders import order_loops, order_note
+from .words import (
+    NO_CROSSING,
+    crossing_text,
+    gain_margin,
+    in_decibels,
+    in_degrees,
+    limit,
+    names,
+    numbers,
+    numeral,
+    phase_margin,
+    samples,
+    sentences,
+    size,
+    state,
+    text_of_closed_loop,
+    verdict,
+)
+
+SCOPES = {Scope.NOMINAL: "nominal", Scope.DISPERSED: "dispersed", Scope.JOINT: "simultaneous"}
+
+
+def anchor(index: int) -> str:
+    """Return the anchor of a loop's article; names may hold characters that an anchor cannot."""
+    return f"loop-{index + 1}"
+
+
+def link(report: StabilityReport, index: int) -> Link:
+    """Return a loop's name, which leads to its article."""
+    return Link(report.loops[index].name, anchor(index))
+
+
+def verdict_table(report: StabilityReport, judgements: Iterable[Judged]) -> Table:
+    """Return a row for each requirement: value, limit, verdict and, where there is none, why."""
+    places = {id(loop): index for index, loop in enumerate(report.loops)}
+    rows = [
+        (
+            link(report, places[id(subject)]) if isinstance(subject, LoopReport) else subject.name,
+            subject.point,
+            SCOPES[item.scope],
+            item.title,
+            crossing_text(item),
+            limit(item),
+            verdict(item.verdict),
+            order_note(item),
+        )
+        for subject, item in judgements
+    ]
+    heads = names("loop", "operating point", "scope", "quantity"), numbers("value", "limit"), names("verdict")
+    return Table([*(head for group in heads for head in group), *sentences("note")], rows)
+
+
+SIZES = (
+    "gain margin, dB", "phase margin, deg", "delay margin, s", "delay margin, samples", "modulus margin", "disk margin",
+)  # fmt: skip
+
+
+def summary_table(report: StabilityReport) -> Table:
+    """Return loops by operating points with their margins."""
+    rows = [
+        (link(report, index), loop.point, *margin_cells(loop), verdict(loop.verdict))
+        for index, loop in enumerate(report.loops)
+    ]
+    heads = [*names("loop", "operating point"), *numbers(*SIZES), *names("closed loop", "verdict")]
+    return Table(heads, rows)
+
+
+def loop_table(loop: LoopReport) -> Table:
+    """Return the margins of one loop, for screens."""
+    return Table([*numbers(*SIZES), *names("closed loop")], [margin_cells(loop)], is_printed=False)
+
+
+def margin_cells(loop: LoopReport) -> Sequence[Cell]:
+    """Return the nearest margins of a loop, and whether it is stable."""
+    unstable = state(loop.margins)
+    return (
+        gain_margin(loop.margins),
+        phase_margin(loop.margins),
+        unstable or numeral(loop.classical.delay_margin, infinite=NO_CROSSING),
+        unstable or samples(loop.classical.delay_margin, loop.sample_period),
+        unstable or numeral(loop.robust.modulus_margin, digits=3),
+        unstable or numeral(loop.robust.disk_margin, digits=3),
+        text_of_closed_loop(loop.stable),
+    )
+
+
+def joint_table(report: StabilityReport) -> Table:
+    """Return disk margins of several channels that vary at once and independently."""
+    rows: list[tuple[Cell, ...]] = []
+    for joint in report.joint:
+        margins: tuple[Cell, ...] = (
+            numeral(joint.disk_margin, digits=3),
+            in_decibels(joint.disk_gain, "without limit"),
+            in_degrees(joint.disk_phase),
+            numeral(joint.disk_frequency),
+        )
+        none = (*[size(UNSTABLE)] * 3, NONE)
+        name = Lines([Strong(joint.name), ", ".join(joint.channels)])
+        rows.append((name, joint.point, *(margins if joint.stable else none), verdict(joint.verdict)))
+    sizes = numbers("disk margin", "gain, dB, upper and lower", "phase, deg", "at rad/s")
+    return Table(["channels", "operating point", *sizes, "verdict"], rows)
+
+
+def order_table(report: StabilityReport) -> Table:
+    """Return two rows for each loop, without and with feedthrough; none where there is one order only."""
+    others = {(loop.name, loop.point): loop for loop in order_loops(report)}
+    rows: list[tuple[Cell, ...]] = []
+    for index, loop in enumerate(report.loops):
+        other = others.get((loop.name, loop.point))
+        for feedthrough, each in (("none", loop), ("all", other)) if others else ():
+            if each is None:
+                continue
+            delay = state(each.margins) or numeral(each.classical.delay_margin, infinite=NO_CROSSING)
+            margins = [size(each.margins.size(quantity)) for quantity in (Quantity.MODULUS, Quantity.DISK)]
+            crossings = gain_margin(each.margins), phase_margin(each.margins), delay
+            place = link(report, index), loop.point, feedthrough
+            rows.append((*place, *crossings, *margins, verdict(loop.verdict)))
+    sizes = numbers("gain margin, dB", "phase margin, deg", "delay margin, s", "modulus margin", "disk margin")
+    return Table([*names("loop", "operating point", "feedthrough"), *sizes, *names("verdict")], rows)

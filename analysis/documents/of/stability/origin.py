@@ -1,0 +1,84 @@
+"""What a stability study was of: facts, limits, parameters, hashes."""
+
+from __future__ import annotations
+
+import math
+
+from ....reports.common.quantities import NONE
+from ....stability.results.report import StabilityReport
+from ...cell import Cell, Digest, Inline, Phrase
+from ...model import Fold, Group, Items, KeyNumbers, Missing, Node, Note, Table
+from .margins import SCOPES
+from .words import fold_long, limit, numbers, numeral
+
+TIMES = ("step", "start_time", "stop_time")  # s
+ELSEWHERE = {"system", "system_sha256", "fmus", "parameters", "assumptions"}  # of the provenance
+
+
+def origin_nodes(report: StabilityReport) -> list[Node]:
+    """Return everything that a study depends on."""
+    limits, hashes = limit_table(report), hash_table(report)
+    parameters = [
+        [f"{name} = ", numeral(value, digits=10)] for name, value in report.provenance.get("parameters", {}).items()
+    ]
+    listed = Fold(f"{len(parameters)} parameters, in SI units", [Items(parameters, "pairs")])
+    return [
+        KeyNumbers([("system", report.system), *facts(report)]),
+        Group(
+            "Limits",
+            [
+                limits if limits.rows else Missing("no limit was used"),
+                *([Note(_declared(report.limits))] if report.limits else []),
+            ],
+        ),
+        Group("Parameters", [listed if parameters else Missing("no parameter was set: the FMUs' own values hold")]),
+        Group("Hashes", [fold_long(hashes, "hashes") if hashes.rows else Missing("the study names no file")]),
+        Note("Gains are displayed in dB; the exact value of each is its factor."),
+    ]
+
+
+def _declared(limits: dict[str, float]) -> list[Inline]:
+    values = [part for name, value in limits.items() for part in (", ", f"{name} = ", numeral(value))]
+    return ["As declared: ", *values[1:], "."]
+
+
+def limit_table(report: StabilityReport) -> Table:
+    """Return the limits that were used, each once."""
+    rows: dict[tuple[str, str], tuple[Cell, ...]] = {}
+    for _, item in report.judgements():
+        rows.setdefault((item.title, str(item.limit)), (SCOPES[item.scope], item.title, limit(item)))
+    return Table(["scope", "quantity", *numbers("limit")], list(rows.values()))
+
+
+def hash_table(report: StabilityReport) -> Table:
+    """Return the hashes of the system and its FMUs."""
+    provenance = report.provenance
+    rows: list[tuple[Cell, ...]] = []
+    if "system_sha256" in provenance:
+        rows.append(("system", str(provenance.get("system", "")), Digest(str(provenance["system_sha256"]))))
+    for component, fmu in provenance.get("fmus", {}).items():
+        name, digest = (fmu.get("fmu", ""), fmu["sha256"]) if isinstance(fmu, dict) else ("", fmu)
+        rows.append((component, str(name), Digest(str(digest))))
+    return Table(["part", "name", "SHA-256"], rows)
+
+
+def facts(report: StabilityReport) -> list[tuple[str, Cell]]:
+    """Return the rest of the provenance: seed, step, versions and so on."""
+    return [
+        (key.replace("_", " "), Phrase([*fact(value), " s"] if key in TIMES else fact(value)))
+        for key, value in report.provenance.items()
+        if key not in ELSEWHERE
+    ]
+
+
+def fact(value: object) -> list[Inline]:
+    """Return one fact: a number, a text, or several of them."""
+    if value is None or value in ([], {}, ()):
+        return ["none"]
+    if isinstance(value, dict):
+        return [part for key, entry in value.items() for part in (", ", f"{key} ", *fact(entry))][1:]
+    if isinstance(value, list | tuple):
+        return [part for entry in value for part in (", ", *fact(entry))][1:]
+    if isinstance(value, float) and not math.isfinite(value):
+        return [NONE]
+    return [numeral(value, digits=10)]

@@ -1,0 +1,66 @@
+"""What is printed of a stability study: of a few loops everything, of many what a board asks for first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from ...model import Figure
+from .shared import Shared
+
+FEW = 3  # loops with figures of their own that are printed in full
+MOST = 40  # figures of the others
+TIERS = (  # the first are seen at first sight, sensitivities stand next to the tables, the others are a row
+    ("Bode", "Nichols"),
+    ("Sensitivities",),
+    ("Nyquist", "Poles", "Poles near z = 1", "Step response"),
+)
+FIRST = "Bode"  # which every loop has
+
+
+@dataclass(frozen=True)
+class Paper:
+    """``kinds``: the figures that are printed; None: all, and the tables of the loops that draw their own."""
+
+    kinds: tuple[str, ...] | None
+
+    @property
+    def words(self) -> str:
+        """The statement of what is left out, for the reader of the paper."""
+        if self.kinds is None:
+            return "Printed without the tables of loops whose figures are shown with another loop."
+        return (
+            f"On paper, of each loop: {', '.join(self.kinds)}; classical and robust margins of those with figures of "
+            "their own. The screen has the other figures and tables."
+        )
+
+    def mark(self, figures: Sequence[Figure]) -> list[Figure]:
+        """Return figures, those that are not printed as such."""
+        return [replace(figure, is_printed=self.kinds is None or kind_of(figure) in self.kinds) for figure in figures]
+
+    def prints(self, part: str, shared: Shared) -> bool:
+        """True if the table of a part is printed."""
+        return draws(shared) and (self.kinds is None or part in ("classical", "robust"))
+
+
+def kind_of(figure: Figure) -> str:
+    """Return the label of a figure without the loops that it is of."""
+    return figure.label.partition(":")[0]
+
+
+def draws(shared: Shared) -> bool:
+    """True if a loop has figures of its own and does not share another one's."""
+    return FIRST in [kind_of(figure) for figures in shared.figures.values() for figure in figures]
+
+
+def paper_of(shared: Sequence[Shared]) -> Paper:
+    """Return all of `FEW` loops; otherwise kinds of figures in their order, as long as they are not too many."""
+    if sum(map(draws, shared)) <= FEW:
+        return Paper(None)
+    labels = [kind_of(figure) for one in shared for figures in one.figures.values() for figure in figures]
+    kinds: list[str] = []
+    for tier in TIERS:
+        if kinds and sum(labels.count(kind) for kind in (*kinds, *tier)) > MOST:
+            break
+        kinds += tier
+    return Paper(tuple(kinds))

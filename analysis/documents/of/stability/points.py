@@ -1,0 +1,65 @@
+"""Operating points of a stability study: where, how far from a trim, with which settings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ....reports.common.quantities import display_unit
+from ....stability.results.report import PointReport
+from ...cell import Cell, Inline, Phrase
+from ...model import Fold, Missing, Node, Note, Table
+from .words import fold_long, names, numbers, numeral, per_cent, sentences
+
+
+def point_nodes(points: Sequence[PointReport]) -> list[Node]:
+    """Return the table of operating points, and folded their trims and settings."""
+    if not points:
+        return [Missing("no operating point")]
+    trims = trim_table(points)
+    folded: list[Node] = [
+        *([trims] if trims.rows else []),
+        *(Note(_settings(point)) for point in points if point.settings),
+    ]
+    return [
+        fold_long(point_table(points), "operating points"),
+        *([Fold("Trim residuals and settings", folded)] if folded else []),
+        Note(
+            "Linearised about the flight frozen at each point. The drift is the largest relative change of the "
+            "response over one further period; the linearisation counts as valid until it would be 10 %."
+        ),
+    ]
+
+
+def _settings(point: PointReport) -> list[Inline]:
+    values = [
+        part for name, value in point.settings.items() for part in (", ", f"{name} = ", numeral(value, digits=10))
+    ]
+    return [f"Set at {point.name}: ", *values[1:], "."]
+
+
+def point_table(points: Sequence[PointReport]) -> Table:
+    """Return for each point the state that drifts most, and how long the frozen-time linearisation is valid."""
+    rows: list[tuple[Cell, ...]] = []
+    for point in points:
+        fastest: Cell = "none"
+        if point.trim:
+            name, _, change, unit = point.trim[0]
+            fastest = Phrase([f"{name} by ", numeral(change, unit), f" {display_unit(unit)}"])
+        holds = numeral(point.holds, infinite="does not change")
+        rows.append((point.name, point.phase, numeral(point.time, digits=6), fastest, per_cent(point.drift), holds))
+    heads = (
+        names("operating point"), sentences("phase"), numbers("time, s"),
+        sentences("largest state drift per period"),
+        numbers("drift of the response, %", "frozen-time linearisation valid for, s"),
+    )  # fmt: skip
+    return Table([head for group in heads for head in group], rows)
+
+
+def trim_table(points: Sequence[PointReport]) -> Table:
+    """Return the states that change most at each operating point while it is taken as frozen."""
+    rows: list[tuple[Cell, ...]] = [
+        (point.name, name, numeral(value, unit, 6), numeral(change, unit), display_unit(unit))
+        for point in points
+        for name, value, change, unit in point.trim
+    ]
+    return Table(["operating point", "state", *numbers("value", "change over a period"), "unit"], rows)

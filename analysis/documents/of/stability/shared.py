@@ -1,0 +1,148 @@
+"""Figures that are the same for several loops, as those of three identical axes, stand with the first of them.
+
+Two figures are the same if they have the same words, lines and marks, and no point of one is further than `TOLERANCE`
+from its place in the other: less than half the width of a line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ....reports.chart.panel import POINTS
+from ....reports.common.panels import HALF_WIDTH, PANEL_WIDTH
+from ....reports.interactive.charts import Axis, Chart
+from ....stability.results.report import LoopReport
+from ...model import Figure
+
+TOLERANCE = 0.5  # pt; lines of responses are 1.3 pt wide
+PLACES = ("at", "ends", "ticks")  # fields with coordinates, and x and y, of which the number of points counts
+ByPart = dict[str, list[Figure]]  # by the part of a loop's section that they belong to
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What a figure shows: everything but places, and the places (pt)."""
+
+    strokes: Sequence[object]
+    places: np.ndarray
+
+
+@dataclass(frozen=True)
+class Shared:
+    """The figures that stand with a loop, and by the number of another loop the labels of those that stand there."""
+
+    figures: ByPart
+    elsewhere: dict[int, list[str]]
+
+
+@dataclass
+class _Shown:
+    figure: Figure
+    picture: Picture
+    loops: list[int]
+
+
+def picture_of(figure: Figure) -> Picture:
+    """Return what a figure shows; points outside of the axes are at their edges."""
+    charts = [chart for chart in (figure.chart, figure.below) if chart is not None]
+    width, height = POINTS * (PANEL_WIDTH if figure.is_narrow else HALF_WIDTH), POINTS * figure.height
+    places = [place for chart in charts for place in _places(chart, width, height)]
+    return Picture([_strokes(chart) for chart in charts], np.concatenate(places))
+
+
+def _strokes(chart: Chart) -> Sequence[object]:
+    texts = [[text for _, text in axis.ticks] for axis in (chart.x, chart.y)]
+    marks = [chart.x, chart.y, *chart.curves, *chart.areas, *chart.rules, *chart.notes]
+    return chart.title, texts, [_look(each) for each in marks]
+
+
+def _look(mark: Any) -> list[object]:
+    looks = {name: value for name, value in vars(mark).items() if name not in PLACES}
+    return [np.shape(value) if name in ("x", "y") else value for name, value in looks.items()]
+
+
+def _places(chart: Chart, width: float, height: float) -> Iterator[np.ndarray]:
+    """Yield coordinates (pt) of everything in a chart, if its axes fill the figure."""
+
+    def across(x: object, *, of_axes: bool = False) -> np.ndarray:
+        return width * _fractions(chart.x, x, of_axes)
+
+    def up(y: object, *, of_axes: bool = False) -> np.ndarray:
+        return height * _fractions(chart.y, y, of_axes)
+
+    yield across([at for at, _ in chart.x.ticks])
+    yield up([at for at, _ in chart.y.ticks])
+    for curve in chart.curves:
+        yield across(curve.x)
+        yield up(curve.displayed)
+    for area in chart.areas:
+        yield across(area.x, of_axes=area.of_axes[0])
+        yield up(area.y, of_axes=area.of_axes[1])
+    for rule in chart.rules:
+        yield across(rule.at) if rule.upright else up(rule.at)
+    for note in chart.notes:
+        yield across(note.at[0], of_axes=note.of_axes[0])
+        yield up(note.at[1], of_axes=note.of_axes[1])
+
+
+def _fractions(axis: Axis, values: object, of_axes: bool) -> np.ndarray:
+    numbers = np.atleast_1d(np.asarray(values, dtype=float))
+    ends = np.array(axis.ends)
+    if of_axes:
+        return numbers
+    if axis.logarithmic:
+        numbers, ends = np.log(np.maximum(numbers, 1e-300)), np.log(ends)
+    return np.clip((numbers - ends[0]) / (ends[1] - ends[0]), 0.0, 1.0)
+
+
+def alike(one: Picture, other: Picture) -> bool:
+    """True if nobody could tell two pictures apart."""
+    if one.strokes != other.strokes or one.places.size != other.places.size:
+        return False
+    return np.allclose(one.places, other.places, rtol=0.0, atol=TOLERANCE, equal_nan=True)
+
+
+def share(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[Shared]:
+    """Return the figures that stand with each loop: each of ``figures``, those of each, with the first that has it."""
+    shown: dict[str, list[_Shown]] = {}
+    retained: list[dict[str, list[_Shown]]] = []
+    elsewhere: list[dict[int, list[str]]] = [{} for _ in loops]
+    for index, parts in enumerate(figures):
+        retained.append({key: [] for key in parts})
+        for key, members in parts.items():
+            for figure in members:
+                picture = picture_of(figure)
+                same = next((one for one in shown.get(figure.label, []) if alike(one.picture, picture)), None)
+                if same is None:
+                    one = _Shown(figure, picture, [index])
+                    shown.setdefault(figure.label, []).append(one)
+                    retained[-1][key].append(one)
+                elif same.loops[0] != index:
+                    same.loops.append(index)
+                    elsewhere[index].setdefault(same.loops[0], []).append(figure.label)
+    return [
+        Shared({key: [_titled(one, loops) for one in members] for key, members in parts.items()}, away)
+        for parts, away in zip(retained, elsewhere, strict=True)
+    ]
+
+
+def _titled(one: _Shown, loops: Sequence[LoopReport]) -> Figure:
+    """Return a figure whose label names its loops where there are several."""
+    if len(one.loops) == 1:
+        return one.figure
+    names = together([loops[index] for index in one.loops])
+    return replace(one.figure, label=f"{one.figure.label}: {names}")
+
+
+def together(loops: Sequence[LoopReport]) -> str:
+    """Return names of loops, the elements of a vector brought together, with operating points where these differ."""
+    points = len({loop.point for loop in loops}) > 1
+    stems: dict[tuple[str, str], list[str]] = {}
+    for loop in loops:
+        stem, bracket, index = loop.name.partition("[")
+        stems.setdefault((stem, f" at {loop.point}" if points else ""), []).append(bracket + index)
+    return ", ".join(f"{stem}{', '.join(indices)}{point}" for (stem, point), indices in stems.items())

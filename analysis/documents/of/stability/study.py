@@ -1,0 +1,172 @@
+"""The document of a stability study, in the order in which a board reads it: verdict, margins, loops, origin."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from ....stability.loops.margin_values import Quantity
+from ....stability.results.document import document
+from ....stability.results.report import LoopReport, StabilityReport
+from ....stability.results.requirement import Verdict as Judgement
+from ...cell import Strong
+from ...model import (
+    Document,
+    Figure,
+    Figures,
+    Group,
+    Medium,
+    Missing,
+    Node,
+    Note,
+    Only,
+    Printed,
+    Section,
+    Table,
+    Text,
+    Verdict,
+)
+from .figures import SIZE, bode_figure, joint_figure
+from .loops import loop_nodes
+from .margins import joint_table, order_table, summary_table, verdict_table
+from .orders import order_sentences
+from .origin import origin_nodes
+from .over_time import courses, over_time_nodes
+from .points import point_nodes
+from .printed import stability_lines
+from .sweeps import sweep_nodes
+from .words import fold_long, gain_margin, phase_margin, size, verdict
+
+
+def stability_document(report: StabilityReport) -> Document:
+    """Return the document of a study; how long it took is in a terminal only, so that its page is always the same."""
+    summary: list[Node] = [
+        Printed(stability_lines(report)),
+        Only(Medium.NOTEBOOK, partial(_notebook_nodes, report)),
+        Only(Medium.PAGE, lambda: [_verdict(report)]),
+    ]
+    histories = courses(report)
+    sections = [
+        ("Margins over the time of flight", partial(over_time_nodes, histories, report), bool(histories)),
+        ("Verdict", partial(_requirement_nodes, report), True),
+        ("Undeclared dependencies", partial(_order_nodes, report), bool(_order_notes(report))),
+        ("Without margins", partial(_unstudied_nodes, report), bool(report.unstudied)),
+        ("Margins", partial(_margin_nodes, report), True),
+        ("Operating points", partial(point_nodes, report.points), True),
+        ("Loops", partial(loop_nodes, report), True),
+        ("Over parameters", partial(sweep_nodes, report), bool(report.sweeps)),
+        ("What was studied", partial(origin_nodes, report), True),
+    ]
+    return Document(
+        f"{report.system}: stability",
+        summary,
+        [Section(heading, [Only(Medium.PAGE, compose)]) for heading, compose, is_there in sections if is_there],
+        document(report),
+    )
+
+
+def decisive_loop(report: StabilityReport) -> LoopReport:
+    """Return the first loop that fails, else the first."""
+    return next((loop for loop in report.loops if loop.verdict is Judgement.FAIL), report.loops[0])
+
+
+def _notebook_nodes(report: StabilityReport) -> list[Node]:
+    """Return the verdict, the nearest margins of each loop, and the Bode diagram of the decisive one."""
+    heads = ("loop", "operating point", "gain margin, dB", "phase margin, deg", "modulus", "disk", "")
+    rows = [
+        (
+            loop.name,
+            loop.point,
+            gain_margin(loop.margins),
+            phase_margin(loop.margins),
+            *(size(loop.margins.size(quantity)) for quantity in (Quantity.MODULUS, Quantity.DISK)),
+            verdict(loop.verdict),
+        )
+        for loop in report.loops
+    ]
+
+    def bode() -> list[Figure]:
+        loop = decisive_loop(report)
+        return [bode_figure(loop, f"{loop.name} at {loop.point}", "bode", SIZE)]
+
+    return [
+        Text(str(report.verdict)),
+        *map(Text, order_sentences(report)),
+        *(Text(f"{item.name} at {item.point} not studied") for item in report.unstudied),
+        Table(heads, rows),
+        *([Figures(bode)] if report.loops else []),
+    ]
+
+
+def _verdict(report: StabilityReport) -> Verdict:
+    verdicts = [item.requirement.verdict for item in report.judgements()]
+    words = {
+        Judgement.FAIL: "violated",
+        Judgement.WITHHELD: "withheld",
+        Judgement.NOT_APPLICABLE: "not applicable",
+    }
+    others = [f"{verdicts.count(each)} {word}" for each, word in words.items() if each in verdicts]
+    met = f"{verdicts.count(Judgement.PASS)} of {len(verdicts)} requirement{'s' if len(verdicts) != 1 else ''} met"
+    nodes = [Text(", ".join([met, *others]))]
+    return Verdict([verdict(report.verdict)], nodes, is_bad=report.verdict is not Judgement.PASS)
+
+
+def _requirement_nodes(report: StabilityReport) -> list[Node]:
+    judgements = list(report.judgements())
+    if not judgements:
+        return [Missing("the system declares no requirement")]
+    everything = fold_long(verdict_table(report, judgements), "requirements")
+    failing = [item for item in judgements if item.requirement.verdict in (Judgement.FAIL, Judgement.WITHHELD)]
+    if not failing:
+        return [everything]
+    is_withheld = any(item.requirement.verdict is Judgement.WITHHELD for item in failing)
+    heading = "Violated or withheld requirements" if is_withheld else "Violated requirements"
+    return [Group(heading, [verdict_table(report, failing)]), Group("All requirements", [everything])]
+
+
+def _order_notes(report: StabilityReport) -> list[str]:
+    if report.orders is None:  # of FMUs that no loop passes
+        return [f"Assumed: {note}." for note in report.provenance.get("assumptions", ())]
+    return [f"{sentence[0].upper()}{sentence[1:]}." for sentence in order_sentences(report)]
+
+
+def _order_nodes(report: StabilityReport) -> list[Node]:
+    table = order_table(report)
+    nodes: list[Node] = [Note(each) for each in _order_notes(report)]
+    if table.rows:
+        reading = Note(
+            "A requirement passes where it passes in both orders and fails where it fails in both; otherwise it is "
+            "withheld. The other figures and tables of this page are without feedthrough."
+        )
+        nodes += [table, reading]
+    return nodes
+
+
+def _unstudied_nodes(report: StabilityReport) -> list[Node]:
+    return [
+        Text([
+            f"{item.what} ", Strong(item.name),
+            f" at {item.point}: {item.text}{': fail' if item.verdict is Judgement.FAIL else ''}",
+        ])
+        for item in report.unstudied
+    ]  # fmt: skip
+
+
+def _margin_nodes(report: StabilityReport) -> list[Node]:
+    nearest = Note(
+        "The gain margin is the one nearest to 0 dB, upwards or downwards, the phase margin the one nearest to 0. "
+        "Samples are the loop's own. One loop is broken at a time, all other loops closed."
+    )
+    joint = Group(
+        "Simultaneous (multi-loop) margins",
+        [
+            joint_table(report),
+            Figures(lambda: [joint_figure(each, f"joint-{index + 1}") for index, each in enumerate(report.joint)]),
+            Note(
+                "Gain and phase of all channels vary simultaneously and independently, each by at most the values "
+                "given. Square: the minimum margin; dashed: the disk margin that the required gain and phase margins "
+                "imply."
+            ),
+        ],
+    )
+    single: list[Node] = [summary_table(report), nearest] if report.loops else [Missing("the study has no loop")]
+    return [*single, *([joint] if report.joint else [])]
