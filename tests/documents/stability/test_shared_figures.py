@@ -100,8 +100,8 @@ def test_names_of_loops_are_said_briefly(loop):
 
 
 def test_places_are_those_on_paper():
-    """Of a figure of 4.95 in by 2 in, whose abscissa is logarithmic: what lies beyond the axes is at their edge."""
+    """A figure of 4.95 in by 2 in, whose abscissa is logarithmic: what lies beyond the axes is at their edge."""
     points = line(np.array([1.0, 10.0, 1000.0]), np.array([0.0, np.nan, 1.0]), "#000000")
     chart = Chart(NO_BOX, fine_axis((1.0, 100.0)), linear_axis((0.0, 2.0), 2), curves=[points])
     picture = picture_of(Figure("a", "a", "a", chart, 2.0))
-    np.testing.assert_allclose(picture.places[-6:], [0.0, 0.5 * 356.4, 356.4, 0.0, np.nan, 72.0])
+    np.testing.assert_allclose(picture.points[-6:], [0.0, 0.5 * 356.4, 356.4, 0.0, np.nan, 72.0])

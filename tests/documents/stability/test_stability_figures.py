@@ -12,19 +12,19 @@ import numpy as np
 import pytest
 
 from perilune.analysis.documents.model import Fold
-from perilune.analysis.documents.of.stability.bode import bode_charts
-from perilune.analysis.documents.of.stability.figures import HEIGHT, loop_figures, sight_figures
-from perilune.analysis.documents.of.stability.frequency import (
+from perilune.analysis.documents.of.stability.charts.bode import bode_charts
+from perilune.analysis.documents.of.stability.charts.frequency import (
     WHITE,
     limits_of,
     nearest_phase,
     phase_of,
     sensitivity_chart,
 )
-from perilune.analysis.documents.of.stability.nyquist import balance_chart, nichols_chart, nyquist_chart
+from perilune.analysis.documents.of.stability.charts.nyquist import balance_chart, nichols_chart, nyquist_chart
+from perilune.analysis.documents.of.stability.charts.poles import thin
+from perilune.analysis.documents.of.stability.charts.sets import margin_chart, sweep_charts
+from perilune.analysis.documents.of.stability.figures import HEIGHT, loop_figures, sight_figures
 from perilune.analysis.documents.of.stability.parts import modes
-from perilune.analysis.documents.of.stability.poles import thin
-from perilune.analysis.documents.of.stability.sets import margin_chart, sweep_charts
 from perilune.analysis.documents.of.stability.words import complex_number, fold_long, in_decibels, numeral
 from perilune.analysis.documents.render.cell_markup import cell_markup
 from perilune.analysis.reports.chart.marks import SQUARE, hatch

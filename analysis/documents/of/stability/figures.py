@@ -21,11 +21,11 @@ from ....stability.loops.readings import decibels
 from ....stability.results.report import JointReport, LoopReport, StabilityReport
 from ....stability.results.varied import SweepReport
 from ...model import Figure
-from .bode import bode_charts
-from .frequency import Limits, margin_words, sensitivity_chart
-from .nyquist import INVERSE, balance_chart, nichols_chart, nyquist_chart
-from .poles import are_crowded, cloud_chart, intervals, pole_chart, poles_of
-from .sets import amplitude_charts, describing_chart, joint_chart, margin_chart, step_chart, sweep_charts
+from .charts.bode import bode_charts
+from .charts.frequency import Limits, margin_words, sensitivity_chart
+from .charts.nyquist import INVERSE, balance_chart, nichols_chart, nyquist_chart
+from .charts.poles import are_crowded, cloud_chart, intervals, pole_chart, poles_of
+from .charts.sets import amplitude_charts, describing_chart, joint_chart, margin_chart, step_chart, sweep_charts
 from .shared import ByPart
 
 HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels

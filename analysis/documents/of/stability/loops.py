@@ -76,11 +76,13 @@ def _figures(figures: Sequence[Figure]) -> list[Node]:
 
 def _elsewhere(report: StabilityReport, shared: Shared, *, at_sight: bool) -> list[Node]:
     """Return where the figures are that stand with another loop: those at first sight, or the others."""
-    kept = {
+    labelled = {
         other: [label for label in labels if (label in SEEN) == at_sight] for other, labels in shared.elsewhere.items()
     }
     same = f", which is the same within {TOLERANCE} pt, half the width of a line."
-    return [Note([f"{', '.join(labels)}: see ", link(report, other), same]) for other, labels in kept.items() if labels]
+    return [
+        Note([f"{', '.join(labels)}: see ", link(report, other), same]) for other, labels in labelled.items() if labels
+    ]
 
 
 def _blocks(known: Sequence[Part]) -> list[list[Part]]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from ....reports.common.quantities import NONE
 from ....stability.loops.margin_values import UNSTABLE, Quantity
 from ....stability.results.report import Judged, LoopReport, StabilityReport
 from ....stability.results.requirement import Scope
@@ -45,10 +44,10 @@ def link(report: StabilityReport, index: int) -> Link:
 
 def verdict_table(report: StabilityReport, judgements: Iterable[Judged]) -> Table:
     """Return a row for each requirement: value, limit, verdict and, where there is none, why."""
-    places = {id(loop): index for index, loop in enumerate(report.loops)}
+    indices = {id(loop): index for index, loop in enumerate(report.loops)}
     rows = [
         (
-            link(report, places[id(subject)]) if isinstance(subject, LoopReport) else subject.name,
+            link(report, indices[id(subject)]) if isinstance(subject, LoopReport) else subject.name,
             subject.point,
             SCOPES[item.scope],
             item.title,
@@ -107,9 +106,9 @@ def joint_table(report: StabilityReport) -> Table:
             in_degrees(joint.disk_phase),
             numeral(joint.disk_frequency),
         )
-        none = (*[size(UNSTABLE)] * 3, NONE)
+        unstable = (*[size(UNSTABLE)] * 3, numeral(None))
         name = Lines([Strong(joint.name), ", ".join(joint.channels)])
-        rows.append((name, joint.point, *(margins if joint.stable else none), verdict(joint.verdict)))
+        rows.append((name, joint.point, *(margins if joint.stable else unstable), verdict(joint.verdict)))
     sizes = numbers("disk margin", "gain, dB, upper and lower", "phase, deg", "at rad/s")
     return Table(["channels", "operating point", *sizes, "verdict"], rows)
 
@@ -126,7 +125,6 @@ def order_table(report: StabilityReport) -> Table:
             delay = state(each.margins) or numeral(each.classical.delay_margin, infinite=NO_CROSSING)
             margins = [size(each.margins.size(quantity)) for quantity in (Quantity.MODULUS, Quantity.DISK)]
             crossings = gain_margin(each.margins), phase_margin(each.margins), delay
-            place = link(report, index), loop.point, feedthrough
-            rows.append((*place, *crossings, *margins, verdict(loop.verdict)))
+            rows.append((link(report, index), loop.point, feedthrough, *crossings, *margins, verdict(loop.verdict)))
     sizes = numbers("gain margin, dB", "phase margin, deg", "delay margin, s", "modulus margin", "disk margin")
     return Table([*names("loop", "operating point", "feedthrough"), *sizes, *names("verdict")], rows)

@@ -23,7 +23,7 @@ from ....stability.loops.readings import decibels
 from ....stability.results.report import LoopReport, StabilityReport
 from ...cell import LegendEntry
 from ...model import Figure, Figures, Node, Note
-from .frequency import FORBIDDEN, WHITE
+from .charts.frequency import FORBIDDEN, WHITE
 from .shared import together
 from .words import numeral
 
@@ -131,7 +131,7 @@ def over_time_chart(histories: Sequence[Course], quantity: Quantity) -> Chart:
         linear_axis((-top if is_below else 0.0, top), 5),
         title=unit or "1",
         curves=[
-            curve
+            replace(curve, name=_names(history))
             for index, history in enumerate(histories)
             for curve in _margin_curves(history, quantity, course_look(index), top)
         ],
@@ -159,18 +159,18 @@ def _margin_curves(course: Course, quantity: Quantity, style: Look, top: float) 
         here = course.times[sizes == kind]
         if here.size:
             dots.append(marks(here, np.full(here.size, height), mark, beyond=True))
-    return [replace(curve, name=_names(course)) for curve in lines + dots]
+    return lines + dots
 
 
 def over_time_nodes(histories: Sequence[Course], report: StabilityReport) -> list[Node]:
     """Return the margins of loops over the time of flight, and at which operating points they were studied."""
-    studied = {loop.point for course in histories for loops in course.loops for loop in loops}
+    studied = {loop.point for history in histories for loops in history.loops for loop in loops}
     points = sorted((point for point in report.points if point.name in studied), key=lambda point: point.time)
     times = [part for point in points for part in (", ", f"{point.name} at ", numeral(point.time), " s")]
     return [
         Figures(
             lambda: [_figure(histories, key, f"over-time-{index + 1}") for index, key in enumerate(QUANTITIES)],
-            [LegendEntry(course_look(index), [_names(course)]) for index, course in enumerate(histories)],
+            [LegendEntry(course_look(index), [_names(history)]) for index, history in enumerate(histories)],
         ),
         Note([
             "Below 0: lower gain margins, phase leads; the nearer margin of each loop is filled, the other hollow. "
@@ -188,8 +188,8 @@ def _names(course: Course) -> str:
 
 
 def _figure(histories: Sequence[Course], quantity: Quantity, name: str) -> Figure:
-    minimum = min(size for course in histories for size in course.sizes[quantity].tolist())
-    loops = sum(len(course.loops) for course in histories)
+    minimum = min(size for history in histories for size in history.sizes[quantity].tolist())
+    loops = sum(len(history.loops) for history in histories)
     words = f"{quantity.capitalize()} of {loops} loops over the time of flight, minimum "
     infinite = {math.inf: "unlimited", -math.inf: "that of an unstable loop"}
     words += infinite.get(minimum) or number(minimum, 3)

@@ -19,16 +19,16 @@ from ....stability.results.report import LoopReport
 from ...model import Figure
 
 TOLERANCE = 0.5  # pt; lines of responses are 1.3 pt wide
-PLACES = ("at", "ends", "ticks")  # fields with coordinates, and x and y, of which the number of points counts
+COORDINATES = ("at", "ends", "ticks")  # fields with coordinates, and x and y, of which the number of points counts
 ByPart = dict[str, list[Figure]]  # by the part of a loop's section that they belong to
 
 
 @dataclass(frozen=True)
 class Picture:
-    """What a figure shows: everything but places, and the places (pt)."""
+    """What a figure shows: everything but points, and the points (pt)."""
 
     strokes: Sequence[object]
-    places: np.ndarray
+    points: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Shared:
 
 
 @dataclass
-class _Shown:
+class _Distinct:
     figure: Figure
     picture: Picture
     loops: list[int]
@@ -50,8 +50,8 @@ def picture_of(figure: Figure) -> Picture:
     """Return what a figure shows; points outside of the axes are at their edges."""
     charts = [chart for chart in (figure.chart, figure.below) if chart is not None]
     width, height = POINTS * (PANEL_WIDTH if figure.is_narrow else HALF_WIDTH), POINTS * figure.height
-    places = [place for chart in charts for place in _places(chart, width, height)]
-    return Picture([_strokes(chart) for chart in charts], np.concatenate(places))
+    points = [each for chart in charts for each in _points(chart, width, height)]
+    return Picture([_strokes(chart) for chart in charts], np.concatenate(points))
 
 
 def _strokes(chart: Chart) -> Sequence[object]:
@@ -61,11 +61,11 @@ def _strokes(chart: Chart) -> Sequence[object]:
 
 
 def _look(mark: Any) -> list[object]:
-    looks = {name: value for name, value in vars(mark).items() if name not in PLACES}
-    return [np.shape(value) if name in ("x", "y") else value for name, value in looks.items()]
+    fields = {name: value for name, value in vars(mark).items() if name not in COORDINATES}
+    return [np.shape(value) if name in ("x", "y") else value for name, value in fields.items()]
 
 
-def _places(chart: Chart, width: float, height: float) -> Iterator[np.ndarray]:
+def _points(chart: Chart, width: float, height: float) -> Iterator[np.ndarray]:
     """Yield coordinates (pt) of everything in a chart, if its axes fill the figure."""
 
     def across(x: object, *, of_axes: bool = False) -> np.ndarray:
@@ -101,25 +101,25 @@ def _fractions(axis: Axis, values: object, of_axes: bool) -> np.ndarray:
 
 def alike(one: Picture, other: Picture) -> bool:
     """True if nobody could tell two pictures apart."""
-    if one.strokes != other.strokes or one.places.size != other.places.size:
+    if one.strokes != other.strokes or one.points.size != other.points.size:
         return False
-    return np.allclose(one.places, other.places, rtol=0.0, atol=TOLERANCE, equal_nan=True)
+    return np.allclose(one.points, other.points, rtol=0.0, atol=TOLERANCE, equal_nan=True)
 
 
 def share(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[Shared]:
     """Return the figures that stand with each loop: each of ``figures``, those of each, with the first that has it."""
-    shown: dict[str, list[_Shown]] = {}
-    retained: list[dict[str, list[_Shown]]] = []
+    distinct: dict[str, list[_Distinct]] = {}
+    retained: list[dict[str, list[_Distinct]]] = []
     elsewhere: list[dict[int, list[str]]] = [{} for _ in loops]
     for index, parts in enumerate(figures):
         retained.append({key: [] for key in parts})
         for key, members in parts.items():
             for figure in members:
                 picture = picture_of(figure)
-                same = next((one for one in shown.get(figure.label, []) if alike(one.picture, picture)), None)
+                same = next((one for one in distinct.get(figure.label, []) if alike(one.picture, picture)), None)
                 if same is None:
-                    one = _Shown(figure, picture, [index])
-                    shown.setdefault(figure.label, []).append(one)
+                    one = _Distinct(figure, picture, [index])
+                    distinct.setdefault(figure.label, []).append(one)
                     retained[-1][key].append(one)
                 elif same.loops[0] != index:
                     same.loops.append(index)
@@ -130,7 +130,7 @@ def share(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[Shared
     ]
 
 
-def _titled(one: _Shown, loops: Sequence[LoopReport]) -> Figure:
+def _titled(one: _Distinct, loops: Sequence[LoopReport]) -> Figure:
     """Return a figure whose label names its loops where there are several."""
     if len(one.loops) == 1:
         return one.figure

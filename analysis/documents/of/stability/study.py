@@ -104,7 +104,7 @@ def _verdict(report: StabilityReport) -> Verdict:
         Judgement.WITHHELD: "withheld",
         Judgement.NOT_APPLICABLE: "not applicable",
     }
-    others = [f"{verdicts.count(each)} {word}" for each, word in words.items() if each in verdicts]
+    others = [f"{verdicts.count(each)} {text}" for each, text in words.items() if each in verdicts]
     met = f"{verdicts.count(Judgement.PASS)} of {len(verdicts)} requirement{'s' if len(verdicts) != 1 else ''} met"
     nodes = [Text(", ".join([met, *others]))]
     return Verdict([verdict(report.verdict)], nodes, is_bad=report.verdict is not Judgement.PASS)

@@ -66,29 +66,29 @@ def numeral(value: Any, unit: str | None = None, digits: int = 4, infinite: str 
     return value if isinstance(value, str) else Quantity(value, unit, digits, is_bare=True)
 
 
-def in_decibels(factor: float | None, infinite: str = NO_CROSSING, *, absolute: bool = False) -> Displayed | str:
+def in_decibels(factor: float | None, infinite: str = NO_CROSSING, *, absolute: bool = False) -> Inline:
     """Return a factor in dB, without the unit; ``absolute``: its distance from 1, up or down."""
     if factor is None:
-        return NONE
+        return numeral(None)
     displayed = decibel_size(factor) if absolute else decibels(float(factor))
     return _display(float(factor), displayed, 4, infinite)
 
 
 def in_degrees(angle: float | None, infinite: str = NO_CROSSING) -> Quantity | str:
     """Return an angle in degrees, without the unit."""
-    return NONE if angle is None else numeral(float(angle), "rad", infinite=infinite)
+    return numeral(None) if angle is None else numeral(float(angle), "rad", infinite=infinite)
 
 
-def per_cent(value: float | None) -> Displayed | str:
+def per_cent(value: float | None) -> Inline:
     """Return a relative change in per cent."""
-    return NONE if value is None else _display(float(value), 100.0 * float(value), 3, NONE)
+    return numeral(None) if value is None else _display(float(value), 100.0 * float(value), 3, NONE)
 
 
-def complex_number(value: complex, digits: int = 4) -> Displayed | str:
+def complex_number(value: complex, digits: int = 4) -> Inline:
     """Return a complex number in Cartesian form; the upper one of a pair stands for both, with ±."""
     value = complex(value)
     if not (math.isfinite(value.real) and math.isfinite(value.imag)):
-        return NONE
+        return numeral(None)
     displayed = number(value.real, digits)
     if value.imag:
         displayed += f" {'±' if value.imag > 0.0 else MINUS} {number(abs(value.imag), digits)} j"
@@ -113,7 +113,7 @@ def mode_numbers(z: complex, s: complex, damping: float, frequency: float) -> tu
     pole, which changes its sign with every sample. At z = 0 there is no logarithm.
     """
     if z.imag == 0.0 and z.real <= 0.0:
-        return NONE, NONE, NONE
+        return numeral(None), numeral(None), numeral(None)
     return complex_number(s), numeral(damping, digits=3), numeral(frequency)
 
 
