@@ -9,12 +9,11 @@
   };
   prototype.fillText = function (text, x, y) {
     if (!text || !this.canvas.isConnected) return;
-    const at = this.getTransform().transformPoint({ x, y });
     const box = this.measureText(text);
-    const middle = (box.actualBoundingBoxRight - box.actualBoundingBoxLeft) / 2;
-    const height = (box.actualBoundingBoxDescent - box.actualBoundingBoxAscent) / 2;
-    const isCut = at.x - box.actualBoundingBoxLeft < -1 || at.x + box.actualBoundingBoxRight > this.canvas.width + 1;
-    if (!this.getTransform().b) noted.get(this.canvas)?.push([isCut ? `${text}, cut off` : text, at.x + middle, at.y + height]);
+    const at = (right, down) => this.getTransform().transformPoint({ x: x + right, y: y + down }); // px of the canvas
+    const middle = at((box.actualBoundingBoxRight - box.actualBoundingBoxLeft) / 2, (box.actualBoundingBoxDescent - box.actualBoundingBoxAscent) / 2);
+    const isCut = at(-box.actualBoundingBoxLeft, 0).x < -1 || at(box.actualBoundingBoxRight, 0).x > this.canvas.width + 1;
+    if (!this.getTransform().b) noted.get(this.canvas)?.push([isCut ? `${text}, cut off` : text, middle.x, middle.y]);
   };
   const tasks = [];
   new PerformanceObserver((list) => tasks.push(...list.getEntries().map(({ duration }) => duration))).observe({ type: "longtask", buffered: true });
