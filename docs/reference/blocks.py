@@ -1,7 +1,8 @@
-"""The page of a block: purpose and source from its docstring, all else from its declaration."""
+"""The page of a block: model and sources from its docstring, all else from its declaration and its check."""
 
 from __future__ import annotations
 
+import inspect
 from pathlib import Path
 
 from perilune.analysis.authoring.fits import Demand, blocks_of_slot, connectors_of, slots
@@ -9,27 +10,42 @@ from perilune.fmus_src.block import Block, Output, Parameter
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.roles import SAMPLE_PERIOD
 
-from .markdown import prose, table
+from .checks import check_section
+from .docstrings import ASSUMPTIONS, FRAMES, SOURCES, Description, describe_class
+from .markdown import table
 from .unread import explain_unread
 from .usage import Usage, usages
-from .variables import declared, inputs, outputs, parameters, states
+from .variables import declared, enumerations, inputs, outputs, parameters, states
+
+ROOT = "../../"  # from reference/blocks to the site's top
 
 
 def block_page(block: type[Block]) -> str:
-    """Return Markdown of one block, to lie in reference/blocks."""
+    """Return the Markdown of one block, to lie in reference/blocks."""
+    described = {each: describe_class(each, ROOT) for each in (block, *bases_of(block))}
     parts = [
         f"# {block.fmu_name}",
-        prose(block.__doc__, "../../"),
+        described[block].summary,
         table(["", ""], _facts(block)),
+        _section("Model", _model(described)),
+        *(_section(title, _gathered(described, title)) for title in (ASSUMPTIONS, FRAMES)),
         _section("Inputs", inputs(block)),
         _section("Outputs", outputs(block)),
+        _section("Statuses and modes", enumerations(block)),
         _section("Parameters", "\n\n".join(filter(None, (parameters(block), explain_unread(block))))),
         _section("States", states(block)),
-        _section("In its place", _place(block)),
-        _section("What it shares", _shared(block)),
-        _section("Where it flies", _flown(usages().get(block.fmu_name, Usage()))),
+        _section("Check", check_section(block)),
+        _section(SOURCES, _gathered(described, SOURCES)),
+        _section("Code", _code(block)),
+        _section("Interchangeable blocks", _place(block)),
+        _section("Systems", _flown(usages().get(block.fmu_name, Usage()))),
     ]
     return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def bases_of(block: type[Block]) -> list[type[Block]]:
+    """Return the blocks and interfaces that a block is derived from, the nearest first."""
+    return [base for base in block.__mro__[1:] if issubclass(base, Block) and base is not Block]
 
 
 def slots_of(block: type[Block]) -> list[type[Block]]:
@@ -58,14 +74,14 @@ def _facts(block: type[Block]) -> list[list[str]]:
     standing = ", ".join(f"[{slot.fmu_name}](../slots.md#{slot.fmu_name})" for slot in slots_of(block))
     facts = [
         ["class", f"`{block.__name__}` in `{source_of(block)}`"],
-        ["slot", standing or "none: no other block has its connectors by declaration"],
-        ["flavours", f"Python only, with {', '.join(block.requires)}" if block.python_only else "native and Python"],
-        ["acts", _rate(block)],
-        ["proposes a communication step of", f"{block.default_step:g} s"],
-        ["answers within a communication point", _feedthrough(block)],
+        ["slot", standing or "none"],
+        ["FMUs", f"Python only, with {', '.join(block.requires)}" if block.python_only else "native and Python"],
+        ["samples", _rate(block)],
+        ["default communication step", f"{block.default_step:g} s"],
+        ["direct feedthrough", _feedthrough(block)],
     ]
     if parents:
-        facts.insert(1, ["variant of", f"[{parents[0].fmu_name}]({parents[0].fmu_name}.md), which says more"])
+        facts.insert(1, ["variant of", f"[{parents[0].fmu_name}]({parents[0].fmu_name}.md)"])
     return facts
 
 
@@ -74,21 +90,42 @@ def _rate(block: type[Block]) -> str:
     if not isinstance(period, Parameter):
         return "at every communication point"
     value = period.elements[0]
-    return f"every `sample_period`; by default {f'{value:g} s' if value else 'at every communication point'}"
+    return f"every `sample_period`; default: {f'{value:g} s' if value else 'every communication point'}"
 
 
 def _feedthrough(block: type[Block]) -> str:
     every = declared(block, Output)
     direct = [variable for variable in every if isinstance(variable, Output) and block.direct_inputs(variable)]
     if not direct:
-        return "no: outputs depend on inputs of earlier points only"
-    return f"yes: {'all' if len(direct) == len(every) else 'some'} of its outputs depend on inputs of the same point"
+        return "none: outputs depend on inputs of earlier communication points only"
+    return f"{'all' if len(direct) == len(every) else 'some'} outputs depend on inputs of the same communication point"
 
 
-def _shared(block: type[Block]) -> str:
-    """Return the docstrings of a block's slots, and of the block that it is a variant of."""
-    bases: list[type[Block]] = [base for base in block.__mro__[1:] if issubclass(base, Block) and base is not Block]
-    return "\n\n".join(f"### {base.fmu_name}\n\n{prose(base.__doc__, '../../')}" for base in bases)
+def _model(described: dict[type[Block], Description]) -> str:
+    """Return the model of a block, and under headings of their own what its bases add."""
+    parts = []
+    for index, (each, description) in enumerate(described.items()):
+        if index and description.model:
+            parts.append(f"### Common to {each.fmu_name}")
+        parts += description.model
+    return "\n\n".join(parts)
+
+
+def _gathered(described: dict[type[Block], Description], part: str) -> str:
+    """Return a labelled part of the block and its bases as a list."""
+    entries = dict.fromkeys(entry for description in described.values() for entry in description.parts[part])
+    return "\n".join("- " + entry.replace("\n", "\n  ") for entry in entries)
+
+
+def _code(block: type[Block]) -> str:
+    """Return the text of the block's file, folded."""
+    file = inspect.getsourcefile(block)
+    assert file is not None
+    lines = ["```python", *Path(file).read_text(encoding="utf-8").splitlines(), "```"]
+    folded = "\n".join(f"    {line}".rstrip() for line in lines)
+    also = ", ".join(f"`{source_of(base)}`" for base in bases_of(block))
+    shared = f"\n\nDerived from {also}." if also else ""
+    return f'??? note "{source_of(block)}"\n\n{folded}{shared}'
 
 
 def _place(block: type[Block]) -> str:
@@ -98,8 +135,8 @@ def _place(block: type[Block]) -> str:
     if own:
         siblings = [other.fmu_name for other in blocks_of_slot(own[-1]) if other is not block]
         others = [name for name in others if name not in siblings]
-        said = f"In its slot, [{own[-1].fmu_name}](../slots.md#{own[-1].fmu_name})"
-        lines.append(f"{said}: {_linked(siblings)}." if siblings else f"{said}, it is the only one.")
+        slot = f"slot [{own[-1].fmu_name}](../slots.md#{own[-1].fmu_name})"
+        lines.append(f"In the {slot}: {_linked(siblings)}." if siblings else f"It is the only block of the {slot}.")
     if others:
         lines.append(f"With all its connectors: {_linked(others)}.")
     return "\n\n".join(lines) or "No other FMU of this repository has all its connectors."
@@ -115,8 +152,8 @@ def _flown(usage: Usage) -> str:
         for system in sorted({*usage.components, *usage.campaigns})
     ]
     if not rows:
-        return "In no system as it stands; `--use SLOT=FMU` puts it where it fits."
-    return table(["system", "as the component", "as a variant of the campaigns"], rows)
+        return "In no system by default; `--use SLOT=FMU` selects it."
+    return table(["system", "component", "variant of the campaigns"], rows)
 
 
 def _quoted(names: dict[str, list[str]], system: str) -> str:

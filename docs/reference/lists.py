@@ -7,7 +7,8 @@ from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import KINDS, catalogue
 
 from .blocks import slots_of
-from .markdown import escaped, prose, table
+from .docstrings import describe_class
+from .markdown import escaped, table
 from .variables import inputs, outputs, parameters
 
 
@@ -21,7 +22,7 @@ def catalogue_page() -> str:
     sections = [
         "# Blocks",
         f"All {len(catalogue())} blocks of the repository; each is an FMU of the same name. `perilune describe NAME` "
-        "prints the same of an FMU, of a slot or of a system.",
+        "prints variables of an FMU, of a slot or of a system.",
     ]
     for kind in KINDS:
         rows = [
@@ -29,7 +30,7 @@ def catalogue_page() -> str:
             for name, block in catalogue().items()
             if kind_of(block) == kind
         ]
-        sections += [f"## {kind.capitalize()}", table(["block", "slot", "what it is"], rows)]
+        sections += [f"## {kind.capitalize()}", table(["block", "slot", "description"], rows)]
     return "\n\n".join(sections) + "\n"
 
 
@@ -37,19 +38,26 @@ def slots_page() -> str:
     """Return Markdown of all interfaces, to lie in reference."""
     sections = [
         "# Slots",
-        "A slot is an interface: what all blocks in it have in common, so that one is put in another's place by "
-        "`--use SLOT=FMU`. Some stand between a slot and its blocks and hold what a few of them share.",
+        "A slot is an interface, the common variables of its blocks, which `--use SLOT=FMU` exchanges. Some entries "
+        "are bases between a slot and a few of its blocks.",
     ]
     for name, slot in slots().items():
         members = blocks_of_slot(slot)
         rows = [[f"[{block.fmu_name}](blocks/{block.fmu_name}.md)", escaped(block.summary())] for block in members]
-        sections += [f"## {name}", prose(slot.__doc__, "../"), table(["block", "what it is"], rows)]
+        sections += [f"## {name}", *describe_slot(slot), table(["block", "description"], rows)]
         for title, content in (("Inputs", inputs(slot)), ("Outputs", outputs(slot)), ("Parameters", parameters(slot))):
             if content:
                 sections.append(
                     f'??? note "{title} of {name}"\n\n' + "\n".join(f"    {row}" for row in content.splitlines())
                 )
     return "\n\n".join(sections) + "\n"
+
+
+def describe_slot(slot: type[Block]) -> list[str]:
+    """Return the paragraphs of a slot's docstring."""
+    described = describe_class(slot, "../")
+    labelled = [f"{title}: {text}" for title, texts in described.parts.items() for text in texts]
+    return [described.summary, *described.model, *labelled]
 
 
 def _slot(block: type[Block], root: str) -> str:

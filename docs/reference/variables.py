@@ -17,11 +17,11 @@ def declared(block: type[Block], kind: type[Variable]) -> list[Variable]:
 
 
 def inputs(block: type[Block]) -> str:
-    """Return the table of its inputs; like the others here empty where there are none, and without empty columns."""
+    """Return the table of its inputs; like the others here empty without any, and without empty columns."""
     rows = [
         [*_name(variable), *_range(variable), _frame(variable), _words(variable)] for variable in declared(block, Input)
     ]
-    return _filled(["input", "type", "unit", "bounds", "frame", "what it is"], rows)
+    return _filled(["input", "type", "unit", "bounds", "frame", "description"], rows)
 
 
 def outputs(block: type[Block]) -> str:
@@ -31,11 +31,11 @@ def outputs(block: type[Block]) -> str:
          _words(variable)]
         for variable in declared(block, Output)
     ]  # fmt: skip
-    return _filled(["output", "type", "unit", "bounds", "frame", "at once from", "what it is"], rows)
+    return _filled(["output", "type", "unit", "bounds", "frame", "direct from", "description"], rows)
 
 
 def parameters(block: type[Block]) -> str:
-    """Return the table of its parameters: defaults, bounds, and tunability in flight."""
+    """Return the table of its parameters: default, bounds, and whether they are tunable."""
     rows = [
         [
             *_name(variable),
@@ -48,7 +48,9 @@ def parameters(block: type[Block]) -> str:
         ]
         for variable in declared(block, Parameter)
     ]
-    return _filled(["parameter", "type", "default", "unit", "bounds", "frame", "in flight", "what it is"], rows)
+    return _filled(
+        ["parameter", "type", "default", "unit", "bounds", "frame", "during a simulation", "description"], rows
+    )
 
 
 def states(block: type[Block]) -> str:
@@ -71,7 +73,19 @@ def states(block: type[Block]) -> str:
             label = f"`{name}{f'[{size}]' if size > 1 else ''}`"
             words = escaped(field.description)
             rows.append([label, "Real", escaped(field.unit or "1"), "", escaped(field.frame or ""), words])
-    return _filled(["state", "type", "unit", "bounds", "frame", "what it is"], rows)
+    return _filled(["state", "type", "unit", "bounds", "frame", "description"], rows)
+
+
+def enumerations(block: type[Block]) -> str:
+    """Return the values of its inputs, outputs and parameters that have names."""
+    parts = []
+    for variable in block.variables.values():
+        if variable.enumeration is None or isinstance(variable, State):
+            continue
+        names, meanings = variable.enumeration.names, variable.enumeration.meanings
+        rows = [[str(number), f"`{name}`", escaped(meanings[number])] for number, name in names.items()]
+        parts.append(f"`{variable.name}`:\n\n" + table([variable.causality, "name", "meaning"], rows))
+    return "\n\n".join(parts)
 
 
 def _record_fields(record: type[Record], prefix: str) -> list[tuple[str, Field]]:
@@ -115,7 +129,10 @@ def _in_flight(block: type[Block], variable: Variable) -> str:
 
 
 def _words(variable: Variable) -> str:
-    return escaped(variable.description)
+    """Return the description, of an enumeration without its members, which have a section."""
+    if variable.enumeration is None:
+        return escaped(variable.description)
+    return escaped(variable.description.partition(f": {min(variable.enumeration.meanings)} ")[0])
 
 
 def _at_once(block: type[Block], variable: Variable) -> str:

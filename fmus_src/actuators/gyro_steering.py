@@ -9,25 +9,31 @@ from ..mathlib.vectors import Vector3, Vector4, all_below, vector
 
 
 class GyroSteeringStatus(Enumeration):
-    """Outcome of the last command."""
+    """Status of the last command."""
 
     GOOD = member("good")
-    NEAR_SINGULAR = member("near a singular state of cluster or law")
+    NEAR_SINGULAR = member("near a singular state of cluster or steering law")
     LIMITED = member("rates limited")
     NOT_FINITE = member("command not finite")
 
 
 class GyroSteering(Block, interface=True):
-    """Gimbal rates of four gyros in two pairs (2-SPE) that give a torque at the sample instant.
+    """Gimbal rates of four control moment gyros in two scissored pairs (2-SPE) for a commanded torque.
 
-    torque_command is the torque that the cluster is to exert on the body, -H', in body axes; the body's own
-    rotation, w x H, is not in it. The rates are held until the next sample, while the torque that they give
-    turns with the gimbals; torque_lead puts the instant at which it is exact so much later, and half a
-    sample_period makes it nearly so in the mean. Rates beyond gimbal_rate_limit are scaled together, which
-    keeps the torque's direction. A steering writes `steer`, which sets gimbal_rates and status from the
-    rate of the cluster's momentum that is wanted.
-    Equations: docs/systems/robot_rendezvous.md.
-    Assumes gimbals that follow their rates at once, and rotors of constant speed.
+    With gimbal angles β and A = dh/dβ for the normalised momentum h of rotors of momentum h_g, the cluster exerts
+
+        M = -h_g A β'
+
+    on the body, without the term ω × H. Rates are held until the next sample while the torque rotates with the gimbals;
+    torque_lead sets the instant at which it is exact, and half a sample_period makes it nearly exact in the mean. Rates
+    beyond gimbal_rate_limit are scaled together. A steering defines `steer`, which sets gimbal_rates and status from
+    the commanded rate of the momentum.
+
+    Frame: body.
+
+    Assumes gimbals without lag, and rotors of constant speed.
+
+    See docs/theory/rendezvous.md.
     """
 
     to_write = ("steer",)
@@ -36,24 +42,33 @@ class GyroSteering(Block, interface=True):
 
     rotor_momentum = robot.ROTOR_MOMENTUM.parameter()
     torque_lead = Parameter(
-        0.0, unit="s", minimum=0.0, description="from the sample to the instant at which the torque is exact"
+        0.0, unit="s", minimum=0.0, description="lead time from the sample to the instant at which the torque is exact"
     )
-    damping = Parameter(0.05, unit="1", minimum=1e-9, description="k of A W A' + k E in a singular state")
-    damping_threshold = Parameter(0.5, unit="1", minimum=0.0, description="singularity below which there is damping")
+    damping = Parameter(0.05, unit="1", minimum=1e-9, description="damping k of the pseudo-inverse in a singular state")
+    damping_threshold = Parameter(
+        0.5, unit="1", minimum=0.0, description="singularity measure below which damping is added"
+    )
     swing = Parameter(
         0.1,
         unit="1",
         minimum=0.0,
         maximum=0.45,
-        description="what makes E (over 4 s) and W differ from unit matrices",
+        description="amplitude by which E (with a period of 4 s) and W differ from unit matrices",
     )
-    gimbal_rate_limit = Parameter(1.0, unit="rad/s", minimum=0.0, description="largest gimbal rate; 0: no limit")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "steering cycle; 0: every communication point")
-    torque_command = body.TORQUE.input("torque wanted of the cluster on the body")
+    gimbal_rate_limit = Parameter(
+        1.0, unit="rad/s", minimum=0.0, description="largest gimbal rate in size; 0: no limit"
+    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.25, "sample period of the steering; 0: every communication point"
+    )
+    torque_command = body.TORQUE.input("commanded torque of the gyro cluster on the body")
     gimbal_angles = robot.GIMBAL_ANGLES.input()
     gimbal_rates = robot.GIMBAL_RATES.output(direct=True)
     singularity = Output(
-        1.5396007178390021, unit="1", direct=True, description="root of det(A A'), A = dh/dbeta; 0 in a singular state"
+        1.5396007178390021,
+        unit="1",
+        direct=True,
+        description="singularity measure, square root of det(A A^T) with A = dh/dbeta; 0 in a singular state",
     )
     status = Output(GyroSteeringStatus, direct=True)
 

@@ -6,12 +6,15 @@ from .gyro_steering import GyroSteering, GyroSteeringStatus
 
 
 class GyroSteeringRobust(GyroSteering):
-    """Gimbal rates W A' (A W A' + k E)^-1 h': of all rates that give the torque the smallest, and bounded everywhere.
+    """Gimbal rates by the singularity-robust pseudo-inverse, of least norm and bounded everywhere.
 
-    The torque is exact while singularity is at least damping_threshold (k = 0); below it rates stay
-    bounded, the torque is approximate and the status 1. swing leads out of singular states. The
-    pseudo-inverse leaves the isotropic angles and does not come back to them. Source: Nakamura and Hanafusa
-    1986; Wie 2005; see docs/theory/rendezvous.md.
+        β' = W A^T (A W A^T + k E)^-1 h'
+
+    The torque is exact (k = 0) while singularity is at least damping_threshold; below it rates are bounded, the torque
+    is approximate and the status 1. swing leads out of singular states. The pseudo-inverse leaves the isotropic angles
+    and does not return to them.
+
+    Source: Nakamura and Hanafusa 1986; Wie 2005. See docs/theory/rendezvous.md.
     """
 
     def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:

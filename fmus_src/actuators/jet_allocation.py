@@ -9,28 +9,31 @@ from ..mathlib.attitude.quaternion import is_attitude, normalise, to_body
 
 
 class JetAllocationStatus(Enumeration):
-    """Outcome of the newest command."""
+    """Status of the newest command."""
 
     GOOD = member("good")
     SATURATED = member("saturated")
-    TORQUE_LEFT_OUT = member("a torque or what the geometry cannot give left out")
+    TORQUE_LEFT_OUT = member("torque or unattainable part of the force omitted")
     NOT_FINITE = member("command unusable")
-    NO_ATTITUDE = member("no attitude: a quaternion shorter than 0.5, no thrust")
+    NO_ATTITUDE = member("no attitude: quaternion shorter than 0.5, no thrust")
 
 
 class JetAllocation(Block, interface=True):
-    """Shares a force (inertial axes) and a torque (body axes) among eight jets that push only and hold their level.
+    """Allocation of a force (inertial axes) and a torque (body axes) to eight jets of adjustable thrust.
 
-    A new command is told by a change of command_count; the one at the start counts. It is shared out
-    at once, with the attitude of that moment, and its thrusts are put out after a delay of delay_fraction
-    times translation_period, to be held until those of the next command; before the first they are 0. A
-    command that comes while another waits takes its place. The status is that of the newest command,
-    allocated_force and allocated_torque are what jets as declared give with the thrusts put out.
+    A new command is signalled by a change of command_count; the one at the start counts. It is allocated at once, with
+    the attitude of that moment, and applied delay_fraction times translation_period later, until the next command's
+    thrusts. Before the first command thrusts are 0. A command replaces one that is still waiting. The status is that of
+    the newest command; allocated_force and allocated_torque are those of jet_thrust with jets as declared.
 
-    An allocation writes `allocate`, which sets new_thrust and status from wanted. jet_tilt is the angle
-    of the nozzles from the body's xy plane, jet_azimuth their angle from x in it, jet_arm the place of the first jet.
-    Equations: docs/systems/robot_rendezvous.md.
-    Assumes jets that are where they are declared to be and give what is asked at once.
+    An allocation defines `allocate`, which sets new_thrust and status. jet_tilt is the elevation of the nozzles above
+    the body's xy plane, jet_azimuth their angle from x in it, jet_arm the position of the first jet.
+
+    Frames: inertial; body.
+
+    Assumes jets at their declared positions, without lag.
+
+    See docs/theory/rendezvous.md.
     """
 
     to_write = ("allocate",)
@@ -43,21 +46,21 @@ class JetAllocation(Block, interface=True):
     maximum_thrust = robot.MAXIMUM_THRUST.parameter()
     delay_fraction = robot.DELAY_FRACTION.parameter()
     force_command = inertial.FORCE.input()
-    torque_command = body.TORQUE.input("wanted torque of the jets")
+    torque_command = body.TORQUE.input("commanded torque of the jets")
     quaternion = robot.QUATERNION.input()
-    command_count = robot.COMMAND_COUNT.input("commands so far; a change tells a new one")
-    translation_period = robot.TRANSLATION_PERIOD.input("how long the new command is to hold")
+    command_count = robot.COMMAND_COUNT.input("number of commands so far; a change signals a new one")
+    translation_period = robot.TRANSLATION_PERIOD.input("duration for which the new command is held")
     jet_thrust = robot.JET_THRUST.output(direct=True)
     allocated_force = body.FORCE.output("force of jet_thrust", direct=True)
     allocated_torque = body.TORQUE.output("torque of jet_thrust", direct=True)
     status = Output(JetAllocationStatus, direct=True)
     start_time = sampling.START_TIME.state()
     strength = State(JetStrength)
-    attitude = State([1.0, 0.0, 0.0, 0.0], unit="1", description="quaternion, of length one")
+    attitude = State([1.0, 0.0, 0.0, 0.0], unit="1", description="normalised attitude quaternion")
     wanted = State(Wrench)
-    new_thrust = State([0.0] * 8, unit="N", description="thrusts of the newest command")
-    waiting = State(False, description="new_thrust has not been put out yet")
-    due_time = State(0.0, unit="s", description="when to put it out")
+    new_thrust = State([0.0] * 8, unit="N", description="jet thrusts of the newest command")
+    waiting = State(False, description="true: new_thrust has not been applied yet")
+    due_time = State(0.0, unit="s", description="time at which new_thrust is applied")
     counted = State(0, description="command_count of the newest command")
 
     def allocate(self) -> None:

@@ -5,12 +5,14 @@ from .jet_allocation import JetAllocation, JetAllocationStatus
 
 
 class JetAllocationLeastPropellant(JetAllocation):
-    """Thrusts of the least sum that give the wanted wrench, wherever there are any.
+    """Thrusts of least sum for the commanded wrench, wherever it is attainable.
 
-    The optimum of the linear programme min sum(p), B p = wrench, 0 <= p <= maximum_thrust, in closed
-    form. A wrench that no thrusts give is scaled to the largest of its direction that some do. For
-    a force without torque all is attainable up to |Fi| + |Fj| = 1.155 N for each two axes, with the
-    declared jets. Derivation: docs/theory/rendezvous.md.
+        min Σ p    B p = wrench    0 <= p <= maximum_thrust
+
+    The optimum is in closed form. An unattainable wrench is scaled to the largest attainable one of its direction. A
+    force without torque is attainable if |F_i| + |F_j| <= 1.155 N for each two axes, with the declared jets.
+
+    Derivation: docs/theory/rendezvous.md.
     """
 
     def allocate(self) -> None:

@@ -5,12 +5,14 @@ from .jet_allocation import JetAllocation, JetAllocationStatus
 
 
 class JetAllocationPseudoInverse(JetAllocation):
-    """Thrusts by the pseudo-inverse, lifted until the least is 0 and scaled by maximum_thrust/largest where due.
+    """Thrusts by the pseudo-inverse, raised until the least is 0 and scaled to maximum_thrust.
 
-    Gives the wanted wrench only where largest - least of the pseudo-inverse is within maximum_thrust:
-    for a force without torque |F1| + |F2| + |F3| <= 1.154 N with the declared jets. Beyond, a
-    smaller wrench of the same direction. Source: Somov, Butyrin, Somov and Somova, see
-    docs/theory/rendezvous.md; the factor maximum_thrust is missing in print.
+        p = B^# wrench - min(B^# wrench)
+
+    It is exact if the difference between largest and least element is within maximum_thrust: for a force without torque
+    |F_1| + |F_2| + |F_3| <= 1.154 N with the declared jets. Beyond, the wrench is smaller with the same direction.
+
+    Source: Somov, Butyrin, Somov and Somova, with the factor maximum_thrust corrected. See docs/theory/rendezvous.md.
     """
 
     def allocate(self) -> None:

@@ -10,18 +10,26 @@ from .jet_allocation import JetAllocation, JetAllocationStatus
 
 
 class JetAllocationQuantised(JetAllocation):
-    """Thrusts in multiples of thrust_quantum that give a force and no torque at all.
+    """Thrusts in multiples of thrust_quantum that give a force without torque.
 
-    Such forces are 2 thrust_quantum strength.force[i] n[i] with integers n that are all even or all odd (0.0577 N n
-    with the declared jets). The nearest attainable neighbour of the wanted force is given, by the least
-    propellant. What it lacks is added to the next command as an impulse in inertial axes (first-order
-    sigma-delta), so that the mean force is the wanted one. A force beyond what is attainable is scaled
-    first, and what that takes off is not carried. A torque command is left out and reported, as is a
-    force that the geometry cannot give. Derivation: docs/theory/rendezvous.md.
+    Such forces form the lattice
+
+        F_i = 2 thrust_quantum c_i n_i
+
+    with integers n_i all even or all odd (0.0577 N n with the declared jets). The nearest attainable neighbour of the
+    commanded force is applied with least propellant; the remainder is added to the next command as an impulse in
+    inertial axes (first-order sigma-delta). A force beyond the attainable is scaled first, and that part is not
+    carried. Torque commands, and forces that the geometry cannot give, are omitted and reported.
+
+    Derivation: docs/theory/rendezvous.md.
     """
 
-    thrust_quantum = Parameter(0.05, unit="N", minimum=1e-6, description="thrusts are multiples of it")
-    owed_impulse = State([0.0, 0.0, 0.0], unit="N.s", frame="inertial", description="wanted and not given yet")
+    thrust_quantum = Parameter(
+        0.05, unit="N", minimum=1e-6, description="smallest unit of which each thrust is a multiple"
+    )
+    owed_impulse = State(
+        [0.0, 0.0, 0.0], unit="N.s", frame="inertial", description="impulse commanded and not applied yet"
+    )
 
     def allocate(self) -> None:
         owed = to_body(self.attitude, self.owed_impulse)

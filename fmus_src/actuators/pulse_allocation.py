@@ -9,24 +9,30 @@ from ..mathlib.vectors import clip, is_finite, vector
 
 
 class PulseStatus(Enumeration):
-    """Outcome of the last demand."""
+    """Status of the last demand."""
 
     GOOD = member("good")
-    SATURATED = member("a demand beyond the tick")
+    SATURATED = member("demand beyond the sample period")
     NOT_FINITE = member("demand not finite")
 
 
 class PulseAllocation(Block):
-    """Pulses about three axes whose moment of momentum is the one demanded: what does not fit is carried over.
+    """Pulses about three axes of the commanded angular impulse, with a carried remainder.
 
-    At each tick the demand's time at full level joins the carried rest, rest + u T/M, T the sample_period; what is
-    fired has the rest's sign and its length, at most T, and is nothing below shortest_pulse. It is taken off the rest,
-    which a pulse of full length clears. Outside full ticks the rest thus stays below shortest_pulse, and what is
-    fired differs from what is demanded by less than that from the start, and by less than twice that over any window.
-    At a tick without any demand the rest fades to rest_kept of itself.
-    With mean, the demand is passed as a torque that is held over the tick, within the level, and no jet fires: for
-    linear studies. A demand that is not finite fires nothing and leaves the rest as it is. Frame: body.
-    Assumes jets that are at full level at once. The rule is ours: docs/systems/orbital_attitude.md.
+    With the remainder r (s) per axis, torque level M, sample period T and pulse length τ:
+
+        r = r + u T/M    τ = min(|r|, T)    r = r - τ sgn(r)
+
+    τ is 0 below shortest_pulse, and r is 0 after τ = T. Otherwise the remainder stays below shortest_pulse, and the
+    fired impulse differs from the demand by less than that from the start, and by less than twice that over any window.
+    At a sample without demand r is multiplied by rest_kept. With mean, the demand is passed as a torque held over the
+    sample period, within the level, and no jet fires: for linear studies. A demand that is not finite fires nothing.
+
+    Frame: body.
+
+    Assumes jets without rise time.
+
+    See docs/systems/orbital_attitude.md.
     """
 
     default_step = 0.2
@@ -34,18 +40,18 @@ class PulseAllocation(Block):
     jet_torque = body.JET_TORQUE.parameter()
     shortest_pulse = body.SHORTEST_PULSE.parameter()
     rest_kept = Parameter(
-        1.0, unit="1", minimum=0.0, maximum=1.0, description="share of the rest that a tick without a demand leaves"
+        1.0, unit="1", minimum=0.0, maximum=1.0, description="fraction of the remainder kept at a sample without demand"
     )
-    mean = Parameter(False, description="pass the mean torque instead of pulses")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick", minimum=1e-3)
-    torque_command = body.TORQUE.input("torque wanted over the tick")
+    mean = Parameter(False, description="true: mean torque in place of pulses")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period", minimum=1e-3)
+    torque_command = body.TORQUE.input("commanded torque, mean over the sample period")
     pulse_lengths = body.PULSES.output(direct=True)
     pulse_count = body.PULSE_COUNT.output()
-    mean_torque = body.TORQUE.output("torque instead of pulses", direct=True)
-    remainder = body.PULSES.output("demanded and not fired, with its sign", direct=True)
+    mean_torque = body.TORQUE.output("mean torque applied in place of pulses", direct=True)
+    remainder = body.PULSES.output("impulse demanded and not fired, as signed pulse lengths", direct=True)
     status = Output(PulseStatus, direct=True)
-    lengths = State([0.0] * 3, vector=False, unit="s", description="of the pulses, while they are worked out")
-    rests = State([0.0] * 3, vector=False, unit="s", description="demanded and not fired")
+    lengths = State([0.0] * 3, vector=False, unit="s", description="signed pulse lengths of this sample")
+    rests = State([0.0] * 3, vector=False, unit="s", description="signed pulse lengths demanded and not fired")
 
     def initialize(self) -> None:
         self.allocate()

@@ -10,32 +10,32 @@ from ..mathlib.vectors import clip, dot, norm, vector
 
 
 class ThrustAllocation(Allocation):
-    """Engine thrust and attitude for a demanded thrust acceleration and direction.
+    """Engine thrust and attitude for a commanded thrust acceleration and direction.
 
-    Thrust is mass times demand, kept within its limits, scaled by a constant random error and
-    delayed by a first-order lag (exact for a demand held over the step; the output is the value
-    at the communication point, held by the plant, which adds half a step of delay). With a slew
-    limit the direction turns towards the demanded one by at most slew_rate_limit, as a mean over
-    each step and no more than 1.5 rad in one; it starts aligned and at rest. All limits are off by
-    default. A minimum_thrust above maximum_thrust is status 2 all along; thrust then keeps the maximum.
+        thrust_lag F' = (1 + e) clip(m a_c, minimum_thrust, maximum_thrust) - F
 
-    What comes after this block may lag as well. thrust_lead ends the burn that much earlier, at the
-    earliest where it begins: a first-order lag of that size leaves as much impulse behind its
-    cut-off, so that a burn from settled thrust gives the demanded impulse. direction_lead commands the
-    direction of that much later, which a first-order response follows without delay where the direction
-    turns steadily. Frame: landing site.
+    with a constant random error e. The lag is exact for a demand held over the step; the output is held by the plant,
+    which adds half a step of delay. With a slew limit the direction turns to the commanded one by at most
+    slew_rate_limit, as a mean over each step and no more than 1.5 rad in one; it starts aligned and at rest. All limits
+    are off by default. A minimum_thrust above maximum_thrust is status 2; thrust then keeps the maximum.
 
-    With a dead band the engine has no thrust between two fractions of maximum_thrust: a demand above dead_band_high
-    is given in full, one below dead_band_low as it is, and in between it stays as it was. Apollo's descent engine had
-    0.57 and 0.63 (Klumpp 1974). Bounds in reverse, or without a maximum_thrust, are status 2 all along.
-    Assumes thrust through the centre of mass. Vehicle and leads are ours: docs/systems/lunar_landing.md.
+    thrust_lead ends the burn early, to compensate the impulse that a first-order lag leaves after cut-off.
+    direction_lead commands the future direction, to compensate a first-order attitude response.
+
+    In a dead band between dead_band_low and dead_band_high of maximum_thrust a demand keeps its previous state; above,
+    it is full thrust, below, as commanded. Apollo's descent engine had 0.57 and 0.63 (Klumpp 1974). Reversed bounds, or
+    a dead band without maximum_thrust, are status 2.
+
+    Assumes thrust through the centre of mass.
+
+    See docs/systems/lunar_landing.md.
     """
 
     minimum_thrust = landing.MINIMUM_THRUST.parameter()
-    maximum_thrust = landing.MAXIMUM_THRUST.parameter(0.0, "largest thrust; 0: no limit")
+    maximum_thrust = landing.MAXIMUM_THRUST.parameter(0.0, "largest thrust of the engine; 0: no limit")
     thrust_lag = landing.THRUST_LAG.parameter()
     slew_rate_limit = Parameter(
-        0.0, unit="rad/s", minimum=0.0, description="largest rate of the direction; 0: no limit"
+        0.0, unit="rad/s", minimum=0.0, description="largest angular rate of the thrust direction; 0: no limit"
     )
     thrust_error = Parameter(
         0.0, unit="1", minimum=0.0, description="relative error of thrust, 1 sigma, constant over a flight"
@@ -44,21 +44,29 @@ class ThrustAllocation(Allocation):
         0.0,
         unit="1",
         minimum=-1.0,
-        description="relative error of thrust that every flight has, added to the random one",
+        description="deterministic relative error of thrust, added to the random one",
     )
-    thrust_lead = Parameter(0.0, unit="s", minimum=0.0, description="the burn ends so much earlier than demanded")
-    direction_lead = Parameter(0.0, unit="s", minimum=0.0, description="the direction is that of so much later")
+    thrust_lead = Parameter(0.0, unit="s", minimum=0.0, description="lead time by which a burn ends early")
+    direction_lead = Parameter(0.0, unit="s", minimum=0.0, description="lead time of the commanded direction")
     dead_band_low = Parameter(
-        0.0, unit="1", minimum=0.0, maximum=1.0, description="of maximum_thrust, below which thrust is as demanded"
+        0.0,
+        unit="1",
+        minimum=0.0,
+        maximum=1.0,
+        description="lower end of the engine's dead band, as a fraction of maximum_thrust",
     )
     dead_band_high = Parameter(
-        0.0, unit="1", minimum=0.0, maximum=1.0, description="of maximum_thrust, above which thrust is full; 0: off"
+        0.0,
+        unit="1",
+        minimum=0.0,
+        maximum=1.0,
+        description="upper end of the engine's dead band, as a fraction of maximum_thrust; 0: no dead band",
     )
     seed, stream = sampling.random_stream()
     generator = sampling.GENERATOR.state()
-    thrust_factor = State(1.0, unit="1", description="thrust given over thrust commanded")
+    thrust_factor = State(1.0, unit="1", description="ratio of actual to commanded thrust")
     commanded_thrust = State(0.0, unit="N", description="thrust commanded at the last communication point")
-    full = State(False, description="thrust is full, above the dead band")
+    full = State(False, description="true: full thrust, above the dead band")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -17,24 +17,30 @@ from ..mathlib.vectors import Vector4, all_below, vector
 
 
 class WheelAllocationStatus(Enumeration):
-    """Outcome of the last command."""
+    """Status of the last command."""
 
     GOOD = member("good")
     LIMITED = member("torque limited")
     NOT_FINITE = member("command not finite, motors off")
-    NO_INVERSE = member("available wheels lie in a plane, motors off")
+    NO_INVERSE = member("available wheels coplanar, motors off")
 
 
 class WheelAllocation(Block, interface=True):
-    """Motor torques of four reaction wheels that give the body a torque, and move their speeds to where they serve.
+    """Motor torques of four reaction wheels for a torque on the body, with null motion of the wheel speeds.
 
-    torque_command is the torque that the wheels are to exert on the body, -A u with the unit spin axes as columns of A.
-    An allocation writes `distribute`, which sets wheel_torques to torques u that give it, and speed_change to the
-    wanted change of speeds. Of that its part along the null direction n, A n = 0, which does not turn the body, gets
-    the torque null_gain wheel_inertia n n' speed_change as far as the motors have torque left. Where u is beyond
-    motor_torque_limit it is scaled, which keeps its direction. Wheels that are not available get no torque; then
-    there is no null direction.
-    Equations: docs/systems/satellite_pointing.md. Assumes wheels that are where they are declared to be.
+    With unit spin axes as columns of A, motor torques u, null direction n and target change ΔΩ of the wheel speeds:
+
+        -A u = torque_command    A n = 0    u_null = k_null J_s n n^T ΔΩ
+
+    Null motion uses the motor torque that is left. Torques beyond motor_torque_limit are scaled together. Unavailable
+    wheels get no torque; then there is no null direction. An allocation defines `distribute`, which sets wheel_torques
+    and speed_change.
+
+    Frame: body.
+
+    Assumes wheels at their declared axes.
+
+    See docs/systems/satellite_pointing.md.
     """
 
     to_write = ("distribute",)
@@ -44,23 +50,29 @@ class WheelAllocation(Block, interface=True):
     wheel_axes = satellite.WHEEL_AXES.parameter()
     wheel_inertia = satellite.WHEEL_INERTIA.parameter()
     motor_torque_limit = satellite.MOTOR_TORQUE_LIMIT.parameter()
-    available = Parameter([True] * 4, description="which wheels get torque")
-    null_gain = Parameter(0.02, unit="1/s", minimum=0.0, description="rate at which null motion approaches its goal")
+    available = Parameter([True] * 4, description="true for each wheel that may be used")
+    null_gain = Parameter(0.02, unit="1/s", minimum=0.0, description="rate at which null motion approaches its target")
     null_speed = Parameter(
-        100.0, unit="rad/s", description="of the wheels along the null direction, over four; not for every allocation"
+        100.0,
+        unit="rad/s",
+        description="wheel speed approached by null motion without momentum; ignored by the minimax allocation",
     )
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "allocation cycle; 0: every communication point")
-    torque_command = body.TORQUE.input("torque wanted of the wheels on the body")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.125, "sample period of the allocation; 0: every communication point"
+    )
+    torque_command = body.TORQUE.input("commanded torque of the wheels on the body")
     wheel_speeds = satellite.WHEEL_SPEEDS.input()
     motor_torques = satellite.MOTOR_TORQUES.output(direct=True)
     allocated_torque = body.TORQUE.output("torque of motor_torques on the body", direct=True)
     status = Output(WheelAllocationStatus, direct=True)
-    axes = State(zeros(3, WHEELS), unit="1", frame="body", description="unit spin axes of available wheels, by column")
-    inverse_axes = State(zeros(WHEELS, 3), unit="1", description="A' (A A')^-1")
-    null = State([0.0] * 4, unit="1", description="unit vector along which motor torques do not turn the body, or 0")
-    wheel_torques = State([0.0] * 4, unit="N.m", description="torques without null motion")
-    speed_change = State([0.0] * 4, unit="rad/s", description="wanted change of the wheels' speeds")
-    invertible = State(False, description="any torque can be given")
+    axes = State(
+        zeros(3, WHEELS), unit="1", frame="body", description="unit spin axes of the available wheels, by column"
+    )
+    inverse_axes = State(zeros(WHEELS, 3), unit="1", description="pseudo-inverse of the spin axes")
+    null = State([0.0] * 4, unit="1", description="unit vector of motor torques without torque on the body; 0: none")
+    wheel_torques = State([0.0] * 4, unit="N.m", description="motor torques without null motion")
+    speed_change = State([0.0] * 4, unit="rad/s", description="target change of the wheel speeds")
+    invertible = State(False, description="true: available wheels span three axes")
 
     def distribute(self) -> None:
         """Set wheel_torques (N m) for torque_command, and speed_change (rad/s)."""

@@ -5,12 +5,15 @@ from .wheel_allocation import WheelAllocation
 
 
 class WheelAllocationMinimax(WheelAllocation):
-    """Of all motor torques that give torque_command those whose largest size is smallest.
+    """Motor torques of least maximum magnitude for the commanded torque.
 
-    So every torque within the array's envelope is given: up to half as much again as by the pseudo-inverse, for a
-    torque along a spin axis of a pyramid. Null motion leads the wheels to those speeds with their momentum whose
-    largest size is smallest; null_speed does not count. Source: Markley, Reynolds, Liu and Lebsock 2010, "Maximum
-    torque and momentum envelopes for reaction wheel arrays".
+        min max |u_i|    -A u = torque_command
+
+    Every torque within the array's envelope is attained, up to half as much again as by the pseudo-inverse along a spin
+    axis of a pyramid. Null motion leads the wheels to the speeds of their momentum with the least maximum; null_speed
+    has no effect.
+
+    Source: Markley, Reynolds, Liu and Lebsock 2010, "Maximum torque and momentum envelopes for reaction wheel arrays".
     """
 
     def distribute(self) -> None:

@@ -4,11 +4,14 @@ from .wheel_allocation import WheelAllocation
 
 
 class WheelAllocationPseudoInverse(WheelAllocation):
-    """Motor torques -A' (A A')^-1 torque_command: of all that give the torque those with the smallest sum of squares.
+    """Motor torques by the pseudo-inverse, of least sum of squares.
 
-    Null motion leads the wheels' speeds to null_speed along the null direction, which keeps them away from rest, where
-    friction changes sign. Its elements are of size 1/2 for a pyramid: each wheel of a body without momentum turns at
-    null_speed, alternately forwards and backwards, the first one forwards.
+        u = -A^T (A A^T)^-1 torque_command
+
+    Null motion leads the wheel speeds to null_speed along the null direction, away from rest, where friction changes
+    sign: in a pyramid without momentum each wheel turns at null_speed, alternately forwards and backwards, the first
+    forwards.
+
     Source: Schaub and Junkins 2018, section 8.
     """
 

@@ -12,51 +12,73 @@ from ..mathlib.vectors import Vector3, cross, dot, is_finite, vector
 
 
 class AttitudeControlStatus(Enumeration):
-    """Age of the torque."""
+    """Status of the torque command."""
 
     GOOD = member("good")
     NOT_FINITE = member("last inputs not finite, torque held")
 
 
 class AttitudeControl(Block):
-    """Torque for the gyros: what the planned turn needs, what couples the axes, and a correction.
+    """Torque of the gyros: feedforward of the planned turn, gyroscopic decoupling, and a correction of errors.
 
-    torque = w x G + J (C ep + (C wp) x w - m) - jets: angular velocity w = C wp + rate_error, C the rotation
-    from the plan's body axes to the true ones, wp and ep planned; w and G = J w + gyro_momentum of the first term
-    are those of the middle of the sample_period that follows. With feed_forward, jets = jet_torque +
-    J disturbance, else 0. law 0 (the paper's): m = attitude_error through a lead compensator
-    gain (lead s + 1)/(lag s + 1), discretised by Tustin's rule at sample_period. law 1: m = w0^2 attitude_error
-    + 2 damping w0 rate_error with the natural frequency w0. The torque is held until the next sample. Inputs that
-    are not finite leave it as it is.
-    Frame: body. Equations, gains and margins: docs/systems/robot_rendezvous.md.
-    Source: Somov, Butyrin, Somov and Somova, see there; m has the opposite sign there.
+    With the rotation C from planned to true body axes, planned rate ω_p and acceleration ε_p:
+
+        M = ω × G + J (C ε_p + (C ω_p) × ω - u) - M_jets    ω = C ω_p + rate_error
+
+    ω and G = J ω + gyro_momentum in the first term are those of the middle of the next sample_period. With feed_forward
+    M_jets is jet_torque + J disturbance, else 0.
+
+    law 0: u is attitude_error through a lead compensator, discretised by Tustin's rule at sample_period:
+
+        u = k (t_1 s + 1)/(t_2 s + 1) e
+
+    law 1, with natural_frequency and damping:
+
+        u = ω_0^2 attitude_error + 2 ζ ω_0 rate_error
+
+    The torque is held until the next sample; inputs that are not finite leave it unchanged.
+
+    Frame: body.
+
     Assumes small errors, and inertia as declared.
+
+    Source: Somov, Butyrin, Somov and Somova, with the sign of u corrected. See docs/theory/rendezvous.md.
     """
 
     default_step = 0.125
 
     law = Parameter(ControlLaw, start=ControlLaw.PROPORTIONAL_DERIVATIVE)
-    inertia = Parameter([812.0, 587.0, 910.0], unit="kg.m2", minimum=1e-3, description="of the robot, about x, y, z")
-    lead_gain = Parameter(0.16, minimum=0.0, description="of the lead at rest, 1/s2")
-    lead_time = Parameter(5.0, unit="s", minimum=0.0, description="lead")
-    lag_time = Parameter(0.417, unit="s", minimum=1e-6, description="lag")
-    natural_frequency = Parameter(1.0, unit="rad/s", minimum=0.0, description="of law 1")
-    damping = Parameter(0.9, unit="1", minimum=0.0, description="of law 1")
-    feed_forward = Parameter(True, description="take jet_torque and disturbance off")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "between ticks; 0: every communication point")
-    attitude_error = body.ROTATION.input("from planned to true: axis times sine of the angle")
-    rate_error = body.ANGULAR_VELOCITY.input("true angular velocity less the planned")
-    planned_angular_velocity = Input([0.0, 0.0, 0.0], unit="rad/s", frame="body of the plan", description="now")
-    planned_angular_acceleration = Input(
-        [0.0, 0.0, 0.0], unit="rad/s2", frame="body of the plan", description="half a sample_period from now"
+    inertia = Parameter(
+        [812.0, 587.0, 910.0],
+        unit="kg.m2",
+        minimum=1e-3,
+        description="principal moments of inertia of the robot, about x, y, z",
     )
-    gyro_momentum = body.ANGULAR_MOMENTUM.input("of the gyro cluster")
-    jet_torque = body.TORQUE.input("of the jets from now on")
-    disturbance = body.ANGULAR_ACCELERATION.input("angular acceleration by neither gyros nor jet_torque")
-    torque_command = body.TORQUE.output("torque on the body wanted from the gyros", direct=True)
+    lead_gain = Parameter(0.16, minimum=0.0, description="static gain of the lead compensator, 1/s2")
+    lead_time = Parameter(5.0, unit="s", minimum=0.0, description="time constant of the lead")
+    lag_time = Parameter(0.417, unit="s", minimum=1e-6, description="time constant of the lag")
+    natural_frequency = Parameter(1.0, unit="rad/s", minimum=0.0, description="natural frequency of the PD law")
+    damping = Parameter(0.9, unit="1", minimum=0.0, description="damping ratio of the PD law")
+    feed_forward = Parameter(True, description="true: jet_torque and disturbance compensated by feedforward")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "sample period; 0: every communication point")
+    attitude_error = body.ROTATION.input("attitude error from planned to true attitude: axis times sine of the angle")
+    rate_error = body.ANGULAR_VELOCITY.input("true angular velocity minus the planned one")
+    planned_angular_velocity = Input(
+        [0.0, 0.0, 0.0], unit="rad/s", frame="body of the plan", description="planned angular velocity at this instant"
+    )
+    planned_angular_acceleration = Input(
+        [0.0, 0.0, 0.0],
+        unit="rad/s2",
+        frame="body of the plan",
+        description="planned angular acceleration half a sample_period ahead",
+    )
+    gyro_momentum = body.ANGULAR_MOMENTUM.input("angular momentum of the gyro cluster")
+    jet_torque = body.TORQUE.input("torque of the jets from this instant on")
+    disturbance = body.ANGULAR_ACCELERATION.input("angular acceleration caused by neither gyros nor jet_torque")
+    torque_command = body.TORQUE.output("commanded torque of the gyros on the body", direct=True)
     status = Output(AttitudeControlStatus, direct=True)
-    period = State(0.0, unit="s", description="to the next tick")
-    lead_state = body.ROTATION.state("of the lead compensator")
+    period = State(0.0, unit="s", description="time to the next sample")
+    lead_state = body.ROTATION.state("state of the lead compensator")
 
     def initialize(self) -> None:
         self.period = self.sample_period

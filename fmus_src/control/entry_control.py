@@ -10,38 +10,50 @@ from ..units import deg
 
 
 class EntryControlStatus(Enumeration):
-    """Presence of a demand."""
+    """Status of the torque command."""
 
     GOOD = member("good")
     NOT_FINITE = member("inputs not finite")
 
 
 class EntryControl(Block, interface=True):
-    """Torque that holds the capsule at its trim and at the bank of a programme, from bank and rates alone.
+    """Torque that holds a capsule at trim and at the bank of a programme, from bank and rates alone.
 
-    Attack, sideslip, speed and pressure are not measured; dynamic_pressure is for regulators that are told. At trim
-    the capsule turns about its velocity by w = rate (cos a0, -sin a0, 0), a0 = trim_attack. Demands below dead_zone of
-    a level are put out as 0. A regulator writes `regulate`, which sets demand. Inputs that are not finite ask for no
-    torque. Frame: body. Equations: docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 3.2.
+    Angle of attack, sideslip, speed and pressure are not measured; dynamic_pressure is for scheduled gains. At trim
+    with trim_attack α_0 the capsule rotates about its velocity by
+
+        ω = γ' (cos α_0, -sin α_0, 0)
+
+    Demands below dead_zone of a level are set to 0, and inputs that are not finite give no torque. A regulator defines
+    `regulate`, which sets demand.
+
+    Frame: body.
+
     Assumes a capsule near its trim, and inertia as known on board.
+
+    Source: Lapin, thesis, chapter 3.2. See docs/systems/entry_attitude.md.
     """
 
     to_write = ("regulate",)
 
     default_step = 0.2
 
-    inertia = body.INERTIA.parameter(description="matrix of inertia, as known on board")
-    jet_torque = body.JET_TORQUE.parameter([100.0, 80.0, 80.0], "levels as known on board, both ways")
-    trim_attack = Parameter(deg(-20.0), unit="rad", description="attack at which the capsule trims")
-    dead_zone = Parameter(0.0, unit="1", minimum=0.0, description="share of a level below which nothing is demanded")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick", minimum=1e-3)
+    inertia = body.INERTIA.parameter(description="inertia matrix known on board")
+    jet_torque = body.JET_TORQUE.parameter(
+        [100.0, 80.0, 80.0], "torque of a jet about x, y, z known on board, both signs"
+    )
+    trim_attack = Parameter(deg(-20.0), unit="rad", description="trim angle of attack")
+    dead_zone = Parameter(
+        0.0, unit="1", minimum=0.0, description="dead zone of the demand, as a fraction of a jet's torque"
+    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period", minimum=1e-3)
     measured_bank = entry.BANK.input()
     measured_angular_velocity = body.ANGULAR_VELOCITY.input()
-    target_bank = entry.TARGET_BANK.input("target of the programme", start=0.0)
+    target_bank = entry.TARGET_BANK.input("target bank of the programme", start=0.0)
     reference = Inputs(entry.BankReference, prefix="reference_", bank=0.0)
-    error_limit = entry.ERROR_LIMIT.input("largest error of bank to act on")
-    dynamic_pressure = entry.DYNAMIC_PRESSURE.input("for regulators that are told", start=1000.0)
-    torque_command = body.TORQUE.output("torque wanted over the tick", direct=True)
+    error_limit = entry.ERROR_LIMIT.input("largest bank error that is acted on")
+    dynamic_pressure = entry.DYNAMIC_PRESSURE.input("dynamic pressure for scheduled gains", start=1000.0)
+    torque_command = body.TORQUE.output("commanded torque, mean over the sample period", direct=True)
     status = Output(EntryControlStatus, direct=True)
 
     def regulate(self) -> Vector3:

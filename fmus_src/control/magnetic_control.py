@@ -10,7 +10,7 @@ WEAKEST_FIELD = 1e-6  # T
 
 
 class MagneticControlStatus(Enumeration):
-    """Limit of the dipole of the last sample."""
+    """Status of the last dipole command."""
 
     GOOD = member("good")
     LIMITED = member("dipole limited")
@@ -19,39 +19,51 @@ class MagneticControlStatus(Enumeration):
 
 
 class MagneticControl(Block):
-    """B-dot law for detumbling, and the cross-product law for unloading wheels.
+    """B-dot law for detumbling, and cross-product law for unloading of wheels by magnetic torquers.
 
-    Detumble: m = -(k/B^2) (B - previous B)/T. Unload: m = (ku/B^2) (h - target) x B, so that the torque m x B takes
-    what of h is across the field. A dipole beyond dipole_limit is scaled as a whole. It begins with a sample of the
-    magnetometer and acts for active_fraction of the time T between samples, so that it is 0 when the next one is
-    taken. feedforward_torque is -(m x B) while wheels are unloaded, for their controller.
-    A gain of 2 n (1 + sin i) Jmin, with the orbital rate n and the inclination i to the magnetic equator, brakes best.
-    Frame: body. Equations: docs/systems/earth_pointing.md. Assumes torquers without lag, and samples of the field that
-    are field_period apart. Source: Stickler and Alfriend 1976; Avanzini and Giulietti 2012; Markley and Crassidis 2014,
-    section 7.5.
+    With the last two field samples B, T apart, and the wheels' momentum h:
+
+        m = -(k/|B|^2) (B - B_last)/T    detumble
+        m = (k_u/|B|^2) (h - h_0) × B    unload
+
+    The unloading torque m × B removes the momentum across the field. A dipole beyond dipole_limit is scaled as a whole.
+    It acts for active_fraction of T and is 0 when the next sample is taken. feedforward_torque is -(m × B) while wheels
+    are unloaded. With orbital rate n, inclination i to the magnetic equator and least moment of inertia J_min the best
+    gain is
+
+        k = 2 n (1 + sin i) J_min
+
+    Frame: body.
+
+    Assumes torquers without lag, and field samples field_period apart.
+
+    Source: Stickler and Alfriend 1976; Avanzini and Giulietti 2012; Markley and Crassidis 2014, section 7.5. See
+    docs/systems/earth_pointing.md.
     """
 
     default_step = 0.25
 
-    detumble_gain = Parameter(0.0132, unit="N.m.s", minimum=0.0, description="k")
-    unload_gain = Parameter(0.002, unit="1/s", minimum=0.0, description="ku")
-    target_momentum = body.ANGULAR_MOMENTUM.parameter(description="commanded momentum of the wheels")
-    dipole_limit = Parameter(5.0, unit="A.m2", minimum=0.0, description="largest component of the dipole")
-    field_period = Parameter(1.0, unit="s", minimum=1e-3, description="T, between samples of the magnetometer")
-    active_fraction = Parameter(0.75, unit="1", minimum=0.0, maximum=1.0, description="of T, in which the dipole acts")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "between calls; 0: every communication point")
+    detumble_gain = Parameter(0.0132, unit="N.m.s", minimum=0.0, description="gain k of the detumbling law")
+    unload_gain = Parameter(0.002, unit="1/s", minimum=0.0, description="gain ku of the unloading law")
+    target_momentum = body.ANGULAR_MOMENTUM.parameter(description="target angular momentum of the wheels")
+    dipole_limit = Parameter(5.0, unit="A.m2", minimum=0.0, description="largest dipole about an axis")
+    field_period = Parameter(1.0, unit="s", minimum=1e-3, description="sample period T of the magnetometer")
+    active_fraction = Parameter(
+        0.75, unit="1", minimum=0.0, maximum=1.0, description="fraction of T in which the dipole acts"
+    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "sample period of the control; 0: every communication point")
     mode = Input(MagneticMode)
-    measured_field = space.MAGNETIC_FIELD.input("measured field")
-    field_count = Input(0, description="samples of the field so far; a change signals a new one")
-    wheel_momentum = satellite.WHEEL_MOMENTUM.input("of the wheels relative to the body")
-    dipole = space.DIPOLE.output("commanded dipole", direct=True)
-    feedforward_torque = body.TORQUE.output("opposite to the magnetic torque", direct=True)
+    measured_field = space.MAGNETIC_FIELD.input("measured magnetic flux density")
+    field_count = Input(0, description="number of field samples so far; a change signals a new one")
+    wheel_momentum = satellite.WHEEL_MOMENTUM.input("angular momentum of the wheels relative to the body")
+    dipole = space.DIPOLE.output("commanded magnetic dipole", direct=True)
+    feedforward_torque = body.TORQUE.output("torque that compensates the magnetic torque", direct=True)
     status = Output(MagneticControlStatus, direct=True)
     counted = State(0, description="field_count of the last sample")
-    previous_field = space.MAGNETIC_FIELD.state("field of the last sample")
-    has_field = State(False, description="true: a sample was taken")
-    planned_dipole = space.DIPOLE.state("dipole since the last sample")
-    active_until = State(0.0, unit="s", description="end of the dipole")
+    previous_field = space.MAGNETIC_FIELD.state("flux density of the last sample")
+    has_field = State(False, description="true: a field sample has been received")
+    planned_dipole = space.DIPOLE.state("magnetic dipole commanded at the last sample")
+    active_until = State(0.0, unit="s", description="time at which the dipole ends")
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:

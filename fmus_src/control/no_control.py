@@ -5,7 +5,7 @@ from .entry_control import EntryControl
 
 
 class NoControl(EntryControl):
-    """Asks for nothing: what the capsule's own stability holds."""
+    """Zero torque: the capsule's own stability alone."""
 
     def regulate(self) -> Vector3:
         return vector(0.0, 0.0, 0.0)

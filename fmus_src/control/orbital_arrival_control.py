@@ -10,12 +10,16 @@ WORTHWHILE = 0.3  # of the commanded rate: a smaller change is not worth a pulse
 
 
 class OrbitalArrivalControl(OrbitalControl):
-    """All angles arrive at arrival_time with the least turning: one pulse to start, a coast, one to stop.
+    """Arrival of all angles at arrival_time with minimum rotation: one pulse to start, a coast, one pulse to stop.
 
-    The wanted rate of an angle is what leads it to its band in the time that is left, least_time at the least.
-    What it differs from the rate is demanded as a torque where a pulse is worth it. With turn_angle yaw is led to that
-    angle and back again from turn_start on, which lets a filter find the gyros' biases.
-    Equations: docs/systems/orbital_attitude.md.
+    The commanded rate of an angle e leads it to its band in the remaining time, at least least_time:
+
+        e_c' = -sgn(e) max(|e| - band, 0)/max(arrival_time - t, least_time)
+
+    A torque is commanded where the rate error warrants a pulse. With turn_angle yaw is led to that angle and back from
+    turn_start on, which makes gyro biases observable.
+
+    See docs/systems/orbital_attitude.md.
     """
 
     def lead_yaw(self, time: float) -> tuple[float, float]:

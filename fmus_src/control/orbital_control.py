@@ -9,7 +9,7 @@ from ..units import deg
 
 
 class OrbitalControlStatus(Enumeration):
-    """Presence of a command."""
+    """Status of the torque command."""
 
     GOOD = member("good")
     NOT_FINITE = member("estimate not finite")
@@ -17,39 +17,51 @@ class OrbitalControlStatus(Enumeration):
 
 
 class OrbitalControl(OrbitalBody, interface=True):
-    """Torque that turns the body into the orbital frame and holds it there.
+    """Torque that turns a body into the orbital frame and holds it there.
 
-    At each tick a regulator is given angles and rates and answers with the torque of the tick to come. The parameters
-    are those that any regulator of the slot may need; inertia and jets are those known on board. Inputs that are not
-    finite ask for no torque. A regulator writes `begin`, which may make gains, and `regulate`, which sets
-    torque_command. Frames: orbital, body. Equations: docs/systems/orbital_attitude.md.
+    At each sample a regulator gets angles and rates and sets the torque of the next sample period. The parameters are
+    common to all regulators of the slot; inertia and jets are those known on board. Inputs that are not finite give no
+    torque. A regulator defines `begin`, which may compute gains, and `regulate`, which sets torque_command.
+
+    Frames: orbital; body.
+
     Assumes a circular orbit.
+
+    See docs/systems/orbital_attitude.md.
     """
 
     to_write = ("regulate",)
 
-    angle_poles = Parameter([0.10, 0.08, 0.10], unit="1/s", minimum=0.0, description="decay of roll, yaw, pitch")
-    rate_poles = Parameter([0.15, 0.12, 0.15], unit="1/s", minimum=0.0, description="decay of how they should decay")
-    arrival_time = Parameter(35.0, unit="s", minimum=0.0, description="when all angles are to arrive, after the start")
-    least_time = Parameter(8.0, unit="s", minimum=1e-3, description="shortest time to arrive in, also afterwards")
+    angle_poles = Parameter(
+        [0.10, 0.08, 0.10], unit="1/s", minimum=0.0, description="decay rates of roll, yaw and pitch"
+    )
+    rate_poles = Parameter(
+        [0.15, 0.12, 0.15], unit="1/s", minimum=0.0, description="decay rates of the deviation from that decay"
+    )
+    arrival_time = Parameter(35.0, unit="s", minimum=0.0, description="arrival time of all angles, after the start")
+    least_time = Parameter(8.0, unit="s", minimum=1e-3, description="least time to arrive, also after arrival_time")
     band = Parameter(
         [deg(0.15), deg(0.1), deg(0.15)],
         unit="rad",
         minimum=0.0,
-        description="errors of roll, yaw, pitch that are let be",
+        description="dead bands of roll, yaw and pitch",
     )
-    turn_angle = Parameter(0.0, unit="rad", description="yaw to turn to and back, which tells gyro biases from yaw")
-    turn_rate = Parameter(deg(0.8), unit="rad/s", minimum=1e-6, description="of that turn")
-    turn_start = Parameter(45.0, unit="s", minimum=0.0, description="when it begins, after the start")
-    turn_stay = Parameter(120.0, unit="s", minimum=0.0, description="how long the body stays turned")
+    turn_angle = Parameter(
+        0.0, unit="rad", description="yaw of an additional turn, which separates gyro biases from yaw"
+    )
+    turn_rate = Parameter(deg(0.8), unit="rad/s", minimum=1e-6, description="angular rate of the additional turn")
+    turn_start = Parameter(
+        45.0, unit="s", minimum=0.0, description="start of the additional turn, after the start of the simulation"
+    )
+    turn_stay = Parameter(120.0, unit="s", minimum=0.0, description="duration for which the additional yaw is held")
     shortest_pulse = body.SHORTEST_PULSE.parameter()
-    sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick", minimum=1e-3)
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period", minimum=1e-3)
     estimated_angles = body.ESTIMATED_ANGLES.input()
     estimated_angular_velocity = body.ANGULAR_VELOCITY.input()
-    torque_command = body.TORQUE.output("torque wanted over the tick", direct=True)
+    torque_command = body.TORQUE.output("commanded torque, mean over the sample period", direct=True)
     status = Output(OrbitalControlStatus, direct=True)
     start_time = sampling.START_TIME.state()
-    usable = State(True, description="what the regulator needs could be made")
+    usable = State(True, description="true: gains of the regulator computed")
 
     def begin(self) -> None:
         """Make gains from the parameters."""

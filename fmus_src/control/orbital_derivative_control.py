@@ -20,28 +20,38 @@ SINGULAR = 1e9  # |A| |A^-1| by their largest elements, above which A counts as 
 
 
 class OrbitalDerivativeControl(OrbitalControl):
-    """Torque from rates of the angles and angular acceleration: u = u0 - K (a', w'), with the poles that are placed.
+    """State-derivative feedback of angle rates and angular acceleration, with placed poles.
 
-    The closed loop is a' = S1 a + z, z' = S0 z, S with minus the poles on its diagonal and a coupling of roll and
-    pitch; K is the gain on the state times the inverse of the closed loop's matrix. a' follows from the estimate, w' is
-    its mean since the last tick with a finite estimate, torque included; the first tick has no w'. u0 holds the body in
-    the orbital frame against its products of inertia, which no derivative shows.
-    K needs A nonsingular. The placed poles stand the delay of w' only where every eigenvalue of 1 - Gw, u = J Gw w',
-    has a positive real part; with two unstable modes, of roll and of pitch, that takes the coupling. Otherwise status
-    says that the parameters are unusable. Torque below a shortest pulse is not in w': for wheels, or pulses.mean.
-    The law is linear in yaw.
-    Source: Lapin, thesis, section 1.3.4, by name; formulas: docs/systems/orbital_attitude.md. Condition: Michiels,
-    Vyhlidal, Huijberts and Nijmeijer 2009.
+        u = u_0 - K (a', ω')    K = K_x (A - B K_x)^-1
+        a' = S_1 a + z    z' = S_0 z
+
+    K_x is the gain of the modal law with S_1, S_0, which have minus the poles on their diagonals and a coupling of roll
+    and pitch. a' follows from the estimate, ω' is the mean since the last finite estimate. u_0 balances the products of
+    inertia, which no derivative contains.
+
+    The poles withstand the delay of ω' only if 1 - G_w has eigenvalues of positive real part, where
+
+        u = J G_w ω'
+
+    With two unstable modes this needs the coupling. Otherwise the status reports unusable parameters. Torques below a
+    shortest pulse are not in ω': the law is for wheels, or pulses.mean. It is linear in yaw.
+
+    Assumes a nonsingular A.
+
+    Source: Lapin, thesis, section 1.3.4, by name; condition: Michiels, Vyhlidal, Huijberts and Nijmeijer 2009. See
+    docs/systems/orbital_attitude.md.
     """
 
     angle_poles = OrbitalControl.angle_poles.with_start([0.0015, 0.003, 0.0015])
     rate_poles = OrbitalControl.rate_poles.with_start([0.0015, 0.003, 0.0015])
-    coupling = Parameter(0.0026, unit="rad/s", description="turn of roll into pitch, of angles and of their lack")
-    angle_gain = State([0.0] * 9, columns=3, description="torque over rates of angles, N m s/rad, body")
-    rate_gain = State([0.0] * 9, columns=3, description="torque over angular acceleration, N m s2, body")
+    coupling = Parameter(
+        0.0026, unit="rad/s", description="coupling of roll into pitch, of the angles and of their deviation"
+    )
+    angle_gain = State([0.0] * 9, columns=3, description="gain from rates of the angles to torque, N m s/rad, body")
+    rate_gain = State([0.0] * 9, columns=3, description="gain from angular acceleration to torque, N m s2, body")
     torque_at_rest = body.TORQUE.state("torque that holds the body in the orbital frame")
-    last_angular_velocity = body.ANGULAR_VELOCITY.state("of the tick before")
-    last_time = State(0.0, unit="s", frozen=True, description="of the tick before, after the start")
+    last_angular_velocity = body.ANGULAR_VELOCITY.state("angular velocity of the previous sample")
+    last_time = State(0.0, unit="s", frozen=True, description="time of the previous sample, after the start")
 
     def decay(self, poles: Matrix) -> Matrix:
         """Return S of a level: minus the poles (1/s) on the diagonal, and the coupling."""

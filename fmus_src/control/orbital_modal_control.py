@@ -8,15 +8,23 @@ from .orbital_control import OrbitalControl
 
 
 class OrbitalModalControl(OrbitalControl):
-    """Angles decay with angle_poles once what they lack of that, z = a' - S1 a, has decayed with rate_poles: z' = S0 z.
+    """Modal control with two levels: decay of the angles with angle_poles, of the deviation with rate_poles.
 
-    u = J ((N A11 - S0 N - A21) a + (N + S0 - A22)(w - wp)), N = S1 - A11, S diagonal with minus the poles: multilevel
-    placement with the levels angles and rates, made from the inertia known on board. The law is linear in yaw.
-    Source: Lapin, thesis, chapter 3.1; formula: docs/systems/orbital_attitude.md.
+        u = J ((N A_11 - S_0 N - A_21) a + (N + S_0 - A_22) (ω - ω_p))    N = S_1 - A_11
+        a' = S_1 a + z    z' = S_0 z
+
+    S_1 and S_0 are diagonal with minus the poles; gains follow from the inertia known on board. The law is linear in
+    yaw.
+
+    Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """
 
-    angle_gain = State([0.0] * 9, columns=3, description="torque over angles, N m/rad, body")
-    rate_gain = State([0.0] * 9, columns=3, description="torque over angular velocity less the orbit's, N m s, body")
+    angle_gain = State([0.0] * 9, columns=3, description="gain from angles to torque, N m/rad, body")
+    rate_gain = State(
+        [0.0] * 9,
+        columns=3,
+        description="gain from angular velocity relative to the orbital frame to torque, N m s, body",
+    )
 
     def begin(self) -> None:
         a = linear_model(self.inertia, self.inverse_inertia, self.orbital_rate)

@@ -7,16 +7,19 @@ from .entry_control import EntryControl
 
 
 class OutputFeedback(EntryControl):
-    """u = F (bank error, wx, wy against the reference) + J (c0, -s0, 0) reference''; pitch is damped separately.
+    """Output feedback of bank error and roll and yaw rates, with separate pitch damping.
 
-    F places the poles of bank, sideslip and two rates at one dynamic pressure, or is interpolated in the logarithm of
-    the pressure between three. The default places the complex pair on bank and sideslip; the system entry_attitude has
-    parameter sets with other gains (output_feedback_*.ssv), which `make gains` computes. Source: Lapin, thesis,
-    chapters 2 and 3.2; numbers ours: docs/systems/entry_attitude.md.
+        u = F (e, ω_x - γ_r' c_0, ω_y + γ_r' s_0) + J (c_0, -s_0, 0) γ_r''
+
+    with the sine s_0 and cosine c_0 of trim_attack. F places the poles of bank, sideslip and two rates at one dynamic
+    pressure, or is interpolated in the logarithm of pressure between three. Parameter sets output_feedback_*.ssv of
+    entry_attitude have other gains, computed by `make gains`.
+
+    Source: Lapin, thesis, chapters 2 and 3.2. See docs/systems/entry_attitude.md.
     """
 
     dead_zone = EntryControl.dead_zone.with_start(0.05)
-    pitch_damping = Parameter(1200.0, unit="N.m.s", minimum=0.0, description="torque over pitch rate")
+    pitch_damping = Parameter(1200.0, unit="N.m.s", minimum=0.0, description="gain from pitch rate to torque")
     pressures = Parameter(
         [1147.0, 1147.0, 1147.0],
         unit="Pa",
@@ -26,7 +29,7 @@ class OutputFeedback(EntryControl):
     gains = Parameter(
         [-335.2711, -1260.9402, -890.1654, -113.8432, 382.3942, -1794.4671] * 3,
         columns=3,
-        description="torques x, y over bank, wx, wy (SI): two rows for each pressure",
+        description="gains from bank, wx, wy to torques x, y (SI), two rows for each pressure",
     )
 
     def gain_row(self, i: int, fraction: float) -> Vector3:

@@ -13,53 +13,61 @@ from ..mathlib.vectors import Vector3, cross, is_finite, limit_length, norm, vec
 
 
 class QuaternionFeedbackStatus(Enumeration):
-    """Age of the torque."""
+    """Status of the torque command."""
 
     GOOD = member("good")
     NOT_FINITE = member("last inputs not finite, torque held")
-    NO_ATTITUDE = member("no attitude: a quaternion shorter than 0.5, no torque")
+    NO_ATTITUDE = member("no attitude: quaternion shorter than 0.5, no torque")
     OFF = member("off, no torque")
 
 
 class QuaternionFeedback(Block):
-    """Quaternion feedback with gyroscopic feedforward.
+    """Quaternion feedback with gyroscopic decoupling, feedforward of the reference and an optional integral.
 
-    torque = w x (J w + h) + J (C er + (C wr) x w - k 2 q - c d - i).
+    With the vector part q of the rotation C from reference to estimate (shorter way), d = ω - C ω_r, reference rate ω_r
+    and acceleration ε_r, and wheel momentum h:
 
-    q is the vector part of the rotation C from the reference to the estimated attitude, the shorter way round; d =
-    w - C wr the error of the angular velocity w; wr and er are the reference's angular velocity and acceleration; h is
-    wheel_momentum. With the natural frequency w0 and the damping z, k = w0^2 and c = 2 z w0. An integral_time T > 0
-    adds the pole -1/T: k = w0^2 + 2 z w0/T, c = 2 z w0 + 1/T and i' = w0^2/T 2 q, where 2 |q| is below
-    integral_band. error_limit bounds 2 |q| in k 2 q, and so the rate of a turn without reference to k error_limit/c.
-    feedforward_torque is added. While it is not active the torque and the integral are 0. A command acts ``delay``
-    samples after its tick. The torque stays until the next sample. Inputs that are not finite leave it as it is;
-    without an attitude, estimated or to follow, it is 0.
-    Frame: body. Equations and margins: docs/systems/satellite_pointing.md. Assumes a rigid body with inertia as known.
-    Source: Wie, Weiss and Arapostathis 1989; Wie 1998, section 7.
+        τ = ω × (J ω + h) + J (C ε_r + (C ω_r) × ω - 2 k q - c d - i)    i' = 2 (ω_0^2/T) q
+        k = ω_0^2 + 2 ζ ω_0/T    c = 2 ζ ω_0 + 1/T
+
+    Without integral_time T, k = ω_0^2 and c = 2 ζ ω_0. The integral acts while 2 |q| is below integral_band.
+    error_limit bounds 2 |q|, and so the rate of a turn without reference to k error_limit/c. feedforward_torque is
+    added. While not active, torque and integral are 0. A command acts ``delay`` samples later and is held until the
+    next. Inputs that are not finite leave the torque unchanged; without an attitude it is 0.
+
+    Frame: body.
+
+    Assumes a rigid body with inertia as known on board.
+
+    Source: Wie, Weiss and Arapostathis 1989; Wie 1998, section 7. See docs/systems/satellite_pointing.md.
     """
 
     default_step = 0.125
 
-    inertia = satellite.INERTIA.parameter(description="matrix of inertia of the satellite with its wheels, as known")
-    natural_frequency = Parameter(0.3, unit="rad/s", minimum=0.0, description="w0")
-    damping = Parameter(0.9, unit="1", minimum=0.0, description="z")
-    integral_time = Parameter(0.0, unit="s", minimum=0.0, description="T; 0: no integral")
-    integral_band = Parameter(0.01, unit="rad", minimum=0.0, description="error below which it is integrated")
-    error_limit = Parameter(2.0, unit="rad", minimum=0.0, description="largest 2 |q| that the torque answers")
-    delay = Parameter(0, minimum=0, maximum=LATEST, description="samples until a command acts, computing time")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "between ticks; 0: every communication point")
+    inertia = satellite.INERTIA.parameter(
+        description="inertia matrix of the satellite with its wheels, as known on board"
+    )
+    natural_frequency = Parameter(0.3, unit="rad/s", minimum=0.0, description="natural frequency w0 of the closed loop")
+    damping = Parameter(0.9, unit="1", minimum=0.0, description="damping ratio z of the closed loop")
+    integral_time = Parameter(0.0, unit="s", minimum=0.0, description="time constant T of the integral; 0: no integral")
+    integral_band = Parameter(0.01, unit="rad", minimum=0.0, description="attitude error below which it is integrated")
+    error_limit = Parameter(2.0, unit="rad", minimum=0.0, description="bound of the attitude error 2 |q| in the torque")
+    delay = Parameter(0, minimum=0, maximum=LATEST, description="computing delay of a command, in samples")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "sample period; 0: every communication point")
     estimated_quaternion = robot.QUATERNION.input()
-    estimated_angular_velocity = body.ANGULAR_VELOCITY.input("angular velocity, estimated")
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.input("estimated angular velocity")
     reference = Inputs(AttitudeReference)
-    wheel_momentum = satellite.WHEEL_MOMENTUM.input("of the wheels relative to the body")
-    feedforward_torque = body.TORQUE.input("torque on the body to add, such as against the torquers'")
-    active = Input(True, description="false: no torque, and nothing is integrated")
-    torque_command = body.TORQUE.output("torque on the body wanted from the wheels", direct=True)
-    attitude_error = body.ROTATION.output("2 q, from the reference to the estimated attitude", direct=True)
+    wheel_momentum = satellite.WHEEL_MOMENTUM.input("angular momentum of the wheels relative to the body")
+    feedforward_torque = body.TORQUE.input("additional torque on the body, such as against the torquers' torque")
+    active = Input(True, description="true: control active; false: no torque and no integration")
+    torque_command = body.TORQUE.output("commanded torque of the wheels on the body", direct=True)
+    attitude_error = body.ROTATION.output(
+        "attitude error 2 q, from the reference to the estimated attitude", direct=True
+    )
     status = Output(QuaternionFeedbackStatus, direct=True)
-    integral = body.ANGULAR_ACCELERATION.state("of the error: i of the torque")
-    commands = State(zeros(LATEST + 1, 3), unit="N.m", frame="body", description="last commands, the newest first")
-    period = State(0.0, unit="s", description="to the next tick")
+    integral = body.ANGULAR_ACCELERATION.state("integral term i of the torque")
+    commands = State(zeros(LATEST + 1, 3), unit="N.m", frame="body", description="last commands, newest first")
+    period = State(0.0, unit="s", description="time to the next sample")
 
     def initialize(self) -> None:
         self.period = self.sample_period

@@ -7,21 +7,32 @@ from .entry_control import EntryControl
 
 
 class RobustControl(EntryControl):
-    """Rolls about the velocity, so that attack and sideslip stay, and damps what is across: free of pressure and speed.
+    """Roll about the velocity at constant angle of attack and sideslip, with gains independent of pressure and speed.
 
-    u = J (c0 x1 + s0 x2, -s0 x1 + c0 x2, -pitch_damping wz), c0, s0 of trim_attack, with the turn gd = wx c0 - wy s0
-    about the velocity and bd = wx s0 + wy c0 across it: x1 = reference'' - bank_damping (gd - reference') -
-    bank_stiffness error, within largest_acceleration, and x2 = -sideslip_damping bd. At frozen pressure the closed
-    loop is (p^2 + k_x p + k_g)(p^2 + k_b p + w_b^2)(p^2 + k_z p + w_a^2), stable for any pressure. With the
-    time-optimal bank programme it is the thesis's combined algorithm. Source: Lapin, thesis, chapter 3.2; gains ours.
+    With sine s_0 and cosine c_0 of trim_attack, bank error e, and rates g about and b across the velocity:
+
+        g = ω_x c_0 - ω_y s_0    b = ω_x s_0 + ω_y c_0
+        x_1 = γ_r'' - k_x (g - γ_r') - k_g e    x_2 = -k_b b
+        u = J (c_0 x_1 + s_0 x_2, -s_0 x_1 + c_0 x_2, -k_z ω_z)
+
+    x_1 is limited to largest_acceleration. At frozen pressure, with natural frequencies w_b and w_a of sideslip and
+    angle of attack, the closed loop is stable for any pressure:
+
+        (p^2 + k_x p + k_g) (p^2 + k_b p + w_b^2) (p^2 + k_z p + w_a^2)
+
+    With the time-optimal bank programme it is the combined algorithm of the thesis.
+
+    Source: Lapin, thesis, chapter 3.2; gains: this repository.
     """
 
     dead_zone = EntryControl.dead_zone.with_start(0.02)
-    bank_stiffness = Parameter(0.25, minimum=0.0, description="k_g, 1/s2")
-    bank_damping = Parameter(1.0, unit="1/s", minimum=0.0, description="k_x")
-    sideslip_damping = Parameter(0.3, unit="1/s", minimum=0.0, description="k_b")
-    pitch_damping = Parameter(0.3, unit="1/s", minimum=0.0, description="k_z")
-    largest_acceleration = Parameter(0.08, unit="rad/s2", minimum=0.0, description="about the velocity")
+    bank_stiffness = Parameter(0.25, minimum=0.0, description="bank stiffness k_g, 1/s2")
+    bank_damping = Parameter(1.0, unit="1/s", minimum=0.0, description="bank damping k_x")
+    sideslip_damping = Parameter(0.3, unit="1/s", minimum=0.0, description="sideslip damping k_b")
+    pitch_damping = Parameter(0.3, unit="1/s", minimum=0.0, description="pitch damping k_z")
+    largest_acceleration = Parameter(
+        0.08, unit="rad/s2", minimum=0.0, description="largest angular acceleration about the velocity"
+    )
 
     def regulate(self) -> Vector3:
         w = self.measured_angular_velocity

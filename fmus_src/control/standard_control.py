@@ -11,20 +11,24 @@ from .entry_control import EntryControl
 class StandardControl(EntryControl):
     """Relays with hysteresis: bank with its rate about x, damping about y and z.
 
-    A relay closes where its signal is beyond a threshold y and opens where it is within y/2; closed, it demands the
-    full level, so that pulses fill the tick. Roll: x = clip(bank - target) + lead_time wx; yaw and pitch: their rates.
-    What is known of the real one is that it holds no better than 3 deg; this one is ours. Source: Lapin, thesis,
-    chapter 3.2.
+    A relay closes where its signal exceeds a threshold y and opens within y/2; closed, it demands the full level, so
+    that pulses fill the sample period. The roll signal is
+
+        x = clip(γ - γ_target, bank_limit) + lead_time ω_x
+
+    and those of yaw and pitch are their rates.
+
+    Source: Lapin, thesis, chapter 3.2, which states an accuracy of 3 deg; thresholds: this repository.
     """
 
-    bank_limit = Parameter(deg(24.0), unit="rad", minimum=0.0, description="error of bank acted on")
-    lead_time = Parameter(2.0, unit="s", minimum=0.0, description="of the roll rate in the roll signal")
+    bank_limit = Parameter(deg(24.0), unit="rad", minimum=0.0, description="largest bank error that is acted on")
+    lead_time = Parameter(2.0, unit="s", minimum=0.0, description="lead time of the roll rate in the roll signal")
     thresholds = Parameter(
         [deg(2.0), deg(1.0), deg(1.0)],
         minimum=0.0,
-        description="of roll (rad), yaw and pitch (rad/s)",
+        description="relay thresholds of roll (rad), yaw and pitch (rad/s)",
     )
-    signs = State([0.0, 0.0, 0.0], vector=False, unit="1", description="of the relays, 0 open")
+    signs = State([0.0, 0.0, 0.0], vector=False, unit="1", description="output signs of the relays; 0: open")
 
     def relay(self, k: int, x: float) -> float:
         """Return demand (N m) of relay k for its signal."""

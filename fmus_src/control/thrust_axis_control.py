@@ -16,44 +16,56 @@ def has_direction(length: float) -> bool:
 
 
 class ThrustAxisStatus(Enumeration):
-    """Presence of the demand."""
+    """Status of the commanded angular acceleration."""
 
     GOOD = member("good")
-    LIMITED = member("shortened to the limit")
+    LIMITED = member("reduced to the limit")
 
 
 class ThrustAxisControl(Block):
     """Angular acceleration that turns a thrust axis to a commanded direction, with a braking curve.
 
-    With the commanded direction d and its derivative d' carried on to now, the angle e and the axis n from the
-    measured attitude to d, and the measured angular rate w:
+    With the commanded direction d and rate d' propagated to the present instant, angle e and axis n from the measured
+    attitude to d, and measured rate ω:
 
-        angular_acceleration = feed + rate_gain (d x d' + n s - w), shortened to maximum_angular_acceleration
+        α = α_feed + rate_gain (d × d' + n s - ω)
         s = min(angle_gain e, sqrt(2 braking_acceleration e), maximum_rate)
 
-    The square root is the speed from which braking_acceleration stops in e: a linear law of that speed goes to the
-    limit of acceleration and stays there, from side to side. A direction without length, as there is before guidance
-    has given one, only brings the rate to feed's. Frame: landing site. ``maximum_angular_acceleration`` 0: no limit.
-    Assumes that roll about the axis does not matter. The law is ours: docs/systems/hover_transfer.md.
+    α is limited to maximum_angular_acceleration (0: no limit). The square root is the rate from which
+    braking_acceleration stops in e; a linear law would limit-cycle at large angles. A direction of length 0 only brings
+    the rate to the feedforward's.
+
+    Frame: landing site.
+
+    Assumes that roll about the axis is irrelevant.
+
+    See docs/systems/hover_transfer.md.
     """
 
-    rate_gain = Parameter(1.5, unit="1/s", minimum=0.0, description="acceleration over error of the rate")
-    angle_gain = Parameter(0.8, unit="1/s", minimum=0.0, description="rate over error of the angle")
+    rate_gain = Parameter(1.5, unit="1/s", minimum=0.0, description="gain from rate error to angular acceleration")
+    angle_gain = Parameter(0.8, unit="1/s", minimum=0.0, description="gain from angle error to angular rate")
     braking_acceleration = Parameter(
-        deg(0.25), unit="rad/s2", minimum=0.0, description="with which large angles end; 0.25 deg/s2"
+        deg(0.25),
+        unit="rad/s2",
+        minimum=0.0,
+        description="angular deceleration at the end of a large turn; 0.25 deg/s2",
     )
-    maximum_rate = Parameter(deg(10.0), unit="rad/s", minimum=0.0, description="largest turn asked for")
+    maximum_rate = Parameter(deg(10.0), unit="rad/s", minimum=0.0, description="largest commanded angular rate")
     maximum_angular_acceleration = Parameter(
-        deg(1.0), unit="rad/s2", minimum=0.0, description="largest acceleration; 0: no limit"
+        deg(1.0), unit="rad/s2", minimum=0.0, description="largest angular acceleration; 0: no limit"
     )
-    thrust_direction = landing.DIRECTION.input("commanded direction at command_time")
+    thrust_direction = landing.DIRECTION.input("commanded thrust direction at command_time, unit vector")
     thrust_direction_rate = landing.DIRECTION_RATE.input()
-    command_time = landing.COMMAND_TIME.input("time that the direction counts from")
-    angular_acceleration_feed = landing.ANGULAR_ACCELERATION.input("that the command itself needs")
-    attitude = landing.DIRECTION.input("measured unit vector of thrust")
-    angular_rate = landing.ANGULAR_RATE.input("measured angular rate")
-    angular_acceleration = landing.ANGULAR_ACCELERATION.output("commanded angular acceleration", direct=True)
-    direction_error = Output(0.0, unit="rad", direct=True, description="angle from measured attitude to the command")
+    command_time = landing.COMMAND_TIME.input("reference time of the thrust direction")
+    angular_acceleration_feed = landing.ANGULAR_ACCELERATION.input("angular acceleration feedforward of the command")
+    attitude = landing.DIRECTION.input("measured thrust axis, unit vector")
+    angular_rate = landing.ANGULAR_RATE.input("measured angular rate of the thrust axis")
+    angular_acceleration = landing.ANGULAR_ACCELERATION.output(
+        "commanded angular acceleration of the thrust axis", direct=True
+    )
+    direction_error = Output(
+        0.0, unit="rad", direct=True, description="angle between the measured axis and the command"
+    )
     status = Output(ThrustAxisStatus, direct=True)
     start_time = sampling.START_TIME.state()
 

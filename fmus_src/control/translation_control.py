@@ -9,48 +9,66 @@ from ..mathlib.vectors import Vector3, is_finite
 
 
 class TranslationControlStatus(Enumeration):
-    """Age of the force."""
+    """Status of the force command."""
 
     GOOD = member("good")
     NOT_FINITE = member("last inputs not finite, force held")
 
 
 class TranslationControl(Block):
-    """Force for the jets: the planned acceleration and a correction, once per tick of translation control.
+    """Force of the jets: planned acceleration and a correction, once per sample of translation control.
 
-    law 0 (the paper's): force = mass (planned_acceleration - m), m = position_error through a lead compensator
-    gain (lead s + 1)/(lag s + 1), discretised by Tustin's rule at translation_period. law 1: m = w^2 position_error
-    + 2 damping w velocity_error with the natural frequency w. Each law has two designs; the one
-    whose design_period is nearest to translation_period is used. Where the design changes the lead's state
-    is set so that its output does not jump. The force is held until the next tick; a new tick is told
-    by its count, the one at the start counts. Inputs that are not finite leave the force as it is.
-    Frame: inertial. Equations, gains and margins: docs/systems/robot_rendezvous.md.
-    Source: Somov, Butyrin, Somov and Somova, see there.
+        P = m (a_p - u)
+
+    law 0: u is position_error through a lead compensator, discretised by Tustin's rule at translation_period:
+
+        u = k (t_1 s + 1)/(t_2 s + 1) e
+
+    law 1, with natural_frequency and damping:
+
+        u = ω_0^2 position_error + 2 ζ ω_0 velocity_error
+
+    Each law has two designs; the one whose design_period is nearest to translation_period is used. When the design
+    changes, the lead's state is set for a continuous output. The force is held until the next sample, which its count
+    signals; the one at the start counts. Inputs that are not finite leave the force unchanged.
+
+    Frame: inertial.
+
     Assumes mass as declared.
+
+    Source: Somov, Butyrin, Somov and Somova, with the sign of u corrected. See docs/theory/rendezvous.md.
     """
 
     default_step = 0.125
 
     law = Parameter(ControlLaw, start=ControlLaw.PROPORTIONAL_DERIVATIVE)
-    mass = landing.MASS.parameter(1000.0, "of the robot", minimum=1e-3)
-    design_period = Parameter([8.0, 4.0], unit="s", minimum=1e-3, description="translation_period of the two designs")
-    lead_gain = Parameter([1.5625e-4, 6.25e-4], minimum=0.0, description="of the lead at rest, per design, 1/s2")
-    lead_time = Parameter([160.0, 80.0], unit="s", minimum=0.0, description="lead, per design")
-    lag_time = Parameter([13.3, 6.67], unit="s", minimum=0.0, description="lag, per design")
-    natural_frequency = Parameter([0.03, 0.05], unit="rad/s", minimum=0.0, description="of law 1, per design")
-    damping = Parameter([0.9, 0.9], unit="1", minimum=0.0, description="of law 1, per design")
-    position_error = inertial.POSITION.input("of the robot from its plan")
-    velocity_error = inertial.VELOCITY.input("of the robot from its plan")
-    planned_acceleration = inertial.ACCELERATION.input("mean over the time in which the force acts")
+    mass = landing.MASS.parameter(1000.0, "mass of the robot", minimum=1e-3)
+    design_period = Parameter(
+        [8.0, 4.0], unit="s", minimum=1e-3, description="translation_period of each of the two designs"
+    )
+    lead_gain = Parameter(
+        [1.5625e-4, 6.25e-4], minimum=0.0, description="static gain of the lead compensator, per design, 1/s2"
+    )
+    lead_time = Parameter([160.0, 80.0], unit="s", minimum=0.0, description="time constant of the lead, per design")
+    lag_time = Parameter([13.3, 6.67], unit="s", minimum=0.0, description="time constant of the lag, per design")
+    natural_frequency = Parameter(
+        [0.03, 0.05], unit="rad/s", minimum=0.0, description="natural frequency of the PD law, per design"
+    )
+    damping = Parameter([0.9, 0.9], unit="1", minimum=0.0, description="damping ratio of the PD law, per design")
+    position_error = inertial.POSITION.input("position error of the robot against its plan")
+    velocity_error = inertial.VELOCITY.input("velocity error of the robot against its plan")
+    planned_acceleration = inertial.ACCELERATION.input(
+        "planned acceleration, mean over the time in which the force acts"
+    )
     translation_period = robot.TRANSLATION_PERIOD.input()
     translation_count = robot.TRANSLATION_COUNT.input()
     force_command = inertial.FORCE.output(direct=True)
     command_count = robot.COMMAND_COUNT.output(direct=True)
     status = Output(TranslationControlStatus, direct=True)
-    ticks = State(0, description="translation_count of the last tick")
-    lead_state = inertial.POSITION.state("of the lead compensator")
-    last_law = State(LeadLaw, description="lead of the last tick")
-    started = State(False, description="last_law is set")
+    ticks = State(0, description="translation_count of the last sample")
+    lead_state = inertial.POSITION.state("state of the lead compensator")
+    last_law = State(LeadLaw, description="lead time constant of the last sample")
+    started = State(False, description="true: last_law has been set")
 
     def initialize(self) -> None:
         self.ticks = self.translation_count

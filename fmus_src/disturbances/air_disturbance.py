@@ -8,21 +8,29 @@ from ..kernel.functions import cos
 
 
 class AirDisturbance(Block):
-    """A gust (1 - cos)/2 over gust_duration from gust_time on, and a density that changes once, at density_time.
+    """Wind gust of shape (1 - cos)/2 and a single change of air density.
 
-    Ours: docs/systems/entry_attitude.md.
+        v = wind + gust (1 - cos(2 π (t - t_g)/T_g))/2    if t_g <= t <= t_g + T_g
+
+    with gust_time t_g and gust_duration T_g. The density factor changes from density to later_density at density_time.
+
+    See docs/systems/entry_attitude.md.
     """
 
     default_step = 0.2
 
-    wind = entry.WIND.parameter(description="of the air throughout")
-    gust = Parameter([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="height of the gust over that")
-    gust_time = Parameter(0.0, unit="s", description="its begin after the start")
-    gust_duration = Parameter(10.0, unit="s", minimum=1e-3, description="from its begin to its end")
-    density = Parameter(1.0, unit="1", minimum=0.0, description="factor on the density before density_time")
-    density_time = Parameter(1e9, unit="s", description="of the change after the start")
-    later_density = Parameter(1.0, unit="1", minimum=0.0, description="factor on the density from then on")
-    air_velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="of the air over the ground")
+    wind = entry.WIND.parameter(description="steady wind velocity")
+    gust = Parameter(
+        [0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="peak velocity of the gust, added to wind"
+    )
+    gust_time = Parameter(0.0, unit="s", description="start of the gust, after the start of the simulation")
+    gust_duration = Parameter(10.0, unit="s", minimum=1e-3, description="duration of the gust")
+    density = Parameter(1.0, unit="1", minimum=0.0, description="density factor before density_time")
+    density_time = Parameter(1e9, unit="s", description="time of the density change, after the start")
+    later_density = Parameter(1.0, unit="1", minimum=0.0, description="density factor from density_time on")
+    air_velocity = Output(
+        [0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="velocity of the air relative to the ground"
+    )
     density_factor = entry.DENSITY_FACTOR.output()
     start_time = sampling.START_TIME.state()
 

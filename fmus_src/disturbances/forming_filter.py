@@ -12,14 +12,17 @@ from ..mathlib.vectors import Vector4, vector
 class FormingFilter(Block):
     """Second-order forming filter driven by white noise, discretised exactly.
 
-    y'' + 2 damping w y' + w^2 y = w^2 n, with w = natural_frequency and n white of two-sided
-    spectral density ``intensity``: S_y(f) = intensity |w^2/(w^2 - (2 pi f)^2 + 2 i damping w (2 pi f))|^2.
-    Starts in its stationary state. A step of any length is exact, from the matrix
-    exponential and the covariance P - F P F' it adds, where P = diag(v, w^2 v) with
-    v = intensity w/(4 damping) is the stationary one. Assumes w h above about 1e-4, below
-    which that difference loses its digits.
-    Source: G. P. Shibanov 2017 (the disturbance that operators are scored with; no figures given
-    there); Bar-Shalom, Li and Kirubarajan 2001, section 4.3 (discretisation).
+    With natural_frequency ω_0, damping ζ and two-sided spectral density `intensity` of n:
+
+        y'' + 2 ζ ω_0 y' + ω_0^2 y = ω_0^2 n
+        P = diag(v, ω_0^2 v)    v = intensity ω_0/(4 ζ)    Q = P - F P F^T
+
+    It starts in its stationary state with covariance P. A step of any length is exact, from the matrix exponential F
+    and the added covariance Q.
+
+    Assumes ω_0 h above about 1e-4, below which Q loses its digits.
+
+    Source: G. P. Shibanov 2017 (disturbance, without figures); Bar-Shalom, Li and Kirubarajan 2001, section 4.3.
     """
 
     damping = Parameter(0.5, unit="1", minimum=1e-3, description="damping ratio")
@@ -27,7 +30,7 @@ class FormingFilter(Block):
     intensity = Parameter(1.0, unit="s", minimum=0.0, description="two-sided spectral density of the white noise")
     seed, stream = sampling.random_stream()
     disturbance = Output(0.0, unit="1", description="filtered noise")
-    disturbance_rate = Output(0.0, unit="1/s", description="its derivative")
+    disturbance_rate = Output(0.0, unit="1/s", description="time derivative of the filtered noise")
     generator = sampling.GENERATOR.state()
 
     def initialize(self) -> None:

@@ -5,15 +5,17 @@ from ..interfaces.ports import entry
 
 
 class JetHealth(Block):
-    """Factors on the torques of six jets, constant over a flight; faults on the connectors change them in flight.
+    """Torque factors of six jets, constant over a simulation; faults on the connectors change them during it.
 
-    Ours: docs/systems/entry_attitude.md.
+    See docs/systems/entry_attitude.md.
     """
 
     default_step = 0.2
 
-    factors = Parameter([1.0] * 6, unit="1", minimum=0.0, description="of +x, -x, +y, -y, +z, -z")
-    jet_factor = entry.JET_FACTOR.output("likewise")
+    factors = Parameter(
+        [1.0] * 6, unit="1", minimum=0.0, description="factors on the torque of the jets +x, -x, +y, -y, +z, -z"
+    )
+    jet_factor = entry.JET_FACTOR.output("factors on the torque of the jets +x, -x, +y, -y, +z, -z")
 
     def initialize(self) -> None:
         for k in range(6):

@@ -12,28 +12,32 @@ from ..models.space_model import SpaceModel
 
 
 class EnvironmentStatus(Enumeration):
-    """Quality of the outputs."""
+    """Validity of the outputs."""
 
     GOOD = member("good")
     OUTSIDE_YEARS = member("outside 2025 to 2030, magnetic field extrapolated")
     BELOW_AIR = member("below 100 km, density that of 100 km")
-    UNCHANGED = member("position or attitude not finite, or inside the body; outputs stay")
+    UNCHANGED = member("position or attitude not finite, or inside the body; outputs held")
 
 
 class SpaceEnvironment(SpaceModel):
-    """Sun, Moon, magnetic field, eclipse and air at a position of the same instant.
+    """Sun, Moon, magnetic field, eclipse and air density at a position at the same instant.
 
-    Sensors read it at the true position. With an estimated position and magnetic_degree 6 it is the on-board model,
-    whose field then differs from degree 13 by 221 nT and 0.31 deg (rms at 500 km). It acts on nothing: the plant
-    evaluates its own models in the stages of its integration.
-    Frames: inertial (GCRS axes, origin at the body's centre), body. Equations: docs/systems/earth_pointing.md.
-    Sources: those of `mathlib.space`. Assumes straight light without travel time: no aberration, no refraction.
+    Sensors read it at the true position. With an estimated position and magnetic_degree 6 it is an on-board model,
+    whose field differs from degree 13 by 221 nT and 0.31 deg (rms at 500 km). It has no effect on the plant, which
+    evaluates its own models.
+
+    Frames: inertial (GCRS axes, origin at the body's centre); body.
+
+    Assumes straight light without travel time: no aberration, no refraction.
+
+    See docs/systems/earth_pointing.md.
     """
 
     default_step = 0.25
 
     position = inertial.POSITION.input("position of the centre of mass", start=[6878137.0, 0.0, 0.0])
-    quaternion = robot.QUATERNION.input("attitude, from body to inertial, scalar first")
+    quaternion = robot.QUATERNION.input("attitude quaternion from body to inertial, scalar first")
     environment = Outputs(space.SpaceEnvironment, direct=True)
     status = Output(EnvironmentStatus, direct=True)
     start_time = sampling.START_TIME.state()

@@ -10,11 +10,19 @@ from .terminal_guidance import TerminalGuidance
 
 
 class AnalyticGuidance(TerminalGuidance):
-    """Terminal guidance in closed form: time-to-go from a quadratic, linear pitch and yaw programmes.
+    """Terminal guidance in closed form: time to go from a quadratic, linear pitch and yaw programmes.
 
-    Pitch is measured from the horizontal, yaw from x towards y. Assumes a flat Moon, constant
-    gravity and thrust acceleration, and that the vehicle is braking (pitch within 90 deg).
-    Source: Fomichev and Li 2017, with the corrections listed in docs/systems/lunar_terminal_guidance.md.
+    With the velocity A and position B to gain without thrust and gravity:
+
+        p = 3 B - A T    q = A T - 2 B    n = sqrt(p_x^2 + p_y^2)
+        a_2 T^2 + a_3 T + a_4 = 0    W = |A|/T
+        ψ = atan2(p_y, p_x)    ψ' = -3 (A_x B_y - A_y B_x)/n^2    θ = atan(p_z/n)    θ' = 3 q_z/(T n)
+
+    Pitch θ is measured from the horizontal, yaw ψ from x towards y.
+
+    Assumes a flat Moon, constant gravity and thrust acceleration, and a braking vehicle (pitch within 90 deg).
+
+    Source: Fomichev and Li 2017, with the corrections of docs/systems/lunar_terminal_guidance.md.
     """
 
     def solve(self) -> None:

@@ -7,15 +7,16 @@ from .certain_time import CertainTime
 
 
 class AnalyticExactGuidance(CertainTime):
-    """Terminal guidance in closed form with the cubic time-to-go and the exact direction rate.
+    """Terminal guidance in closed form with the cubic time to go and the exact direction rate.
 
-    With p = 3 B - A T and q = A T - 2 B the direction is p/|p| and its rate
-    (3/T)(q - (q.d) d)/|p|: the angles' programme in vectors, free of their singularities. The
-    last command burns for the time_to_go that is left. Starts that do not brake, such as hovering
-    ones, fly with the least effort instead: see CertainTime, also for its limits. Assumes a flat
-    Moon and constant gravity.
-    Source: Fomichev and Li 2017; the cubic term and the exact rate are restored here, see
-    docs/systems/lunar_terminal_guidance.md.
+        p = 3 B - A T    q = A T - 2 B    d = p/|p|    d' = (3/T) (q - (q · d) d)/|p|
+
+    This is the programme of pitch and yaw in vectors, without their singularities. The last command burns for the
+    remaining time_to_go. Starts that do not brake use the least effort.
+
+    Assumes a flat Moon and constant gravity.
+
+    Source: Fomichev and Li 2017; cubic term and exact rate: docs/systems/lunar_terminal_guidance.md.
     """
 
     terminal_step = CertainTime.terminal_step.with_start(1)

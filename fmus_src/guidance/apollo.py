@@ -7,25 +7,32 @@ from .polynomial_guidance import PolynomialGuidance
 
 
 class ApolloGuidance(PolynomialGuidance):
-    """Position as a quartic of time about the target, as in P63 and P64, with the time to go of a given jerk.
+    """Quartic of time about the target, as in Apollo's P63 and P64, with the time to go of a given final jerk.
 
     The final thrust acceleration is final_lift upwards and final_deceleration against the forward axis, which is
-    horizontal towards the target at the start and then fixed. The time to go is that at which the jerk along this
-    axis becomes target_jerk, by Newton's method from the time of the cycle before. Below freeze_time it only counts
-    down. Status 3 where it has no time at the start, as with a jerk of the wrong sign; a later failure counts down.
-    time_choice and time_weight change nothing. The law has no limit of thrust: status 1 tells where the rest of the
-    flight exceeds it.
-    Source: Klumpp 1974, "Apollo lunar descent guidance", Automatica 10(2), equations 8 to 12; defaults are scaled to
-    a thrust acceleration of 5 m/s2. Assumes constant gravity or gravity_correction.
+    horizontal towards the target at the start and then fixed. The time to go is that at which the jerk along this axis
+    equals target_jerk, by Newton's method from the previous time. Below freeze_time it is only counted down. Status 3
+    without a time at the start, as for a jerk of the wrong sign; later failures count down. time_choice and time_weight
+    have no effect. The law has no thrust limit: status 1 if the rest of the flight exceeds it.
+
+    Assumes constant gravity or gravity_correction.
+
+    Source: Klumpp 1974, "Apollo lunar descent guidance", Automatica 10(2), equations 8 to 12; defaults scaled to a
+    thrust acceleration of 5 m/s2.
     """
 
-    final_deceleration = Parameter(5.0, unit="m/s2", description="thrust acceleration at the end, backwards")
-    final_lift = Parameter(2.2, unit="m/s2", description="thrust acceleration at the end, along z")
-    target_jerk = Parameter(0.029, unit="m/s3", description="at the target, along the forward axis")
-    freeze_time = Parameter(10.0, unit="s", minimum=0.0, description="time to go below which it counts down")
-    lead_time = Parameter(0.0, unit="s", minimum=0.0, description="how far ahead the thrust is commanded")
+    final_deceleration = Parameter(5.0, unit="m/s2", description="final thrust acceleration against the forward axis")
+    final_lift = Parameter(2.2, unit="m/s2", description="final thrust acceleration along z")
+    target_jerk = Parameter(0.029, unit="m/s3", description="final jerk along the forward axis")
+    freeze_time = Parameter(10.0, unit="s", minimum=0.0, description="time to go below which it is only counted down")
+    lead_time = Parameter(0.0, unit="s", minimum=0.0, description="lead time of the commanded thrust")
     flown_kr = PolynomialGuidance.flown_kr.with_start(12.0)
-    forward = State([1.0, 0.0, 0.0], unit="1", frame="landing site", description="forward axis")
+    forward = State(
+        [1.0, 0.0, 0.0],
+        unit="1",
+        frame="landing site",
+        description="forward axis, horizontal towards the target at the start",
+    )
 
     def final_thrust(self) -> Vector3:
         """Return the thrust acceleration (m/s2) at the end."""

@@ -8,15 +8,18 @@ from .astar_programme import AstarProgramme
 
 
 class AstarGuidance(AstarProgramme):
-    """Terminal guidance by method A*: time-to-go from (A T - 3 B).(A T - 2 B) = 0 by Newton's method.
+    """Terminal guidance by method A*, with the time to go by Newton's method.
 
-    Starts from 2 R/V, then from the last time-to-go; tolerance 1e-6 s, at most 50 iterations. Without
-    convergence the status is 2 and the last command is held: the method has no root in about 15 %
-    of the published box, a defect of its own that this block keeps. See `astar_robust_guidance`.
+        (A T - 3 B) · (A T - 2 B) = 0    W = 2 |B|/T^2
+
+    It starts from 2 R/V, then from the last time to go; tolerance 1e-6 s, at most 50 iterations. Without convergence
+    the status is 2 and the last command is held: about 15 % of the published box has no root. `astar_robust_guidance`
+    has a time for every start.
+
     Source: Fomichev and Li 2017, method A* (the equation for T is not printed there).
     """
 
-    last_root = State(0.0, unit="s", description="where Newton's method starts; 0: from 2 R/V")
+    last_root = State(0.0, unit="s", description="initial value of Newton's method for the time to go; 0: 2 R/V")
 
     def forget(self) -> None:
         self.last_root = 0.0

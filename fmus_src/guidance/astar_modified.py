@@ -10,10 +10,14 @@ from .astar_programme import AstarProgramme
 
 
 class AstarModifiedGuidance(AstarProgramme):
-    """Terminal guidance by the modified method A*: time-to-go from range, speed and exhaust speed.
+    """Terminal guidance by the modified method A*, with the time to go from range, speed and exhaust speed.
 
-    Source: Fomichev and Li 2017, modified A*. Arcsine arguments above 1, which made the original
-    fail, are clamped and counted.
+        T = R/(V + (y - y_T) g/(V + V_T) - E/2 + E^2/(12 c))
+        E^2 = ΔV_x^2 + (ΔV_y + 2 g R/(V + V_T))^2 + ΔV_z^2
+
+    Arcsine arguments above 1 are clamped and counted.
+
+    Source: Fomichev and Li 2017, modified A*.
     """
 
     exhaust_speed = Parameter(3100.0, unit="m/s", minimum=1.0, description="effective exhaust speed of the engine")

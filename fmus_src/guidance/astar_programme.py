@@ -8,19 +8,24 @@ from .terminal_guidance import TerminalGuidance
 
 
 class AstarProgramme(TerminalGuidance, interface=True):
-    """Linear pitch and yaw programmes of method A*, for a given time-to-go and thrust acceleration.
+    """Linear pitch and yaw programmes of method A*, for a given time to go and thrust acceleration W.
 
-    In the method's own axes (x forward, y up, z right) the thrust acceleration is
-    W (cos th cos psi, sin th cos psi, -sin psi); its angles are not the analytic method's. Assumes
-    that thrust has a forward component along x: arcsines cannot express another.
-    An arcsine argument above 1 is clamped and counted: in the original arithmetic it turned the
-    state complex. The angle's rate is then all but infinite. A programme that turns by more than
-    a radian within a guidance cycle cannot be put as a direction and its rate; its mean over the
-    cycle by Simpson's rule is commanded instead, which is what the paper's Runge-Kutta step makes
-    of it. Source: Fomichev and Li 2017, method A*.
+    In the axes of the method (x forward, y up, z right) the thrust acceleration is
+
+        a = W (cos θ cos ψ, sin θ cos ψ, -sin ψ)
+        sin ψ = (2 A_z/T - 6 B_z/T^2)/W    sin θ = (-2 A_y/T + 6 B_y/T^2)/(W cos ψ)
+
+    An arcsine argument above 1 is clamped and counted. A programme that rotates by more than a radian within a sample
+    period is replaced by its mean over the period, by Simpson's rule.
+
+    Assumes a forward component of thrust along x, which the arcsines require.
+
+    Source: Fomichev and Li 2017, method A*.
     """
 
-    clamp_count = Output(0, direct=True, description="arcsine arguments clamped so far, in repeated solves too")
+    clamp_count = Output(
+        0, direct=True, description="number of arcsine arguments clamped so far, repeated solves included"
+    )
 
     def angle(self, sine: float) -> float:
         """Return the arcsine, clamped and counted outside [-1, 1] (1e-12 allowed for rounding)."""

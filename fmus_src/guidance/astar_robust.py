@@ -10,14 +10,15 @@ FORWARD = 0.05  # least fraction of the thrust along x that the arcsines are tru
 
 
 class AstarRobustGuidance(AstarProgramme, CertainTime):
-    """Terminal guidance by method A* with a time-to-go that exists for every start.
+    """Terminal guidance by method A* with a time to go for every start.
 
-    Time-to-go solves |A| T = 2 |B| and the thrust acceleration is |a0| = 2 |A T - 3 B|/T^2, with
-    which no arcsine argument exceeds 1. The last command burns for the time_to_go that is left.
-    Starts that do not brake fly with the least effort instead: see CertainTime, also for its
-    limits. There, and where thrust has too small a part along x for the arcsines to express, the
-    direction and its rate come from a0 + a1 t itself.
-    Source: Fomichev and Li 2017, method A*; the changes are ours, see docs/systems/lunar_terminal_guidance.md.
+        |A| T = 2 |B|    W = |a_0| = 2 |A T - 3 B|/T^2
+
+    With this W no arcsine argument exceeds 1. The last command burns for the remaining time_to_go. Starts that do not
+    brake use the least effort. There, and where thrust has too small a component along x for the arcsines, direction
+    and rate are those of a_0 + a_1 t.
+
+    Source: Fomichev and Li 2017, method A*; changes: docs/systems/lunar_terminal_guidance.md.
     """
 
     terminal_step = AstarProgramme.terminal_step.with_start(1)

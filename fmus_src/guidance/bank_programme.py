@@ -12,7 +12,7 @@ NEVER = 1e9
 
 
 class BankMethod(Enumeration):
-    """Motion of the reference to the target."""
+    """Method by which the reference follows the target."""
 
     IDEAL = member("ideal")
     LIMITED = member("limited")
@@ -20,31 +20,46 @@ class BankMethod(Enumeration):
 
 
 class BankProgramme(Block):
-    """Target bank that changes its sign at up to two reversals, and the reference that leads there.
+    """Target bank with up to two sign reversals, and a reference that leads to it.
 
-    method 0, ideal: the reference is the target. 1, limited: likewise, with a limit on the error that the regulator
-    may act on. 2, time-optimal: the reference accelerates with bank_acceleration, coasts at bank_rate at most, and
-    brakes likewise, the quickest way within both (a limit on the rate is one on propellant). Reversals at or after 1e9
-    s do not come. Equations: docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 3.2; numbers ours.
-    Assumes a vehicle that rolls about its velocity and reaches bank_acceleration and bank_rate.
+    method 0, ideal: the reference is the target. method 1, limited: the same, with a limit of the error that the
+    regulator acts on. method 2, time-optimal: the reference accelerates with bank_acceleration c, coasts at v of at
+    most bank_rate and decelerates. For an angle L of sign n:
+
+        v = min(bank_rate, sqrt(L c))    t_1 = v/c    t_2 = L/v
+        γ = γ_0 + n c t^2/2    if t <= t_1
+        γ = γ_0 + n v (t - t_1/2)    if t <= t_2
+        γ = γ_1 - n c (t_1 + t_2 - t)^2/2    if t <= t_1 + t_2
+
+    Reversals at or after 1e9 s do not occur.
+
+    Assumes a vehicle that rolls about its velocity and attains bank_acceleration and bank_rate.
+
+    Source: Lapin, thesis, chapter 3.2. See docs/systems/entry_attitude.md.
     """
 
     default_step = 0.2
 
-    first_target = Parameter(deg(60.0), unit="rad", description="target at the start; it changes its sign")
+    first_target = Parameter(
+        deg(60.0), unit="rad", description="target bank at the start, whose sign changes at each reversal"
+    )
     reversal_times = Parameter(
-        [NEVER, NEVER], unit="s", minimum=0.0, description="of the reversals after the start, in order"
+        [NEVER, NEVER], unit="s", minimum=0.0, description="times of the bank reversals after the start, ascending"
     )
     method = Parameter(BankMethod, start=BankMethod.TIME_OPTIMAL)
-    bank_rate = Parameter(deg(12.0), unit="rad/s", minimum=1e-6, description="largest rate, time-optimal")
-    bank_acceleration = Parameter(0.06, unit="rad/s2", minimum=1e-6, description="acceleration, time-optimal")
-    largest_error = Parameter(deg(48.0), unit="rad", minimum=0.0, description="of the limited method")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick; 0: every communication point")
+    bank_rate = Parameter(
+        deg(12.0), unit="rad/s", minimum=1e-6, description="largest bank rate of the time-optimal reference"
+    )
+    bank_acceleration = Parameter(
+        0.06, unit="rad/s2", minimum=1e-6, description="bank acceleration of the time-optimal reference"
+    )
+    largest_error = Parameter(deg(48.0), unit="rad", minimum=0.0, description="bank error limit of the limited method")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period; 0: every communication point")
     target_bank = entry.TARGET_BANK.output()
     reference = Outputs(entry.BankReference, prefix="reference_")
     error_limit = entry.ERROR_LIMIT.output()
-    time_since_reversal = Output(NEVER, unit="s", description="since the last reversal was commanded; 1e9 before")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    time_since_reversal = Output(NEVER, unit="s", description="time since the last commanded reversal; 1e9: none yet")
+    start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def initialize(self) -> None:
         self.programme(0.0)

@@ -13,23 +13,26 @@ CHASE = 1.5
 
 
 class CertainTime(TerminalGuidance, interface=True):
-    """Time-to-go from |A| T = 2 |B| where that brakes, that of least effort where it does not.
+    """Time to go for every start: from |A| T = 2 |B| for braking starts, of least effort for others.
 
-    |A| T = 2 |B| is for fast approaches, with thrust of about constant size. It has no root, or
-    only one whose thrust turns round, for starts at rest, receding or beside the target, and one
-    far too long for slow approaches, which would hover down. Those fly the thrust acceleration
-    a0 + a1 t whose square has the least integral; its time exists wherever there is gravity and a
-    way to go. Which of the two it is, is decided with the first command; a flight of least effort
-    brakes like the others once both times agree, and one that has lost its root in between takes
-    the least effort meanwhile.
-    Limits: the ground is not known, and a start that is too fast for its distance flies past the
-    target and back, below it if need be; without gravity there is no time for a start at rest.
-    |A| T = 2 |B| does not hold with a frozen time_to_go, with which the law is a0 + a1 t throughout.
-    Source: D'Souza 1997, "An optimal guidance law for planetary landing"; the choice is ours.
+    With k upwards, the thrust acceleration a_0 + a_1 t meets position and velocity at the target:
+
+        A = ΔV + g T k    B = Δr - V T + g T^2 k/2
+        a_0 = -(2/T^2) (A T - 3 B)    a_1 = (6/T^3) (A T - 2 B)
+
+    The condition |A| T = 2 |B| gives thrust of nearly constant size. It has no suitable root for starts at rest,
+    receding or beside the target, and one far too long for slow approaches; these use the T of least integral of |a_0 +
+    a_1 t|^2, which exists wherever there is gravity and distance. The choice is made at the first command; a
+    least-effort flight changes to braking once both times agree. With frozen_time_to_go the law is a_0 + a_1 t.
+
+    Limits: no knowledge of the ground; a start too fast for its distance passes the target and returns, possibly below
+    it; without gravity there is no time for a start at rest.
+
+    Source: D'Souza 1997, "An optimal guidance law for planetary landing"; choice between the times: this repository.
     """
 
-    braking = State(False, description="the flight takes its time from |A| T = 2 |B|")
-    least_effort = State(False, description="the last command took the time of least effort")
+    braking = State(False, description="true: time to go from |A| T = 2 |B|")
+    least_effort = State(False, description="true: time to go of least effort at the last command")
 
     def forget(self) -> None:
         self.braking = False

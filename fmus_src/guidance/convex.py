@@ -25,29 +25,35 @@ LATE = 1.03  # of the time left, beyond which a plan uses more of the thrust
 
 
 class ConvexGuidance(ZemZevGuidance):
-    """Thrust of least propellant within thrust, glide slope and tilt, planned on events and tracked.
+    """Least propellant within thrust, glide slope and tilt by convex optimisation, planned on events and tracked.
 
-    A plan has 24 intervals of constant thrust acceleration, whose time of flight is 1.02 times the best. It is made at
-    the start and where the vehicle is 30 m off it, or 1 m for each second to go if that is less; in between the vehicle
-    is steered back to it. Below end_time to go the thrust acceleration is linear in time (ZEM/ZEV). Status 1, with
-    `limit`, where a plan from below the glide slope leaves it (2), where the target is out of reach and the plan has
-    the least miss, or an old plan is kept because no new one meets the target (8), and where ZEM/ZEV commands for want
-    of a plan and leaves a limit; 2 where position, velocity or mass are none to plan with; 3 at the start where there
-    is no time. With frozen_time_to_go the law is ZEM/ZEV throughout.
-    Source: Acikmese and Ploen 2007; Blackmore, Acikmese and Scharf 2010; the solver is that of Vandenberghe 2010 with a
-    Riccati recursion; time of flight and tracking are ours.
+    A plan has 24 intervals of constant thrust acceleration and 1.02 times the best time of flight. It is computed at
+    the start and when the vehicle deviates by 30 m, or by 1 m for each second to go if that is less; between plans the
+    vehicle is tracked to it. Below end_time the law is ZEM/ZEV.
+
+    Status 1, with `limit`: a plan from below the glide slope (2); target out of reach, with the least miss, or an old
+    plan kept because no new one meets the target (8); ZEM/ZEV for lack of a plan. Status 2: position, velocity or mass
+    not usable for planning. Status 3: no time at the start. With frozen_time_to_go the law is ZEM/ZEV.
+
     Assumes constant gravity or gravity_correction.
+
+    Source: Acikmese and Ploen 2007; Blackmore, Acikmese and Scharf 2010; Vandenberghe 2010 (solver, with a Riccati
+    recursion); time of flight and tracking: this repository. Problem and solver: docs/theory/convex_guidance.md.
     """
 
-    end_time = Parameter(8.0, unit="s", minimum=0.0, description="time to go from which ZEM/ZEV commands")
-    solver_iterations = Output(0, direct=True, description="iterations of the interior point for the last plan")
-    plan = State([0.0] * PLAN, frozen=True, description="thrust, and path with gravity and log mass at its nodes")
-    plan_time = State(0.0, unit="s", frozen=True, description="duration of the plan")
-    since_plan = State(0.0, unit="s", frozen=True, description="time since a plan was last tried")
-    planned_margin = State(
-        1.0, unit="1", frozen=True, description="largest thrust of the next plan over maximum_thrust"
+    end_time = Parameter(8.0, unit="s", minimum=0.0, description="time to go below which ZEM/ZEV guides")
+    solver_iterations = Output(0, direct=True, description="interior-point iterations for the last plan")
+    plan = State(
+        [0.0] * PLAN,
+        frozen=True,
+        description="thrust acceleration, position and velocity with gravity, and log mass at the plan's nodes",
     )
-    handed_over = State(False, description="ZEM/ZEV commands")
+    plan_time = State(0.0, unit="s", frozen=True, description="duration of the plan")
+    since_plan = State(0.0, unit="s", frozen=True, description="time since the last planning attempt")
+    planned_margin = State(
+        1.0, unit="1", frozen=True, description="largest thrust of the next plan, as a fraction of maximum_thrust"
+    )
+    handed_over = State(False, description="true: ZEM/ZEV guides")
 
     def forget(self) -> None:
         self.chosen = False

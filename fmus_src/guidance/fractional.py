@@ -18,23 +18,26 @@ class GainChoice(Enumeration):
 
 
 class FractionalGuidance(PolynomialGuidance):
-    """Thrust acceleration a_f + d1 t^gamma + d2 t^gamma_2, gamma_2 = kr/(gamma + 2) - 2, over the time to go t.
+    """Fractional-polynomial guidance with two powers of the time to go.
 
-    A kr above 6 straightens the end towards the final thrust acceleration a_f, which is upright for a_f along z. With
-    gain_choice = searched, time and kr are those of least propellant with a price on glide slope and tilt.
-    Status 3 where gamma or gamma_2 is negative or both are equal, and no profile exists.
-    With frozen_time_to_go a gain that is searched for is 6.
-    Source: Lu 2019 and 2020; the search is ours.
+        a = a_f + d_1 t^γ + d_2 t^γ_2    γ_2 = k_r/(γ + 2) - 2
+
+    A k_r above 6 straightens the end towards the final thrust acceleration a_f, upright for a_f along z. With
+    gain_choice 1 time and k_r are those of least propellant with a penalty on glide slope and tilt. Status 3 if γ or
+    γ_2 is negative or both are equal. With frozen_time_to_go a searched gain is 6.
+
     Assumes constant gravity or gravity_correction.
+
+    Source: Lu 2019 and 2020; the search: this repository.
     """
 
     last_burn = PolynomialGuidance.last_burn.with_start(2.0)  # with gamma < 1 the direction's rate ends infinite
     final_thrust_acceleration = Parameter(
-        [0.0, 0.0, 2.0], unit="m/s2", frame="landing site", description="thrust acceleration at the end"
+        [0.0, 0.0, 2.0], unit="m/s2", frame="landing site", description="final thrust acceleration"
     )
-    gain_choice = Parameter(GainChoice, description="origin of the exponents")
+    gain_choice = Parameter(GainChoice, description="choice of the exponents")
     gamma = Parameter(1.0, unit="1", minimum=0.0, description="first exponent of the time to go")
-    kr = Parameter(12.0, unit="1", minimum=0.0, description="gain of the position error")
+    kr = Parameter(12.0, unit="1", minimum=0.0, description="gain kr of the position error")
 
     def shape(self, kr: float) -> DescentShape:
         gamma = self.gamma

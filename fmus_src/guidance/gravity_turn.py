@@ -10,22 +10,28 @@ from .informed_guidance import LIMIT_THRUST, InformedGuidance
 
 
 class GravityTurnGuidance(InformedGuidance):
-    """Thrust of constant ratio to gravity against the velocity, to rest at the height of target_position.
+    """Gravity turn: thrust of constant ratio to gravity against the velocity, to rest at the target height.
 
-    It has no place and no velocity to meet: the horizontal part of target_position and target_velocity change
-    nothing, nor do minimum_thrust, thrust_margin and largest_tilt, and it is not for frozen_time_to_go. Over the sphere
-    (gravity_correction) gravity is central less the centrifugal part. With ignition_fraction there is no thrust until
-    the demand is that fraction of maximum_thrust.
-    Status 1 where the demand exceeds maximum_thrust, 3 at or below the target's height or ascending.
+    It meets no place and no velocity: the horizontal part of target_position, target_velocity, minimum_thrust,
+    thrust_margin and largest_tilt have no effect, and frozen_time_to_go is not supported. With gravity_correction
+    gravity is central minus the centrifugal part. With ignition_fraction there is no thrust until the demand is that
+    fraction of maximum_thrust. Status 1 if the demand exceeds maximum_thrust, 3 at or below the target's height or
+    ascending.
+
+    Assumes constant gravity over the rest of the flight.
+
     Source: Citron, Dunin and Meissinger 1964.
-    Assumes gravity that is constant over the rest of the flight.
     """
 
     last_burn = InformedGuidance.last_burn.with_start(2.0)
     ignition_fraction = Parameter(
-        0.0, unit="1", minimum=0.0, maximum=1.0, description="of maximum_thrust, at which thrust begins; 0: at once"
+        0.0,
+        unit="1",
+        minimum=0.0,
+        maximum=1.0,
+        description="demanded thrust at ignition, as a fraction of maximum_thrust; 0: immediate ignition",
     )
-    burning = State(False, description="thrust has begun")
+    burning = State(False, description="true: engine ignited")
 
     def plan_frozen(self) -> bool:
         """Return False: the law has no time to hold."""

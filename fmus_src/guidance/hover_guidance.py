@@ -24,66 +24,81 @@ LARGEST_FACTOR_ERROR = 0.5  # beyond, the engine is not under this command
 
 
 class HoverGuidance(HoverPlan):
-    """Modes: 0 idle, 1 hold at target_position, 2 programme, 3 slow transfer, 4 capture from flight, 5 descend.
+    """Guidance between hovers, with the modes idle, hold, programme, slow transfer, capture and descend.
 
-    A plan starts when active rises, and when plan_number or mode changes; its target is that of then. After its plan
-    every mode holds where the plan ends; mode 5 sinks from target_position with descent_acceleration up to
-    descent_speed. With the plan's reference r, v, thrust over mass A, direction d and d', each cycle:
+    A plan starts when active rises and when plan_number or mode changes, with the target of that instant. After its
+    plan every mode holds the plan's end; mode 5 descends from target_position with descent_acceleration up to
+    descent_speed. With the plan's position r, velocity v, thrust over mass A and direction d, and estimates r_e, v_e:
 
-        f = w^2 e + 2 damping w ev        e = r - position, shortened to largest_error, ev = v - velocity
-        q = (f - (f.d) d)/max(A + f.d, 1 m/s2), shortened to tan largest_tilt, then through a first-order low-pass
-        thrust_acceleration = max(A + f.d, 0.02 m/s2) |d + q|/thrust_factor        thrust_direction = (d + q)/|d + q|
+        e = lim(r - r_e, largest_error)    f = ω^2 e + 2 ζ ω (v - v_e)
+        q = lim((f - (f · d) d)/max(A + f · d, 1), tan(largest_tilt))
+        thrust_acceleration = max(A + f · d, 0.02) |d + q|/thrust_factor    direction = (d + q)/|d + q|
 
-    A is the plan's mean over a cycle that begins engine_lag later. The frequency w is coasting_frequency in a
-    programme, braking_frequency from 1 s before its last burn on, holding_frequency in holds and polynomials.
-    thrust_factor follows measured over commanded thrust. thrust_direction_rate is that of the plan: with the rate of q
-    besides, the loop goes into limit cycles. Frame: landing site. Equations: docs/systems/hover_transfer.md.
-    Source: Huang 2017 for the programme; the rest is ours.
+    Accelerations are in m/s2. q passes a first-order low-pass of tilt_filter. A is the plan's mean over a sample period
+    that begins engine_lag later. The frequency ω is coasting_frequency in a programme, braking_frequency from 1 s
+    before its last burn on, and holding_frequency in holds and polynomials. thrust_factor is estimated from measured
+    and commanded thrust. thrust_direction_rate is the plan's; the rate of q would cause limit cycles.
+
+    Source: Huang 2017 (programme); control law: this repository. See docs/systems/hover_transfer.md.
     """
 
-    engine_lag = Parameter(0.1, unit="s", minimum=0.0, description="time constant of thrust")
-    coasting_frequency = Parameter(0.06, unit="rad/s", minimum=0.0, description="of the loop, in a programme")
-    braking_frequency = Parameter(0.15, unit="rad/s", minimum=0.0, description="of the loop, in its last burn")
-    holding_frequency = Parameter(0.12, unit="rad/s", minimum=0.0, description="of the loop, elsewhere")
-    damping = Parameter(0.9, unit="1", minimum=0.0, description="of the loop")
-    tilt_filter = Parameter(0.7, unit="s", minimum=0.0, description="time constant of the lateral demand; 0: none")
-    largest_error = Parameter(40.0, unit="m", minimum=0.0, description="of position, that is acted on")
-    largest_tilt = Parameter(
-        deg(12.0), unit="rad", minimum=0.0, maximum=1.5, description="off the plan's direction; 12 deg"
+    engine_lag = Parameter(0.1, unit="s", minimum=0.0, description="time constant of the engine's thrust")
+    coasting_frequency = Parameter(
+        0.06, unit="rad/s", minimum=0.0, description="natural frequency of the loop in a programme"
     )
-    estimate_thrust = Parameter(True, description="false: thrust_factor stays 1")
-    descent_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="with which a descent begins")
-    descent_speed = Parameter(1.0, unit="m/s", minimum=1e-3, description="of a descent")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.1, "guidance cycle; 0: every communication point")
+    braking_frequency = Parameter(
+        0.15, unit="rad/s", minimum=0.0, description="natural frequency of the loop in the programme's last burn"
+    )
+    holding_frequency = Parameter(
+        0.12, unit="rad/s", minimum=0.0, description="natural frequency of the loop in holds and polynomials"
+    )
+    damping = Parameter(0.9, unit="1", minimum=0.0, description="damping ratio of the loop")
+    tilt_filter = Parameter(
+        0.7, unit="s", minimum=0.0, description="time constant of the lateral demand's filter; 0: none"
+    )
+    largest_error = Parameter(40.0, unit="m", minimum=0.0, description="bound of the position error acted on")
+    largest_tilt = Parameter(
+        deg(12.0),
+        unit="rad",
+        minimum=0.0,
+        maximum=1.5,
+        description="largest angle of thrust from the plan's direction; 12 deg",
+    )
+    estimate_thrust = Parameter(True, description="true: thrust_factor estimated; false: thrust_factor 1")
+    descent_acceleration = Parameter(
+        0.3, unit="m/s2", minimum=1e-3, description="acceleration at the start of a descent"
+    )
+    descent_speed = Parameter(1.0, unit="m/s", minimum=1e-3, description="speed of a descent")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.1, "sample period of the guidance; 0: every communication point")
     active = landing.ACTIVE.input()
-    mode = Input(HoverMode, start=HoverMode.PROGRAMME, description="a change starts a plan")
+    mode = Input(HoverMode, start=HoverMode.PROGRAMME, description="mode of the guidance; a change starts a plan")
     plan_number = landing.PLAN_NUMBER.input()
     command = Outputs(ThrustCommand, direct=True, thrust_direction=[0.0, 0.0, 1.0], burn_duration=UNLIMITED)
     time_to_go = landing.TIME_TO_GO.output("time left to the end of the plan", direct=True)
-    finished = landing.FINISHED.output("the plan is over", direct=True)
+    finished = landing.FINISHED.output("true: plan completed", direct=True)
     angular_acceleration_feed = landing.ANGULAR_ACCELERATION.output(
-        "of the plan's direction, mean over the next cycle", direct=True
+        "angular acceleration feedforward of the plan's direction, mean over the next sample period", direct=True
     )
     answered_plan = Output(
-        0, direct=True, description="plan_number of the plan that the outputs belong to; idle: of the last one"
+        0, direct=True, description="plan_number of the plan that the outputs follow; in idle mode the last one"
     )
-    plan_time = Output(0.0, unit="s", direct=True, description="since the plan's start")
-    thrust_factor = Output(1.0, unit="1", direct=True, description="estimated thrust over commanded thrust")
-    reference_position = landing.POSITION.output("of the plan, now", direct=True)
-    reference_velocity = landing.VELOCITY.output("of the plan, now", direct=True)
+    plan_time = Output(0.0, unit="s", direct=True, description="time since the start of the plan")
+    thrust_factor = Output(1.0, unit="1", direct=True, description="estimated ratio of actual to commanded thrust")
+    reference_position = landing.POSITION.output("reference position of the plan", direct=True)
+    reference_velocity = landing.VELOCITY.output("reference velocity of the plan", direct=True)
     saturated = Output(
-        False, direct=True, description="the demand is outside the engine's limits, or an error is shortened"
+        False, direct=True, description="true: demand beyond the engine's limits, or position error bounded"
     )
     cycle = State(0.1, unit="s", description="time to the next sample")
-    tilt = State([0.0, 0.0, 0.0], unit="1", frame="landing site", description="lateral demand after its low-pass")
-    elapsed = State(0.1, unit="s", description="time since the last sample, which velocity_increment covers")
+    tilt = State([0.0, 0.0, 0.0], unit="1", frame="landing site", description="filtered lateral demand")
+    elapsed = State(0.1, unit="s", description="time since the last sample, the span of velocity_increment")
     sample_time = State(0.0, unit="s", description="time of the last sample")
-    plan_start = State(0.0, frozen=True, unit="s", description="when the plan started")
+    plan_start = State(0.0, frozen=True, unit="s", description="start time of the plan")
     in_charge = State(False, description="active at the last sample")
-    flown_mode = State(HoverMode, description="of the last plan")
-    engine_thrust = State(0.0, unit="N", description="thrust now, if the engine does as commanded")
-    commanded_thrust = State(0.0, unit="N", description="command within the engine's limits; 0: none")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    flown_mode = State(HoverMode, description="mode of the last plan")
+    engine_thrust = State(0.0, unit="N", description="expected thrust of the engine")
+    commanded_thrust = State(0.0, unit="N", description="thrust command within the engine's limits; 0: none")
+    start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def initialize(self) -> None:
         self.sample_time = self.start_time

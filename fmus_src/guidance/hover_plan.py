@@ -34,50 +34,69 @@ STANDBY_ACCELERATION = 0.5  # m/s2
 
 
 class HoverPlan(Block, interface=True):
-    """A plan to a hover, vertical and at rest, and the thrust that it asks for.
+    """Plan to a hover, upright and at rest, with its thrust.
 
-    Programmes lie in the plane through start and target with the target's vertical; gravity is constant over a plan,
-    the mean of start and target. Plans keep margins of the engine and of the angular acceleration, for control to
-    work with. Frame: landing site. Equations: docs/systems/hover_transfer.md. Source: Huang 2017; in space, ours.
-    Assumes gravity that is uniform over a plan, and a thrust axis that turns with a limited angular acceleration.
+    Programmes lie in the plane through start and target with the target's vertical. Plans keep margins of thrust and
+    angular acceleration for control.
+
+    Frame: landing site.
+
+    Assumes uniform gravity over a plan, the mean of start and target, and a thrust axis of limited angular
+    acceleration.
+
+    Source: Huang 2017, in a plane; in three dimensions this repository. See docs/systems/hover_transfer.md.
     """
 
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter(300.0)
-    maximum_thrust = landing.MAXIMUM_THRUST.parameter(4707.192, "of the engine", minimum=1e-3)
-    minimum_thrust = landing.MINIMUM_THRUST.parameter(313.8128, "of the engine while it burns")
+    maximum_thrust = landing.MAXIMUM_THRUST.parameter(4707.192, "largest thrust of the engine", minimum=1e-3)
+    minimum_thrust = landing.MINIMUM_THRUST.parameter(313.8128, "least thrust of the engine while burning")
     planned_maximum = Parameter(
-        0.9, unit="1", minimum=1e-3, maximum=1.0, description="largest thrust of plans over maximum_thrust"
+        0.9, unit="1", minimum=1e-3, maximum=1.0, description="largest thrust of plans, as a fraction of maximum_thrust"
     )
     planned_minimum = Parameter(
-        0.1, unit="1", minimum=1e-3, maximum=1.0, description="least thrust of plans over maximum_thrust"
+        0.1, unit="1", minimum=1e-3, maximum=1.0, description="least thrust of plans, as a fraction of maximum_thrust"
     )
     planned_angular_acceleration = Parameter(
-        deg(0.7), unit="rad/s2", minimum=1e-5, maximum=1.0, description="of plans; 0.70 deg/s2"
+        deg(0.7),
+        unit="rad/s2",
+        minimum=1e-5,
+        maximum=1.0,
+        description="largest angular acceleration of plans; 0.70 deg/s2",
     )
-    slow_speed = Parameter(4.0, unit="m/s", minimum=1e-3, description="largest of a slow transfer")
-    slow_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="largest of a slow transfer")
+    slow_speed = Parameter(4.0, unit="m/s", minimum=1e-3, description="largest speed of a slow transfer")
+    slow_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="largest acceleration of a slow transfer")
     uniform_gravity = landing.UNIFORM_GRAVITY.parameter()
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter()
-    moon_radius = landing.MOON_RADIUS.parameter(description="from the Moon's centre to the site")
-    target_position = landing.POSITION.input("where to hover")
+    moon_radius = landing.MOON_RADIUS.parameter(description="distance from the Moon's centre to the site")
+    target_position = landing.POSITION.input("target position of the hover")
     position = landing.POSITION.input("estimated position")
     velocity = landing.VELOCITY.input("estimated velocity")
     mass = landing.MASS.input("estimated mass")
-    attitude = landing.DIRECTION.input("measured unit vector of thrust")
-    angular_rate = landing.ANGULAR_RATE.input("measured angular rate")
-    velocity_increment = landing.VELOCITY.input("measured integral of specific force over the last cycle")
+    attitude = landing.DIRECTION.input("measured thrust axis, unit vector")
+    angular_rate = landing.ANGULAR_RATE.input("measured angular rate of the thrust axis")
+    velocity_increment = landing.VELOCITY.input("measured integral of specific force over the last sample period")
     status = Output(HoverStatus, direct=True)
     plan_kind = Output(PlanKind, direct=True)
     predicted_propellant = landing.PREDICTED_PROPELLANT.output(direct=True)
-    programme = Output([0.0] * 5, unit="s", direct=True, description="t2, t5, w, tp, t7 of the programme; 0 where none")
-    origin = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan starts")
-    goal = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan ends")
-    up = State([0.0, 0.0, 1.0], frozen=True, unit="1", frame="landing site", description="vertical of the plan")
-    along = State(
-        [1.0, 0.0, 0.0], frozen=True, unit="1", frame="landing site", description="horizontal towards the target"
+    programme = Output(
+        [0.0] * 5, unit="s", direct=True, description="times t2, t5, w, tp, t7 of the programme; 0: none"
     )
-    plan_gravity = State(0.0, frozen=True, unit="m/s2", description="gravity of the plan")
-    duration = State(0.0, frozen=True, unit="s", description="of the plan")
+    origin = State(
+        [0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="start position of the plan"
+    )
+    goal = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="end position of the plan")
+    up = State(
+        [0.0, 0.0, 1.0], frozen=True, unit="1", frame="landing site", description="vertical of the plan, unit vector"
+    )
+    along = State(
+        [1.0, 0.0, 0.0],
+        frozen=True,
+        unit="1",
+        frame="landing site",
+        description="horizontal direction towards the target, unit vector",
+    )
+    plan_gravity = State(0.0, frozen=True, unit="m/s2", description="uniform gravity of the plan")
+    duration = State(0.0, frozen=True, unit="s", description="duration of the plan")
     vehicle = State(HoverVehicle)
     shape = State(HoverShape)
     transfer = State(Transfer)

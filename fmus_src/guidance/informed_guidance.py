@@ -23,35 +23,45 @@ NEARLY_AGREED = 1e-6  # s, where rounding of long times is what keeps them apart
 class InformedGuidance(TerminalGuidance, interface=True):
     """Terminal guidance with limits of thrust, glide slope and tilt.
 
-    A command that cannot keep a limit is given with status 1, and `limit` is the sum of 1 (thrust), 2 (glide slope),
-    4 (tilt) and 8 (place). The glide slope is a cone with its apex glide_offset below the target:
+    A command that violates a limit has status 1, and `limit` is the sum of 1 (thrust), 2 (glide slope), 4 (tilt) and 8
+    (place). The glide slope is a cone with its apex glide_offset below the target:
 
-        tan(glide_slope) |horizontal offset| <= height above the target + glide_offset
+        tan(glide_slope) |Δr_xy| <= Δr_z + glide_offset
 
-    Frame: landing site. Heights are along z, which the Moon's curvature leaves by x^2/(2 moon_radius).
+    Frame: landing site. Heights are along z, which differs from the sphere by x^2/(2 moon_radius).
     """
 
     terminal_step = TerminalGuidance.terminal_step.with_start(1)
     maximum_thrust = landing.MAXIMUM_THRUST.parameter(minimum=1e-3)
-    minimum_thrust = landing.MINIMUM_THRUST.parameter(510.0, "least thrust while burning; 0: not known")
+    minimum_thrust = landing.MINIMUM_THRUST.parameter(510.0, "least thrust while burning; 0: unknown")
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter()
     thrust_margin = Parameter(
-        0.92, unit="1", minimum=0.1, maximum=1.0, description="largest thrust of plans over maximum_thrust"
+        0.92, unit="1", minimum=0.1, maximum=1.0, description="largest thrust of plans, as a fraction of maximum_thrust"
     )
     glide_slope = Parameter(
-        0.0, unit="rad", minimum=0.0, maximum=deg(85.0), description="least elevation seen from the target; 0: off"
+        0.0,
+        unit="rad",
+        minimum=0.0,
+        maximum=deg(85.0),
+        description="glide slope: least elevation seen from the target; 0: none",
     )
-    glide_offset = Parameter(5.0, unit="m", minimum=0.0, description="depth of the cone's apex below the target")
+    glide_offset = Parameter(5.0, unit="m", minimum=0.0, description="depth of the glide cone's apex below the target")
     largest_tilt = Parameter(
-        deg(180.0), unit="rad", minimum=0.0, maximum=deg(180.0), description="of thrust from z; 180 deg: off"
+        deg(180.0),
+        unit="rad",
+        minimum=0.0,
+        maximum=deg(180.0),
+        description="largest angle of thrust from z; 180 deg: none",
     )
     limit = Output(
-        0, direct=True, description="limits that the plan leaves: sum of 1 thrust, 2 glide slope, 4 tilt, 8 place"
+        0, direct=True, description="limits violated by the plan: sum of 1 thrust, 2 glide slope, 4 tilt, 8 place"
     )
-    glide_margin = Output(0.0, unit="m", direct=True, description="height above the cone of the glide slope")
-    choices = Output(0, direct=True, description="plans made, or times chosen, for this target")
+    glide_margin = Output(0.0, unit="m", direct=True, description="height above the glide cone")
+    choices = Output(0, direct=True, description="number of plans or choices of time for this target")
     predicted_propellant = landing.PREDICTED_PROPELLANT.output(direct=True)
-    predicted_miss = Output(0.0, unit="m", direct=True, description="distance from the target at the end of the plan")
+    predicted_miss = Output(
+        0.0, unit="m", direct=True, description="predicted distance from the target at the end of the plan"
+    )
 
     def exhaust_speed(self) -> float:
         """Return the exhaust speed of the engine (m/s)."""

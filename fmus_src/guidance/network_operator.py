@@ -15,33 +15,31 @@ LEAST_HORIZONTAL_SPEED = 0.5  # m/s; below it the horizontal direction is held
 class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     """Braking by a network operator, down to the hand-over to another guidance.
 
-    The planar law in the plane of position (from the Moon's centre) and velocity: thrust at its
-    angle from the local vertical, against the horizontal velocity. The flight is over at the first
-    sample with less than handover_speed inside the band of altitudes. The command turns by up to
-    1 rad between samples, so direction rates are 0; cycles of at most 0.1 s are assumed.
+    The planar law acts in the plane of position (from the Moon's centre) and velocity. The flight ends at the first
+    sample below handover_speed within the altitude limits. Direction rates are 0; sample periods of at most 0.1 s are
+    suitable.
 
-    time_to_go is the time to lose all but handover_speed with the present thrust and growing thrust
-    acceleration, gravity and the thrust's tilt left out: within 10 % of the truth in the published
-    descents. It is 0 where the vehicle is slow enough and the altitude is not right yet.
+    time_to_go is the time to lose all but handover_speed with the present thrust, within 10 % in the published
+    descents; it is 0 when the vehicle is slow but the altitude is not right.
 
-    Of the slot's parameters the law uses the altitude of target_position, or of a divert, and moon_radius. It
-    has no place or velocity to meet and no model of gravity, so the rest of target_position,
-    target_velocity, gravity, gravity_correction and gravitational_parameter change nothing; nor do
-    terminal_step and last_burn, since the hand-over is a state to reach and not a burn to time, and
-    frozen_time_to_go, since the command does not depend on a time.
-    With a matrix that is no network operator the status is 3 and there is no thrust.
-    Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
+    Of the slot's parameters the law uses the altitude of target_position, or of a divert, and moon_radius; the other
+    parameters of target, gravity, last burn and frozen_time_to_go have no effect. With a matrix that is not a network
+    operator the status is 3 and there is no thrust.
+
+    Source: Diveev, Pupkov and Sofronova 2013. See docs/systems/lunar_descent_2d.md.
     """
 
     target_position = TerminalGuidance.target_position.with_start([0.0, 0.0, 1500.0])
-    specific_impulse = landing.SPECIFIC_IMPULSE.parameter(description="of the engine, for time_to_go")
+    specific_impulse = landing.SPECIFIC_IMPULSE.parameter(description="specific impulse of the engine, for time_to_go")
     # 6 m/s is what a hand-over is judged by; navigation does not know the speed better than 0.1 m/s
     handover_speed = landing.HANDOVER_SPEED.parameter()
     handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter()
     handover_altitude_high = landing.HANDOVER_ALTITUDE_HIGH.parameter()
-    final_altitude = State(0.0, unit="m", description="hf, the target's altitude")
+    final_altitude = State(0.0, unit="m", description="target altitude hf")
     altitude = State(0.0, unit="m", description="altitude")
-    forward = State([1.0, 0.0, 0.0], unit="1", frame="landing site", description="horizontal direction of flight")
+    forward = State(
+        [1.0, 0.0, 0.0], unit="1", frame="landing site", description="horizontal direction of flight, unit vector"
+    )
 
     def begin(self, time: float) -> None:
         self.final_altitude = altitude_of(self.aim_position, self.moon_radius)

@@ -33,12 +33,17 @@ PUBLISHED_MATRIX = (
 class NetworkOperatorLaw(Block, interface=True):
     """Thrust and its angle from path angle and altitude, by a network operator of 16 nodes.
 
-    Sources: z1 = pi + th, z2 = q1, z3 = (hf - h)/h0, z4 = q2, z5 = th, z6 = q3, with th the angle
-    from the local vertical to the velocity, h the altitude, hf the final and h0 the reference
-    altitude. Outputs: z15, the angle from the local vertical to the thrust (kept in 0 to pi rad),
-    and z16, the thrust above nominal (kgf, kept within thrust_variation).
-    Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
-    Assumes that altitude and path angle are enough to brake by: neither range nor cross-range is in the law.
+    With the angle θ of the velocity from the local vertical, altitude h, final altitude h_f and reference altitude h_0
+    the sources are
+
+        z_1 = π + θ    z_2 = q_1    z_3 = (h_f - h)/h_0    z_4 = q_2    z_5 = θ    z_6 = q_3
+
+    Outputs are z_15, the angle of thrust from the local vertical within 0 to π, and z_16, the thrust above
+    nominal_thrust in kgf within thrust_variation.
+
+    Assumes that altitude and path angle suffice: range and cross-range are not part of the law.
+
+    Source: Diveev, Pupkov and Sofronova 2013. See docs/systems/lunar_descent_2d.md.
     """
 
     matrix = Parameter(
@@ -47,18 +52,25 @@ class NetworkOperatorLaw(Block, interface=True):
         minimum=0,
         maximum=23,
         fixed="its edges are decoded once",
-        description="network operator: unary operations above the diagonal, binary ones on it",
+        description="network operator matrix: unary operations above the diagonal, binary ones on it",
     )
-    q = Parameter([1.50049, 13.54590, 12.96753], unit="1", description="parameters of the law")
+    q = Parameter([1.50049, 13.54590, 12.96753], unit="1", description="parameters q of the law")
     exp_saturation = Parameter(
-        1, minimum=0, maximum=1, description="exp beyond 1e8 is 0: 1e8; 1: ln 1e8, a slip that the published law needs"
+        1,
+        minimum=0,
+        maximum=1,
+        description="argument from which exp saturates: 1e8; 1: ln 1e8, the slip that the published law needs",
     )
-    reference_altitude = Parameter(18148.0, unit="m", minimum=1.0, description="h0, which altitudes are scaled by")
-    nominal_thrust = Parameter(4314.926, unit="N", minimum=0.0, description="thrust where z16 is 0 (440 kgf)")
-    thrust_variation = Parameter(784.532, unit="N", minimum=0.0, description="most above or below it (80 kgf)")
-    nodes = State([0.0] * SIZE, description="values of the nodes")
-    edges = State([0] * MAXIMUM_EDGES, description="places of the edges in the matrix, in row order")
-    edge_count = State(0, description="edges in use; -1: the matrix is no network operator")
+    reference_altitude = Parameter(
+        18148.0, unit="m", minimum=1.0, description="reference altitude h0, by which altitudes are scaled"
+    )
+    nominal_thrust = Parameter(4314.926, unit="N", minimum=0.0, description="thrust at z16 = 0 (440 kgf)")
+    thrust_variation = Parameter(
+        784.532, unit="N", minimum=0.0, description="largest deviation from nominal_thrust (80 kgf)"
+    )
+    nodes = State([0.0] * SIZE, description="values of the network's nodes")
+    edges = State([0] * MAXIMUM_EDGES, description="positions of the edges in the matrix, in row order")
+    edge_count = State(0, description="number of edges; -1: not a network operator")
 
     def decode_law(self) -> None:
         """Find the edges, once."""

@@ -7,25 +7,26 @@ from .network_operator_law import NetworkOperatorLaw
 
 
 class LawStatus(Enumeration):
-    """Presence of a law."""
+    """Status of the law."""
 
     GOOD = member("good")
-    BAD_LAW = member("the matrix is no network operator: no thrust")
+    BAD_LAW = member("matrix is not a network operator, no thrust")
 
 
 class PlanarNetworkOperator(NetworkOperatorLaw):
-    """Thrust and its angle for a descent in a plane, by a network operator.
+    """Thrust and thrust angle of a planar descent by a network operator.
 
-    Angles are from the local vertical, with the sign of planar_moon_lander's. With a matrix that is
-    no network operator the thrust is 0 and the status 1. The law has no end of its own: it works
-    down to final_altitude and a few m/s, where another guidance has to take over.
-    Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
+    Angles are from the local vertical, with the sign of planar_moon_lander's. With a matrix that is not a network
+    operator the thrust is 0 and the status 1. The law has no end: it guides to final_altitude and a few m/s, where
+    another guidance takes over.
+
+    Source: Diveev, Pupkov and Sofronova 2013. See docs/systems/lunar_descent_2d.md.
     """
 
-    final_altitude = Parameter(1500.0, unit="m", description="hf, altitude at arrival")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.0, "guidance cycle; 0: every communication point")
+    final_altitude = Parameter(1500.0, unit="m", description="final altitude hf")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.0, "sample period of the guidance; 0: every communication point")
     measured_path_angle = landing.MEASURED_PATH_ANGLE.input()
-    measured_altitude = landing.MEASURED_ALTITUDE.input("altitude", start=18148.0)
+    measured_altitude = landing.MEASURED_ALTITUDE.input("measured altitude", start=18148.0)
     thrust_angle = landing.THRUST_ANGLE.output(direct=True)
     thrust = landing.THRUST.output(direct=True)
     status = Output(LawStatus, direct=True)

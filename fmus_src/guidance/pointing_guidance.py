@@ -16,52 +16,72 @@ PARALLEL = 1e-3  # sine of the angle below which two directions are parallel
 
 
 class PointingStatus(Enumeration):
-    """Quality of the reference."""
+    """Validity of the reference."""
 
     GOOD = member("good")
     OLD_ORBIT = member("last sample of the orbit older than 5 s, carried on")
-    DEGENERATE = member("directions parallel, last reference stays")
-    NOT_FINITE = member("an input not finite, last reference stays")
+    DEGENERATE = member("directions parallel, last reference held")
+    NOT_FINITE = member("an input not finite, last reference held")
 
 
 class PointingGuidance(Block):
     """Reference attitude from the estimated orbit and the direction to the Sun.
 
-    NADIR: axes of the local vertical and horizontal, z down, y against the orbit normal, then ``offset``; angular
-    velocity (r x v)/r^2 + r (a.(r x v))/|r x v|^2 with a the acceleration by the oblateness, angular acceleration
-    -2 (r.v)/r^2 of it. SUN: panel_normal towards the Sun, secondary as near to the orbit normal as it can be, at rest.
-    INERTIAL: inertial_quaternion, at rest.
-    A sample of the orbit is carried from its sample_time to now, and on from there, by r + v h + g h^2/2, v + g h.
-    Frames: inertial; reference (axes of the reference). Equations: docs/systems/earth_pointing.md. Assumes that the
-    axis of the body is the inertial z; the angular acceleration leaves the change of the oblateness's term out.
-    Source: Wertz 1978, section 16; Markley and Crassidis 2014, section 5.1.
+    NADIR: z to the body's centre, y against the orbit normal, rotated by ``offset``; with the acceleration a of J2:
+
+        ω_r = (r × v)/|r|^2 + (a · (r × v)) r/|r × v|^2    ω_r' = -2 (r · v) ω_r/|r|^2
+
+    SUN: panel_normal to the Sun, secondary as near as possible to the orbit normal, at rest. INERTIAL:
+    inertial_quaternion, at rest. An orbit sample is propagated from its sample_time to the present instant by
+
+        r + v h + g h^2/2    v + g h
+
+    Frames: inertial; axes of the reference.
+
+    Assumes a body that rotates about the inertial z axis, and neglects the change of the J2 term in ω_r'.
+
+    Source: Wertz 1978, section 16; Markley and Crassidis 2014, section 5.1. See docs/systems/earth_pointing.md.
     """
 
     default_step = 0.25
 
-    gravitational_parameter = Parameter(3.986004415e14, unit="m3/s2", minimum=1.0, description="of the body")
-    oblateness = Parameter(1.0826356e-3, unit="1", description="J2 of the body")
-    radius = Parameter(6378136.3, unit="m", minimum=1.0, description="of the body, for J2")
-    offset = Parameter([1.0, 0.0, 0.0, 0.0], unit="1", description="body against the local axes in NADIR, scalar first")
-    panel_normal = Parameter([0.0, -1.0, 0.0], unit="1", frame="body", description="towards the Sun in SUN")
-    secondary = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="towards the orbit normal in SUN")
-    inertial_quaternion = Parameter(
-        [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude in INERTIAL, from body to inertial, scalar first"
+    gravitational_parameter = Parameter(
+        3.986004415e14, unit="m3/s2", minimum=1.0, description="gravitational parameter of the central body"
     )
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "guidance cycle; 0: every communication point")
+    oblateness = Parameter(1.0826356e-3, unit="1", description="oblateness J2 of the central body")
+    radius = Parameter(6378136.3, unit="m", minimum=1.0, description="equatorial radius of the central body, for J2")
+    offset = Parameter(
+        [1.0, 0.0, 0.0, 0.0],
+        unit="1",
+        description="attitude quaternion of the body relative to the local axes in NADIR, scalar first",
+    )
+    panel_normal = Parameter(
+        [0.0, -1.0, 0.0], unit="1", frame="body", description="axis pointed to the Sun in SUN, body"
+    )
+    secondary = Parameter(
+        [0.0, 0.0, 1.0], unit="1", frame="body", description="axis pointed near the orbit normal in SUN, body"
+    )
+    inertial_quaternion = Parameter(
+        [1.0, 0.0, 0.0, 0.0],
+        unit="1",
+        description="target attitude in INERTIAL, quaternion from body to inertial, scalar first",
+    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.25, "sample period of the guidance; 0: every communication point"
+    )
     mode = Input(PointingMode)
     estimated_position = inertial.POSITION.input("position of the last sample", start=[6878137.0, 0.0, 0.0])
     estimated_velocity = inertial.VELOCITY.input("velocity of the last sample", start=[0.0, -980.47, 7549.2])
     sample_time = Input(0.0, unit="s", description="time of the last sample of the orbit")
-    orbit_count = Input(0, description="samples of the orbit so far; a change signals a new one")
+    orbit_count = Input(0, description="number of orbit samples so far; a change signals a new one")
     sun_direction = SpaceEnvironment.sun_direction.input()
     reference = Outputs(AttitudeReference, direct=True)
     status = Output(PointingStatus, direct=True)
     counted = State(0, description="orbit_count of the last sample")
-    position = inertial.POSITION.state("carried to now")
-    velocity = inertial.VELOCITY.state("carried to now")
-    sampled_at = State(0.0, unit="s", description="time of the last sample of the orbit")
-    last_time = State(0.0, unit="s", description="time of the last cycle")
+    position = inertial.POSITION.state("estimated position propagated to this instant")
+    velocity = inertial.VELOCITY.state("estimated velocity propagated to this instant")
+    sampled_at = State(0.0, unit="s", description="time of the last orbit sample")
+    last_time = State(0.0, unit="s", description="time of the last evaluation")
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:

@@ -31,32 +31,39 @@ class TimeChoice(Enumeration):
 
 
 class ProfileCost(Record):
-    """Cost of a profile: impulse, and how far limits are exceeded."""
+    """Cost of a profile: impulse and violations of limits."""
 
-    objective = Field(unit="m/s", description="impulse with prices on limits exceeded")
+    objective = Field(unit="m/s", description="impulse with penalties on violated limits")
     impulse = Field(unit="m/s", description="integral of thrust acceleration")
-    load = Field(unit="1", description="largest thrust over maximum_thrust")
-    depth = Field(unit="m", description="deepest below the glide slope, 0 if kept")
+    load = Field(unit="1", description="largest thrust, as a fraction of maximum_thrust")
+    depth = Field(unit="m", description="largest depth below the glide slope; 0: none")
     tilt_excess = Field(
-        unit="1", description="largest cosine of largest_tilt less that of the thrust's tilt, 0 or more"
+        unit="1", description="largest violation of the tilt limit, as a difference of cosines; 0: none"
     )
 
 
 class PolynomialGuidance(InformedGuidance, interface=True):
-    """Thrust acceleration a_f + d1 t^gamma + d2 t^gamma_2 over the time to go t, with a time that is chosen.
+    """Thrust acceleration of two powers of the time to go, with an optimised time of flight.
 
-    The time is that of least propellant with thrust_margin maximum_thrust as the largest thrust, or that of least
-    effort; it is chosen at the start and counted down. Every 2 s, while more than 10 s are left, the largest thrust of
-    the rest is compared with maximum_thrust, and another time is chosen where it is exceeded, 30 times at most. What
-    then still exceeds a limit is flown with status 1. Source: Lu 2019 and 2020 for the law; the choice of time is ours.
+        a = a_f + d_1 t^γ + d_2 t^γ_2    t = time_to_go
+
+    The coefficients meet position and velocity at the target. The time is that of least propellant with thrust_margin
+    maximum_thrust as the largest thrust, or that of least effort; it is chosen at the start and counted down. Every 2
+    s, above 10 s to go, the largest thrust of the rest is compared with maximum_thrust, and another time is chosen if
+    it is exceeded, 30 times at most. Remaining violations are flown with status 1.
+
     Assumes constant gravity or gravity_correction, and thrust limits without a dead band.
+
+    Source: Lu 2019 and 2020; choice of time: this repository.
     """
 
     time_choice = Parameter(TimeChoice, description="objective of the time to go")
-    time_weight = Parameter(0.0, unit="m2/s4", minimum=0.0, description="of the time, with least effort")
-    chosen = State(False, description="the time to go has been chosen")
-    checked_time = State(0.0, unit="s", description="time to go at the last check of the thrust")
-    flown_kr = State(6.0, unit="1", description="gain of the position error that is flown")
+    time_weight = Parameter(
+        0.0, unit="m2/s4", minimum=0.0, description="weight of the time in the least-effort objective"
+    )
+    chosen = State(False, description="true: time to go chosen")
+    checked_time = State(0.0, unit="s", description="time to go at the last check of thrust")
+    flown_kr = State(6.0, unit="1", description="gain kr of the position error in use")
 
     def shape(self, kr: float) -> DescentShape:
         """Return the numbers of the law with the gain ``kr``; here those of ZEM/ZEV, for kr 6."""

@@ -21,20 +21,21 @@ FIRST_THRUST = 0.85  # of the largest
 
 
 class PoweredGuidance(ZemZevGuidance):
-    """Linear-tangent steering with a constant thrust that solves for the range, and ZEM/ZEV near the end.
+    """Linear-tangent steering with a constant thrust that meets the range, and ZEM/ZEV near the end.
 
-    Three iterations a cycle. Above end_time to go it commands the constant thrust that meets position and velocity;
-    below it the thrust acceleration is linear in time, whose time is that of the hand-over, or another one where its
-    thrust exceeds thrust_margin of the largest. Status 1 where the thrust is outside minimum_thrust and
-    maximum_thrust, at which it is then flown; 2 where an iteration has no solution; 3 at the start where the first
-    iterations do not converge, as in hovering descents. With frozen_time_to_go the law is ZEM/ZEV throughout.
-    Source: Jaggers 1977; McHenry et al. 1979; the thrust as an unknown is ours.
-    Assumes constant gravity or gravity_correction, and an exhaust speed that is known.
+    There are three iterations per sample. Above end_time the law commands the constant thrust that meets position and
+    velocity; below it ZEM/ZEV with the time of the hand-over, or another one if its thrust exceeds thrust_margin of the
+    largest. Status 1: thrust outside minimum_thrust and maximum_thrust, limited. Status 2: an iteration without
+    solution. Status 3: no convergence at the start, as in hovering descents. With frozen_time_to_go the law is ZEM/ZEV.
+
+    Assumes constant gravity or gravity_correction, and a known exhaust speed.
+
+    Source: Jaggers 1977; McHenry et al. 1979; thrust as an unknown: this repository.
     """
 
-    end_time = Parameter(40.0, unit="s", minimum=0.0, description="time to go from which ZEM/ZEV commands")
+    end_time = Parameter(40.0, unit="s", minimum=0.0, description="time to go below which ZEM/ZEV guides")
     steering = State(SteeringState)
-    handed_over = State(False, description="ZEM/ZEV commands")
+    handed_over = State(False, description="true: ZEM/ZEV guides")
 
     def forget(self) -> None:
         self.chosen = False

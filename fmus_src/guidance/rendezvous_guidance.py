@@ -13,7 +13,7 @@ from ..mathlib.vectors import norm, vector
 
 
 class RendezvousStatus(Enumeration):
-    """Presence of a plan."""
+    """Validity of the plan."""
 
     GOOD = member("good")
     NO_PLAN = member("no plan: phases out of order")
@@ -30,64 +30,93 @@ class RendezvousPhase(Enumeration, first=1):
 
 
 class RendezvousGuidance(Block):
-    """Planned motion of a free-flying robot, from rest to holding a place beside a passive rotating object.
+    """Planned motion of a free-flying robot from rest to holding a place in front of a passive rotating object.
 
-    1. Until turn_start: constant acceleration from rest at the origin, body axes inertial. 2. Until turn_end:
-    coast, and turn the camera axis (body x) along the object's spin_axis about the axis perpendicular
-    to both, by a polynomial of degree 6. 3. Until arrival_time: a spline of spline_degree to the place
-    final_distance behind the object's centre along spin_axis, with the object's velocity; accelerations are
-    0 at both ends. 4. Hold that place. The acceleration of phase 1 is the one for which the velocity of
-    phase 3 goes from its first to its last value on a straight line without overshoot. The
-    object moves as target_position and target_velocity say; nothing is measured here. Times count from the start.
+    Phase 1, until turn_start: constant acceleration from rest at the origin, body axes inertial. Phase 2, until
+    turn_end: coast, and a turn of the camera axis (body x) along the object's spin_axis, about the axis perpendicular
+    to both. Phase 3, until arrival_time: a spline to final_distance from the object's centre against spin_axis, at the
+    object's velocity. Phase 4: hold.
 
-    The block is the clock of translation control, too: translation_count grows by one at every tick, at
-    first every slow_period (taken as a whole multiple of fast_period), and from turn_end on at every
-    multiple of fast_period. What is commanded at a tick acts from delay_fraction times the period later until the
-    next command does; planned_acceleration is the mean over that time, the first one from the start on.
-    Phases out of order make no plan: status 1, and the robot is to stay at rest.
-    Frames: inertial; body of the plan. Equations: docs/systems/robot_rendezvous.md.
-    Source: Somov, Butyrin, Somov and Somova, see there.
-    Assumes an object that drifts uniformly about a known spin axis, and a robot at rest at the origin at the start.
+        φ = φ_f (20 s^3 - 45 s^4 + 36 s^5 - 10 s^6)    T^2 r'' = s (1 - s) (a + b s)
+
+    with the angle φ of the turn and the fraction s of the phase's time T. The acceleration of phase 1 is that for which
+    the velocity of phase 3 changes along a straight line without overshoot.
+
+    The block is also the clock of translation control: translation_count grows at each of its samples, every
+    slow_period at first (a whole multiple of fast_period), and from turn_end on at every multiple of fast_period. A
+    command acts from delay_fraction of the period later until the next one; planned_acceleration is the mean over that
+    time. Phases out of order give no plan: status 1, and the robot stays at rest.
+
+    Frames: inertial; body of the plan.
+
+    Assumes an object in uniform motion with a known spin axis, and a robot at rest at the origin at the start.
+
+    Source: Somov, Butyrin, Somov and Somova. See docs/theory/rendezvous.md.
     """
 
     default_step = 0.125
 
     target_position = inertial.POSITION.parameter(
-        [469.8463103929542, 171.01007166283436, 0.0], "the object's centre at the start, as known"
+        [469.8463103929542, 171.01007166283436, 0.0], "known position of the object's centre at the start"
     )
-    target_velocity = inertial.VELOCITY.parameter([-0.05, 0.05, 0.075], "of the object, as known")
+    target_velocity = inertial.VELOCITY.parameter([-0.05, 0.05, 0.075], "known velocity of the object")
     spin_axis = robot.SPIN_AXIS.parameter()
-    turn_start = Parameter(1420.0, unit="s", minimum=0.0, description="end of the acceleration")
-    turn_end = Parameter(1520.0, unit="s", minimum=0.0, description="end of the turn")
+    turn_start = Parameter(1420.0, unit="s", minimum=0.0, description="end of the acceleration, start of the turn")
+    turn_end = Parameter(1520.0, unit="s", minimum=0.0, description="end of the turn, start of the spline")
     arrival_time = Parameter(4250.0, unit="s", minimum=0.0, description="end of the spline")
-    final_distance = Parameter(30.0, unit="m", minimum=0.0, description="from the object's centre, against spin_axis")
-    spline_degree = Parameter(5, minimum=5, maximum=6, description="6: without jerk at the end, too")
-    slow_period = Parameter(8.0, unit="s", minimum=1e-3, description="of translation control until turn_end")
-    fast_period = Parameter(4.0, unit="s", minimum=1e-3, description="of translation control from then on")
-    delay_fraction = robot.DELAY_FRACTION.parameter()
-    attitude_period = Parameter(0.25, unit="s", minimum=0.0, description="of attitude control")
-    planned_position = inertial.POSITION.output("of the robot")
-    planned_velocity = inertial.VELOCITY.output("of the robot")
-    planned_acceleration = inertial.ACCELERATION.output("mean over the time in which the last tick's force acts")
-    planned_relative_position = inertial.POSITION.output("from the robot to the object's centre")
-    planned_quaternion = robot.PLANNED_QUATERNION.output("from body to inertial, scalar first")
-    planned_angular_velocity = body.ANGULAR_VELOCITY.output("of the plan")
-    planned_angular_acceleration = body.ANGULAR_ACCELERATION.output("of the plan, half an attitude_period later")
-    phase = Output(RendezvousPhase)
-    translation_period = Output(8.0, unit="s", description="of translation control, from the last tick on")
-    translation_count = robot.TRANSLATION_COUNT.output("ticks of translation control so far; a change tells a new one")
-    status = Output(RendezvousStatus)
-    start_time = State(0.0, unit="s", description="start of the flight")
-    acceleration = State([0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="of phase 1")
-    splines = State(
-        [0.0] * 21, columns=7, unit="m", frame="inertial", description="coefficients of phase 3, an axis in each row"
+    final_distance = Parameter(
+        30.0, unit="m", minimum=0.0, description="final distance from the object's centre, against spin_axis"
     )
-    turn_axis = State([0.0, 0.0, 0.0], unit="1", description="of the turn, the same in inertial and body axes")
-    turn_polynomial = State([0.0] * 7, unit="rad", description="coefficients of the angle of the turn")
-    place = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="where to be at arrival_time")
-    next_tick = State(0, description="when translation control ticks next, in fast periods")
+    spline_degree = Parameter(
+        5, minimum=5, maximum=6, description="degree of the spline; 6: also without jerk at the end"
+    )
+    slow_period = Parameter(
+        8.0, unit="s", minimum=1e-3, description="sample period of translation control until turn_end"
+    )
+    fast_period = Parameter(
+        4.0, unit="s", minimum=1e-3, description="sample period of translation control from turn_end on"
+    )
+    delay_fraction = robot.DELAY_FRACTION.parameter()
+    attitude_period = Parameter(0.25, unit="s", minimum=0.0, description="sample period of attitude control")
+    planned_position = inertial.POSITION.output("planned position of the robot")
+    planned_velocity = inertial.VELOCITY.output("planned velocity of the robot")
+    planned_acceleration = inertial.ACCELERATION.output(
+        "planned acceleration, mean over the time in which the last sample's force acts"
+    )
+    planned_relative_position = inertial.POSITION.output("planned vector from the robot to the object's centre")
+    planned_quaternion = robot.PLANNED_QUATERNION.output(
+        "planned attitude quaternion from body to inertial, scalar first"
+    )
+    planned_angular_velocity = body.ANGULAR_VELOCITY.output("planned angular velocity")
+    planned_angular_acceleration = body.ANGULAR_ACCELERATION.output(
+        "planned angular acceleration half an attitude_period ahead"
+    )
+    phase = Output(RendezvousPhase)
+    translation_period = Output(
+        8.0, unit="s", description="sample period of translation control from the last sample on"
+    )
+    translation_count = robot.TRANSLATION_COUNT.output(
+        "number of translation control samples so far; a change signals a new one"
+    )
+    status = Output(RendezvousStatus)
+    start_time = State(0.0, unit="s", description="start time of the simulation")
+    acceleration = State([0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="acceleration of the first phase")
+    splines = State(
+        [0.0] * 21,
+        columns=7,
+        unit="m",
+        frame="inertial",
+        description="spline coefficients of the third phase, one axis per row",
+    )
+    turn_axis = State([0.0, 0.0, 0.0], unit="1", description="axis of the turn, equal in inertial and body axes")
+    turn_polynomial = State([0.0] * 7, unit="rad", description="coefficients of the turn's angle")
+    place = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="planned position at arrival_time")
+    next_tick = State(0, description="next sample of translation control, in fast periods")
     granted_velocity = State(
-        [0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="planned when the last tick's force ends"
+        [0.0, 0.0, 0.0],
+        unit="m/s",
+        frame="inertial",
+        description="planned velocity at the end of the last sample's force",
     )
 
     def initialize(self) -> None:

@@ -6,22 +6,21 @@ from .rendezvous_guidance import RendezvousGuidance, RendezvousStatus
 
 
 class RendezvousGuidanceJerkLimited(RendezvousGuidance):
-    """The same plan, with a turn from rest to rest in the least time within three limits instead of the polynomial.
+    """Rendezvous plan with a rest-to-rest turn of least time within limits of rate, acceleration and jerk.
 
-    It begins at turn_start and is over before turn_end, until which the robot keeps its attitude. The default limits
-    are below the polynomial's largest rate, acceleration and jerk (0.0461, 1.81e-3, 2.67e-4), its rate by a third.
-    Where it takes longer than its phase there is no plan: status 2, and the robot is to stay at rest.
-    Equations: docs/systems/satellite_pointing.md. Source: Biagiotti and Melchiorri 2008, section 3.4.
+    The turn begins at turn_start and ends before turn_end, until which the robot keeps its attitude. The default limits
+    are below the polynomial's largest rate, acceleration and jerk (0.0461, 1.81e-3, 2.67e-4). A turn longer than its
+    phase gives no plan: status 2, and the robot stays at rest.
+
+    Source: Biagiotti and Melchiorri 2008, section 3.4. See docs/systems/satellite_pointing.md.
     """
 
-    turn_rate_limit = Parameter(0.03, unit="rad/s", minimum=1e-9, description="largest rate of the turn")
+    turn_rate_limit = Parameter(0.03, unit="rad/s", minimum=1e-9, description="largest angular rate of the turn")
     turn_acceleration_limit = Parameter(
         1.8e-3, unit="rad/s2", minimum=1e-12, description="largest angular acceleration of the turn"
     )
-    turn_jerk_limit = Parameter(
-        2.6e-4, unit="rad/s3", minimum=1e-15, description="largest derivative of the acceleration"
-    )
-    turn_duration = Output(0.0, unit="s", description="of the turn")
+    turn_jerk_limit = Parameter(2.6e-4, unit="rad/s3", minimum=1e-15, description="largest angular jerk of the turn")
+    turn_duration = Output(0.0, unit="s", description="duration of the turn")
     turn_profile = State(RateProfile)
 
     def plan_turn(self, angle: float) -> None:

@@ -6,10 +6,15 @@ from .slew_guidance import SlewGuidance, SlewProgress
 
 
 class SlewBangCoast(SlewGuidance):
-    """Full acceleration, coast at rate_limit, full deceleration: the shortest turn within both limits.
+    """Bang-coast-bang turn: full acceleration, coast at rate_limit, full deceleration, in least time.
 
-    With the angle a, the rate w and the acceleration u: a/w + w/u, and 2 sqrt(a/u) where w is not reached
-    (a < w^2/u). The acceleration jumps three or four times, which rouses flexible modes.
+    With the angle θ, rate_limit w and acceleration_limit u the duration is
+
+        T = θ/w + w/u    if θ >= w^2/u
+        T = 2 sqrt(θ/u)    if θ < w^2/u
+
+    The acceleration is discontinuous, which excites flexible modes.
+
     Source: Wie 1998, section 7.
     """
 

@@ -22,26 +22,33 @@ class SlewPhase(Enumeration):
     WAITING = member("waiting")
     SLEWING = member("slewing")
     HOLDING = member("holding")
-    NO_ATTITUDE = member("no attitude: a quaternion shorter than 0.5, nothing planned")
+    NO_ATTITUDE = member("no attitude: quaternion shorter than 0.5, nothing planned")
 
 
 class SlewProgress(Record):
     """Progress of a slew."""
 
-    angle = Field(unit="rad", description="turned so far")
-    rate = Field(unit="rad/s", description="its rate")
+    angle = Field(unit="rad", description="angle turned so far")
+    rate = Field(unit="rad/s", description="rate of the angle")
 
 
 class SlewGuidance(Block, interface=True):
-    """Reference of a turn about one axis (the eigenaxis) from the first estimated attitude to the target, at rest both.
+    """Reference of a rest-to-rest turn about the eigenaxis, from the first estimated attitude to the target.
 
-    The axis e and the angle are those of the shorter rotation from start to target: the reference is start * rotation
-    (angle e), its angular velocity rate e, both in axes of its body, in which e stays. It waits until slew_start. The
-    angular acceleration is the mean over the sample_period that follows, so that a torque in steps meets the rate.
-    Without an estimated and a target attitude the reference is no attitude either; times count from the first on.
-    A guidance writes `plan`, which sets duration from slew_angle, and `follow`, which sets progress within it.
-    Equations: docs/systems/satellite_pointing.md. Source: Wie 1998, section 7.
+    With the eigenaxis e of the shorter rotation and the angle θ of the profile:
+
+        q_r = q_0 (cos(θ/2), e sin(θ/2))    ω_r = θ' e
+
+    The turn begins at slew_start. The angular acceleration is the mean over the next sample_period, so that piecewise
+    constant torque reproduces the rate. Without an estimated and a target attitude there is no reference; times count
+    from the first on. A guidance defines `plan`, which sets duration from slew_angle, and `follow`, which sets
+    progress.
+
+    Frames: inertial; axes of the reference.
+
     Assumes a satellite at rest at the start.
+
+    Source: Wie 1998, section 7. See docs/systems/satellite_pointing.md.
     """
 
     to_write = ("plan", "follow")
@@ -49,20 +56,26 @@ class SlewGuidance(Block, interface=True):
     default_step = 0.125
 
     target_quaternion = Parameter(
-        [1.0, 0.0, 0.0, 0.0], unit="1", description="target attitude, from body to inertial, scalar first"
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="target attitude quaternion from body to inertial, scalar first"
     )
-    slew_start = Parameter(20.0, unit="s", minimum=0.0, description="when the turn begins, after the flight's start")
-    rate_limit = Parameter(0.02, unit="rad/s", minimum=1e-9, description="largest rate of the turn")
-    acceleration_limit = Parameter(1e-3, unit="rad/s2", minimum=1e-12, description="largest angular acceleration")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "guidance cycle; 0: every communication point")
+    slew_start = Parameter(
+        20.0, unit="s", minimum=0.0, description="start of the turn, after the start of the simulation"
+    )
+    rate_limit = Parameter(0.02, unit="rad/s", minimum=1e-9, description="largest angular rate of the turn")
+    acceleration_limit = Parameter(
+        1e-3, unit="rad/s2", minimum=1e-12, description="largest angular acceleration of the turn"
+    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.125, "sample period of the guidance; 0: every communication point"
+    )
     estimated_quaternion = robot.QUATERNION.input()
     reference = Outputs(AttitudeReference, direct=True)
     slew_angle = Output(0.0, unit="rad", direct=True, description="angle of the turn")
-    duration = Output(0.0, unit="s", direct=True, description="of the turn")
+    duration = Output(0.0, unit="s", direct=True, description="duration of the turn")
     phase = Output(SlewPhase, direct=True)
     start_time = sampling.START_TIME.state()
-    start_quaternion = robot.QUATERNION.state("attitude at the start of the turn, of length one")
-    eigenaxis = State([0.0, 0.0, 0.0], unit="1", frame="body", description="axis of the turn, or 0")
+    start_quaternion = robot.QUATERNION.state("normalised attitude quaternion at the start of the turn")
+    eigenaxis = State([0.0, 0.0, 0.0], unit="1", frame="body", description="eigenaxis of the turn; 0: none")
     progress = State(SlewProgress)
 
     def plan(self) -> None:

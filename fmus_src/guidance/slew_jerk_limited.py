@@ -20,38 +20,49 @@ class SlewStatus(Enumeration):
 
 
 class SlewLeg(Record):
-    """A rotation about an axis that stays in the body."""
+    """Rotation about a body-fixed axis."""
 
-    quaternion = Field(Vector4, unit="1", description="attitude at its start, body to inertial, scalar first")
-    axis = Field(Vector3, unit="1", frame="body", description="of the rotation, or 0")
-    profile = Field(RateProfile, description="angle over time")
+    quaternion = Field(
+        Vector4, unit="1", description="attitude quaternion at the start, from body to inertial, scalar first"
+    )
+    axis = Field(Vector3, unit="1", frame="body", description="rotation axis, unit vector; 0: none")
+    profile = Field(RateProfile, description="profile of the angle over time")
 
 
 class SlewJerkLimited(SlewGuidance):
-    """A turn of least time within limits of rate, acceleration and jerk, from one angular velocity to another.
+    """Turn of least time within limits of rate, acceleration and jerk, from one angular velocity to another.
 
-    Where both angular velocities lie along the eigenaxis, as at rest, the turn is about it and no other motion about
-    it is faster; the sense and whole turns are those of least time. Otherwise there are three elementary rotations,
-    each of least time: the first rate is stopped about its axis, the attitude turned the shorter way, the last rate
-    reached about its axis. Rate, acceleration and jerk are within the limits in size, but a faster turn exists.
-    Until slew_start the reference turns at start_angular_velocity from the first estimated attitude; after the end, at
-    which it is at the target attitude, at end_angular_velocity. Accelerations are 0 at both ends, the jerk is not.
-    Beyond rate_limit a rate at an end is infeasible, within it each turn is feasible: without a plan (status 1) the
-    reference stays at the first estimated attitude, at rest.
-    Equations: docs/systems/satellite_pointing.md.
+    If both angular velocities lie along the eigenaxis, as at rest, the turn is about it, with the sense and whole turns
+    of least time. Otherwise three elementary rotations of least time follow each other: the first rate is stopped about
+    its axis, the attitude turned the shorter way, the last rate reached about its axis. The limits hold in magnitude,
+    but a faster turn exists. A change Δ of rate within limits A and J of acceleration and jerk takes
+
+        T(Δ) = Δ/A + A/J    if Δ >= A^2/J
+        T(Δ) = 2 sqrt(Δ/J)    if Δ < A^2/J
+
+    Until slew_start the reference rotates at start_angular_velocity from the first estimated attitude; after the end,
+    at the target attitude, at end_angular_velocity. Accelerations are 0 at both ends, the jerk is not. A boundary rate
+    beyond rate_limit is infeasible: status 1, and the reference stays at the first estimated attitude.
+
     Source: Biagiotti and Melchiorri 2008, section 3.4; elementary rotations after Somov, Butyrin and Somova 2016.
     """
 
-    jerk_limit = Parameter(1e-4, unit="rad/s3", minimum=1e-15, description="largest derivative of the acceleration")
+    jerk_limit = Parameter(1e-4, unit="rad/s3", minimum=1e-15, description="largest angular jerk")
     start_angular_velocity = Parameter(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="of the reference until the turn begins"
+        [0.0, 0.0, 0.0],
+        unit="rad/s",
+        frame="body",
+        description="angular velocity of the reference until the turn begins",
     )
     end_angular_velocity = Parameter(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="of the reference from the turn's end on"
+        [0.0, 0.0, 0.0],
+        unit="rad/s",
+        frame="body",
+        description="angular velocity of the reference from the end of the turn on",
     )
     status = Output(SlewStatus, direct=True)
-    first_quaternion = State([1.0, 0.0, 0.0, 0.0], unit="1", description="attitude at the start, of length one")
-    last_quaternion = State([1.0, 0.0, 0.0, 0.0], unit="1", description="attitude at the end of the turn")
+    first_quaternion = State([1.0, 0.0, 0.0, 0.0], unit="1", description="normalised attitude quaternion at the start")
+    last_quaternion = State([1.0, 0.0, 0.0, 0.0], unit="1", description="attitude quaternion at the end of the turn")
     stop = State(SlewLeg)
     turn = State(SlewLeg)
     spin = State(SlewLeg)

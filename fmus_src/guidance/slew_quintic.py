@@ -9,10 +9,15 @@ PEAK_ACCELERATION = 5.773502691896258  # 10/sqrt(3) of angle/duration^2, at (3 -
 
 
 class SlewQuintic(SlewGuidance):
-    """A turn whose angle is a polynomial of fifth degree of time, 10 s^3 - 15 s^4 + 6 s^5.
+    """Turn whose angle is a polynomial of fifth degree of time, with continuous acceleration.
 
-    Its acceleration is continuous and 0 at both ends, which spares flexible modes.
-    The duration is the shortest within both limits. Source: Biagiotti and Melchiorri 2008, section 2.1.
+    With rate_limit w and acceleration_limit u:
+
+        θ(s) = θ (10 s^3 - 15 s^4 + 6 s^5)    s = t/T    T = max(15 θ/(8 w), sqrt(10 θ/(sqrt(3) u)))
+
+    The acceleration is 0 at both ends, which excites flexible modes little.
+
+    Source: Biagiotti and Melchiorri 2008, section 2.1.
     """
 
     def plan(self) -> None:

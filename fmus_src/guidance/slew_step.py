@@ -4,9 +4,11 @@ from .slew_guidance import SlewGuidance
 
 
 class SlewStep(SlewGuidance):
-    """No profile: from slew_start on the reference is the target, at rest.
+    """Step of the reference to the target at slew_start, at rest.
 
-    How fast the turn is, is then left to the controller's error_limit and to the wheels. Source: Wie 1998, section 7.
+    The rate of the turn is determined by the controller's error_limit and by the wheels.
+
+    Source: Wie 1998, section 7.
     """
 
     def plan(self) -> None:

@@ -18,87 +18,83 @@ SETTLED = 1e-10
 class TerminalStep(Enumeration):
     """Ending of a terminal guidance."""
 
-    STOP = member("stop: finished when time_to_go < cycle")
-    EXACT = member("exact: burn the last 0.5 to 1.5 cycles to the end")
+    STOP = member("stop: finished when time_to_go < sample_period")
+    EXACT = member("exact: last command burnt to the end of time_to_go")
 
 
 class TerminalGuidance(Block, interface=True):
-    """Terminal guidance in a landing-site frame: thrust command until the target state is met.
+    """Terminal guidance in a landing-site frame: thrust commands until the target state is reached.
 
-    Frame: origin at the site, x north, y west, z up; not rotating. A guidance writes `solve`,
-    which sets time_to_go, status, and thrust and direction of the command from position and
-    velocity; this class samples it, ends the flight and times the last burn.
-    A solve that is good with time_to_go <= 0 says that time is up and leaves the command. With
-    status not converged or no solution the last command is held and time_to_go counts down.
+    A law defines `solve`, which sets time_to_go, status, thrust and direction from position and velocity; this class
+    samples it, ends the flight and times the last burn. A good solution with time_to_go <= 0 ends the flight and keeps
+    the command. With status 2 or 3 the last command is held and time_to_go counts down.
 
-    With gravity_correction, `remaining` gives what is to gain in constant gravity for the central
-    field's pull to be met: with g linear in time from g0 here to gT at the target, the pull adds
-    T (g0 + gT)/2 to the velocity and T^2 (g0/3 + gT/6) to the position. T is the time_to_go of the
-    cycle before less the cycle, counted down while a command is held; at the start, and until a
-    first command is found, `solve` is repeated until T agrees with itself.
+    With gravity_correction, gravity is linear in time from g_0 at the vehicle to g_T at the target, and adds
 
-    While `active` is false there is no command and nothing is remembered: the next sample at which it is
-    true is a start. A guidance that writes `begin` and `go_on` itself has both for nothing else than
-    an active one; `forget` is for the states of its own.
+        Δv = T (g_0 + g_T)/2    Δr = T^2 (g_0/3 + g_T/6)
 
-    A law reads the target from `aim_position`. That is target_position until divert_count changes, and from the next
-    sample on divert_position: the law forgets and solves as at a start. Where it has no solution then, the last command
-    is held for the time that was left, and each sample tries again. During the last burn nothing is diverted.
+    with T from the previous sample, or at the start from repeated solutions until T is consistent.
 
-    With frozen_time_to_go a law takes that time (`planned_time`) in place of its own in every cycle:
-    a feedback law that does not change on the way, for linear stability. The flight then goes on
-    until something else ends it, and no command is a last burn.
+    While `active` is false there is no command and no memory: the next active sample is a start. When divert_count
+    changes, divert_position becomes the target from the next sample on and the law starts again; without a solution the
+    last command is held for its remaining time and each sample tries again. During the last burn nothing is diverted.
+
+    With frozen_time_to_go the law uses that time at every sample: a constant feedback law for linear stability studies.
+    The flight then ends by other conditions, and no command is a last burn.
+
+    Frame: landing site (x north, y west, z up), not rotating.
     """
 
     to_write = ("solve",)
 
     target_position = landing.POSITION.parameter([0.0, 0.0, 2000.0], "target position")
-    target_velocity = landing.VELOCITY.parameter(description="velocity to arrive with")
+    target_velocity = landing.VELOCITY.parameter(description="target velocity")
     gravity = landing.GRAVITY.parameter()
     gravity_correction = Parameter(
-        False, description="aim with a central field's gravity, linear in time between here and the target"
+        False, description="true: central gravity, linear in time between here and the target; false: constant gravity"
     )
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter(
-        description="of the Moon, for gravity_correction"
+        description="gravitational parameter of the Moon, for gravity_correction"
     )
     moon_radius = landing.MOON_RADIUS.parameter(
-        description="from the Moon's centre, which is straight below, to the site"
+        description="distance from the Moon's centre, straight below, to the site"
     )
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.0, "guidance cycle; 0: every communication point")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.0, "sample period of the guidance; 0: every communication point")
     terminal_step = Parameter(TerminalStep)
     last_burn = Parameter(
         0.0,
         unit="s",
         minimum=0.0,
-        description="with exact: the last command is held for so long, which keeps noise of navigation out of it",
+        description="duration for which the last command is held with terminal_step exact, against noise of navigation",
     )
     frozen_time_to_go = Parameter(
         0.0,
         unit="s",
         minimum=0.0,
-        description="0: computed in every cycle; else the plan is held: command for this time_to_go all along, "
-        "for linear stability",
+        description="time to go of every command, for linear stability; 0: time to go computed at each sample",
     )
     position = landing.POSITION.input("estimated position")
     velocity = landing.VELOCITY.input("estimated velocity")
     mass = landing.MASS.input("estimated mass")
-    active = landing.ACTIVE.input("false: no command; the first sample at which it is true is the start")
-    divert_count = Input(0, description="of diverts; a change makes divert_position the target")
-    divert_position = landing.POSITION.input("target after a divert")
+    active = landing.ACTIVE.input("true: guidance active; the first active sample is a start")
+    divert_count = Input(0, description="number of diverts so far; a change makes divert_position the target")
+    divert_position = landing.POSITION.input("target position after a divert")
     command = Outputs(ThrustCommand, direct=True, thrust_direction=[0.0, 0.0, 1.0], burn_duration=UNLIMITED)
     time_to_go = landing.TIME_TO_GO.output(direct=True)
     status = Output(TerminalStatus, direct=True)
     finished = landing.FINISHED.output(direct=True)
     cycle = State(0.0, unit="s", description="time to the next sample; 0 until the first step")
     under_way = State(False, description="active at the last sample")
-    started = State(False, description="a command with time left has been given")
+    started = State(False, description="true: a command with time left has been issued")
     start_time = sampling.START_TIME.state()
     expected_time = State(
-        0.0, unit="s", description="time_to_go of the cycle before less the cycle; 0 or less: not known"
+        0.0, unit="s", description="time_to_go of the previous sample minus the sample period; 0 or less: unknown"
     )
-    aim_position = landing.POSITION.state("target in force: target_position, or that of the last divert")
-    flown_divert = State(0, description="divert_count that aim_position belongs to")
-    commanding = State(False, description="a command with time left has been given, for this target or an earlier one")
+    aim_position = landing.POSITION.state("target position in force: target_position, or that of the last divert")
+    flown_divert = State(0, description="divert_count of aim_position")
+    commanding = State(
+        False, description="true: a command with time left has been issued, for this target or an earlier one"
+    )
 
     def solve(self) -> None:
         """Set the command, time_to_go and status from position and velocity."""

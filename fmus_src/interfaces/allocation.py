@@ -6,26 +6,26 @@ from .ports import landing
 
 
 class AllocationStatus(Enumeration):
-    """Presence of the demand."""
+    """Status of the allocation."""
 
     GOOD = member("good")
     LIMITED = member("limited by thrust or slew rate")
-    CONTRADICTORY = member("the limits contradict each other")
+    CONTRADICTORY = member("contradictory limits")
 
 
 class Allocation(Block, interface=True):
-    """Thrust and thrust direction that the vehicle gives when guidance asks for an acceleration.
+    """Thrust and thrust direction of a vehicle for a commanded thrust acceleration.
 
-    Directions are unit vectors of the landing-site frame at command_time with their rates.
+    Frame: landing site. Directions are unit vectors at command_time with their rates.
     """
 
-    thrust_acceleration = landing.THRUST_ACCELERATION.input("demanded thrust over mass")
-    demanded_direction = landing.DIRECTION.input("demanded direction at demand_time")
+    thrust_acceleration = landing.THRUST_ACCELERATION.input("commanded thrust over mass")
+    demanded_direction = landing.DIRECTION.input("commanded thrust direction at demand_time, unit vector")
     demanded_direction_rate = landing.DIRECTION_RATE.input()
-    demand_time = Input(0.0, unit="s", description="when the demand was computed")
-    demanded_duration = Input(0.0, unit="s", description="how long to thrust from demand_time on")
+    demand_time = Input(0.0, unit="s", description="reference time of the command")
+    demanded_duration = Input(0.0, unit="s", description="commanded burn duration from demand_time on")
     mass = landing.MASS.input("mass of the vehicle")
-    thrust = landing.THRUST.output("thrust", direct=True)
+    thrust = landing.THRUST.output("thrust of the engine", direct=True)
     thrust_direction = landing.DIRECTION.output(direct=True)
     thrust_direction_rate = landing.DIRECTION_RATE.output(direct=True)
     command_time = landing.COMMAND_TIME.output(direct=True)

@@ -41,6 +41,8 @@ class Enumeration:
 
     @classmethod
     def describe(cls, about: str) -> str:
-        """Return ``about: 0 good, 1 rate limited``; the members alone where ``about`` is empty."""
+        """Return ``about: 0 good, 1 rate limited``, with the docstring's first line for an empty ``about``."""
         members = ", ".join(f"{number} {meaning}" for number, meaning in cls.meanings.items())
+        summary = (cls.__doc__ or "").partition("\n")[0].rstrip(".")
+        about = about or summary[:1].lower() + summary[1:]
         return f"{about}: {members}" if about else members

@@ -18,33 +18,54 @@ MODES = 4
 
 
 class ElasticModes(Block, interface=True):
-    """Up to four modes in hybrid coordinates: displacement and momentum of each, and how they take part in the motion.
+    """Up to four elastic or slosh modes in hybrid coordinates, displacement η and momentum p of each.
 
-    A mode is a linear oscillator that the acceleration of its base drives: mode_translation and mode_rotation are its
-    participation about the undeformed centre of mass of the whole. A particle (slosh) of mass m at s that moves along p
-    has sqrt(m) p and sqrt(m) s x p. A hinged panel of mass m has m d/sqrt(Ih) and (Is a + m s x d)/sqrt(Ih), with its
-    inertia Ih about the hinge axis a, its matrix of inertia Is about its own centre of mass at s, and d the velocity of
-    that by the hinge rate. Linear: rates far below the mode's frequency and small displacements.
+    A mode is a linear oscillator of frequency W and damping ratio ζ on a fixed base, driven by the base's motion. With
+    participation L in translation and D in rotation about the undeformed centre of mass, spacecraft mass M and force F:
+
+        M_e = 1 - L^T L/M    η' = M_e^-1 (p - D^T ω)    p' = -L^T F/M - 2 ζ W η' - W^2 η
+
+    A slosh particle of mass m at s moving along e has
+
+        L = sqrt(m) e    D = sqrt(m) s × e
+
+    and a hinged panel with inertia I_h about its hinge axis a, own inertia I_s about its centre of mass s, and velocity
+    d of s per hinge rate has
+
+        L = m d/sqrt(I_h)    D = (I_s a + m s × d)/sqrt(I_h)
+
+    Assumes rates far below the mode's frequency and small displacements.
+
     Source: Likins 1970, with momenta in place of velocities; Dodge 2000; Allard, Schaub and Piggott 2018.
     """
 
-    mode_frequency = Parameter([0.0] * MODES, unit="rad/s", minimum=0.0, description="on a fixed base; 0: no mode")
-    mode_damping = Parameter([0.005] * MODES, unit="1", minimum=0.0, description="ratio of damping on a fixed base")
+    mode_frequency = Parameter(
+        [0.0] * MODES,
+        unit="rad/s",
+        minimum=0.0,
+        description="natural frequencies of the modes on a fixed base; 0: no mode",
+    )
+    mode_damping = Parameter(
+        [0.005] * MODES, unit="1", minimum=0.0, description="damping ratios of the modes on a fixed base"
+    )
     mode_translation = Parameter(
-        [0.0] * (3 * MODES), frame="body", columns=3, description="participation in translation by mode, root of kg"
+        [0.0] * (3 * MODES),
+        frame="body",
+        columns=3,
+        description="participation of each mode in translation, square root of kg",
     )
     mode_rotation = Parameter(
         [0.0] * (3 * MODES),
         frame="body",
         columns=3,
-        description="participation in rotation by mode, root of kg times m",
+        description="participation of each mode in rotation, square root of kg times m",
     )
-    mode_displacements = Output([0.0] * MODES, description="modal displacements, m times the root of kg")
-    modal_momenta = State([0.0] * MODES, description="modal momenta, m/s times the root of kg")
-    translation = State(zeros(3, MODES), description="L, participation in translation by column")
-    rotation = State(zeros(3, MODES), description="D, participation in rotation by column")
-    inverse_modal_mass = State(zeros(MODES, MODES), description="(1 - L'L/M)^-1")
-    modal_coupling = State(zeros(3, MODES), description="D (1 - L'L/M)^-1")
+    mode_displacements = Output([0.0] * MODES, description="modal displacements, m times square root of kg")
+    modal_momenta = State([0.0] * MODES, description="modal momenta, m/s times square root of kg")
+    translation = State(zeros(3, MODES), description="participation L in translation, one mode per column")
+    rotation = State(zeros(3, MODES), description="participation D in rotation, one mode per column")
+    inverse_modal_mass = State(zeros(MODES, MODES), description="inverse of the modal mass matrix")
+    modal_coupling = State(zeros(3, MODES), description="coupling of the modes to rotation")
 
     def start_modes(self, mass: float) -> bool:
         """Set the constant matrices for a mass (kg) of the whole; False where the modes hold more than that."""

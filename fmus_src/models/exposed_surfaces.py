@@ -19,23 +19,42 @@ from .space_model import SpaceModel
 
 
 class ExposedSurfaces(SpaceModel, interface=True):
-    """Up to twelve flat plates, and a sphere, on which drag and solar pressure act.
+    """Up to twelve flat plates and a sphere, subject to drag and solar radiation pressure.
 
-    The air turns with the planet. No plate shades another. Equations: `mathlib.space.surfaces`.
+    For a plate of area A and outward normal n, with velocity v relative to the air, direction e to the Sun, visible
+    fraction ν of the Sun, specular and diffuse reflectivity s and d:
+
+        F = -(ρ/2) C_D A (n · v) v    if n · v > 0
+        F = -P ν A (n · e) ((1 - s) e + 2 (d/3 + s (n · e)) n)    if n · e > 0
+
+    The air rotates with the planet.
+
+    Frame: body.
+
+    Assumes plates that do not shade one another, and no albedo.
+
+    Source: Montenbruck and Gill 2000, sections 3.4 and 3.5.
     """
 
     plates = Parameter(
         [0.0] * (PLATES * COLUMNS),
         frame="body",
         columns=COLUMNS,
-        description="flat surfaces by row, SI: area (0: none), normal, centre, drag coefficient, specular, diffuse",
+        description="flat plates by row, SI: area (0: none), normal, centre, drag, specular, diffuse coefficient",
     )
-    sphere_area = Parameter(0.0, unit="m2", minimum=0.0, description="cross-section of a sphere; 0: none")
+    sphere_area = Parameter(0.0, unit="m2", minimum=0.0, description="cross-sectional area of a sphere; 0: none")
     sphere_drag = Parameter(2.2, unit="1", minimum=0.0, description="drag coefficient of the sphere")
-    sphere_reflectivity = Parameter(1.3, unit="1", minimum=0.0, description="1 absorbs, 2 reflects all")
-    surfaces = State(zeros(PLATES, COLUMNS), frozen=True, description="plates with unit normals, area 0 without one")
+    sphere_reflectivity = Parameter(
+        1.3,
+        unit="1",
+        minimum=0.0,
+        description="radiation pressure coefficient of the sphere; 1 absorbs, 2 reflects all",
+    )
+    surfaces = State(
+        zeros(PLATES, COLUMNS), frozen=True, description="plates with unit normals; area 0 without a normal"
+    )
     has_surfaces = State(False, description="true: a plate or the sphere has an area")
-    lacks_normal = State(False, description="true: a plate has an area and no normal, and is left out")
+    lacks_normal = State(False, description="true: a plate with an area has no normal and is omitted")
 
     def start_surfaces(self) -> None:
         """Set surfaces, with unit normals."""

@@ -12,16 +12,23 @@ from .space_model import SpaceModel
 
 
 class GravityField(SpaceModel, interface=True):
-    """Spherical harmonics of the body, and the tides of two others.
+    """Gravity of spherical harmonics of the central body, and tidal acceleration of two other bodies.
 
-    Sources: GGM03S (Earth) and LP165P (Moon) in `mathlib.space`.
+    With the third bodies of gravitational parameters μ_b at s_b and the harmonics of degree n and order m:
+
+        U = (μ/r) Σ_nm (R/r)^n P_nm(sin φ) (C_nm cos(m λ) + S_nm sin(m λ))
+        g = ∇U + Σ_b μ_b ((s_b - r)/|s_b - r|^3 - s_b/|s_b|^3)
+
+    Sources: Cunningham 1970 (recursion); GGM03S (Earth, Tapley et al. 2007) and LP165P (Moon, Konopliv et al. 2001).
     """
 
     gravity_degree = Parameter(
-        13, minimum=0, maximum=13, description="highest degree of gravity; 8 at most for the Moon"
+        13, minimum=0, maximum=13, description="highest degree of the gravity field; 8 at most for the Moon"
     )
-    third_bodies = Parameter(True, description="gravity of Sun and Moon, or of Sun and Earth")
-    gravity_coefficients = State(zeros(SIZE, SIZE), frozen=True, description="of the gravity field, unnormalised")
+    third_bodies = Parameter(True, description="true: gravity of Sun and Moon, or of Sun and Earth, included")
+    gravity_coefficients = State(
+        zeros(SIZE, SIZE), frozen=True, description="unnormalised coefficients of the gravity field"
+    )
 
     def fill_gravity(self) -> None:
         """Set the coefficients of the body."""

@@ -11,21 +11,32 @@ from ..mathlib.vectors import Vector3, vector
 
 
 class OrbitalBody(Block, interface=True):
-    """A rigid body on a circular orbit, turned by jets about its axes that fire both ways at one level each.
+    """Rigid body on a circular orbit with jets about its axes, of one torque level in both directions.
 
-    A pulse is a signed length (s) about one axis: the jet of that sign gives jet_torque from the start of the tick
-    for so long. Motion: `mathlib.orbits.attitude`; a block may add to `derivatives` what drives its model. Inertia is
-    the matrix that multiplies angular velocity: elements off the diagonal are minus the products of inertia.
-    Frames: orbital and body. Equations: docs/systems/orbital_attitude.md.
-    Assumes an orbit that stays circular, constant inertia, and no torque but the gravity gradient's and the jets'.
+    With angles a = (γ, ψ, θ) of roll, yaw and pitch relative to the orbital frame, absolute angular velocity ω in body
+    axes, orbital rate ω_0 and radial direction j in body axes:
+
+        J ω' = 3 ω_0^2 j × (J j) + (J ω) × ω + u    j = (sin θ, cos γ cos θ, -sin γ cos θ)
+        γ' = ω_x - q tan θ - ω_0 sin ψ/cos θ    ψ' = q/cos θ + ω_0 sin ψ tan θ    θ' = p + ω_0 cos ψ
+        q = ω_y cos γ - ω_z sin γ    p = ω_y sin γ + ω_z cos γ
+
+    A pulse is a signed length (s) about one axis: the jet of that sign gives jet_torque for that time from the start of
+    the sample period. A block may extend `derivatives`. Off-diagonal elements of inertia are minus the products of
+    inertia.
+
+    Frames: orbital; body.
+
+    Assumes a circular orbit, constant inertia, and no torques other than those of the gravity gradient and the jets.
+
+    Source: Lapin, thesis, chapter 1.1. See docs/systems/orbital_attitude.md.
     """
 
     default_step = 0.2
 
     inertia = body.INERTIA.parameter([6500.0, -150.0, -100.0, -150.0, 30000.0, -200.0, -100.0, -200.0, 29000.0])
     jet_torque = body.JET_TORQUE.parameter()
-    orbital_rate = Parameter(0.0011, unit="rad/s", minimum=1e-9, description="turn of the orbital frame")
-    inverse_inertia = State([0.0] * 9, columns=3, description="inverse of inertia, 1/(kg m2)")
+    orbital_rate = Parameter(0.0011, unit="rad/s", minimum=1e-9, description="angular rate of the orbital frame")
+    inverse_inertia = State([0.0] * 9, columns=3, description="inverse inertia matrix, 1/(kg m2)")
 
     def weigh(self) -> bool:
         """Set inverse_inertia; whether the matrix of inertia has one."""

@@ -29,31 +29,46 @@ LOWEST_AIR = 100e3  # m, height at which both tables of the air begin
 
 
 class SpaceModel(Block, interface=True):
-    """Axes of the planet, Sun and Moon, magnetic field, air and shadow about Earth or Moon.
+    """Orientation of the planet, Sun and Moon, magnetic field, air density and shadow about Earth or Moon.
 
-    Axes of the pole, Sun and Moon are those of one instant, which `locate` sets; the planet turns on from there. A
-    subclass may override `flux_density`, `air_density` and `air_velocity`. Positions are from the body's centre, in
-    inertial axes (GCRS); t is simulation time. The Moon has neither field nor air here.
-    Sources: `mathlib.space`. Equations: docs/systems/earth_pointing.md.
+    Directions of the pole, Sun and Moon are those of one instant, set by `locate`; the planet rotates on from there. A
+    subclass may override `flux_density`, `air_density` and `air_velocity`. The Moon has neither field nor air.
+
+    Frame: inertial (GCRS axes), with positions relative to the body's centre; t is simulation time.
+
+    Sources: Meeus 1998, chapter 25 (Sun); Montenbruck and Gill 2000, section 3 (Moon, air); Capitaine, Wallace and
+    Chapront 2003 (pole); Alken et al. 2025 (IGRF-14). See docs/systems/earth_pointing.md.
     """
 
     central_body = Parameter(CelestialBody)
     epoch = space.EPOCH.parameter()
     tt_minus_ut1 = space.TT_MINUS_UT1.parameter()
-    atmosphere = Parameter(Atmosphere, start=Atmosphere.HARRIS_PRIESTER, description="density of the air")
+    atmosphere = Parameter(Atmosphere, start=Atmosphere.HARRIS_PRIESTER, description="model of the air density")
     density_factor = Parameter(
-        1.0, unit="1", minimum=0.0, description="density over the model's; 0.1 to 4 over a cycle of the Sun"
+        1.0, unit="1", minimum=0.0, description="factor on the model's air density; 0.1 to 4 over a solar cycle"
     )
     bulge_exponent = Parameter(
-        4.0, unit="1", minimum=2.0, maximum=6.0, description="of the bulge: 2 low inclination, 6 polar"
+        4.0, unit="1", minimum=2.0, maximum=6.0, description="exponent of the density bulge: 2 low inclination, 6 polar"
     )
     magnetic_degree = Parameter(8, minimum=1, maximum=13, description="highest degree of the magnetic field; 1: dipole")
     pole_axes = State(PlanetAxes, frozen=True)
-    sun = State([1.5e11, 0.0, 0.0], unit="m", frame="inertial", frozen=True, description="Sun, from the body's centre")
-    third_body = State(
-        [4e8, 0.0, 0.0], unit="m", frame="inertial", frozen=True, description="Moon, or Earth, from the body's centre"
+    sun = State(
+        [1.5e11, 0.0, 0.0],
+        unit="m",
+        frame="inertial",
+        frozen=True,
+        description="position of the Sun relative to the body's centre",
     )
-    field_coefficients = State(zeros(SIZE, SIZE), frozen=True, description="of the magnetic field, nT, at the epoch")
+    third_body = State(
+        [4e8, 0.0, 0.0],
+        unit="m",
+        frame="inertial",
+        frozen=True,
+        description="position of the Moon, or of the Earth, relative to the body's centre",
+    )
+    field_coefficients = State(
+        zeros(SIZE, SIZE), frozen=True, description="coefficients of the magnetic field at the epoch, nT"
+    )
 
     def fill(self) -> None:
         """Set the coefficients of the magnetic field."""

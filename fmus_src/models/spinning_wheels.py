@@ -10,33 +10,41 @@ ROUNDING = 1e-9  # by which a command may exceed its limit unreported
 
 
 class SpinningWheels(Block, interface=True):
-    """Four balanced wheels that are alike, with motors and friction.
+    """Four equal balanced reaction wheels with motors and friction.
 
-    Friction is -viscous_friction W, and coulomb_friction against the speed W, in proportion to W within coulomb_band. A
-    motor gives its command times torque_factor, within motor_torque_limit; a wheel at or beyond speed_limit gets no
-    motor torque that would make it faster (judged at the start of each integration step; friction and the body's own
-    acceleration still act). Source: Schaub and Junkins 2018, section 4.5; Alcorn, Allard and Schaub 2018.
+    With wheel speed Ω, commanded torque u_c and torque factor k:
+
+        u = k clip(u_c, u_max) - c Ω - μ sgn Ω
+
+    Coulomb friction μ falls linearly to 0 within coulomb_band of rest. At or beyond speed_limit a wheel gets no motor
+    torque that would accelerate it; this is evaluated at the start of each integration step.
+
+    Source: Schaub and Junkins 2018, section 4.5; Alcorn, Allard and Schaub 2018.
     """
 
     wheel_axes = satellite.WHEEL_AXES.parameter()
     wheel_inertia = satellite.WHEEL_INERTIA.parameter()
     motor_torque_limit = satellite.MOTOR_TORQUE_LIMIT.parameter()
     torque_factor = Parameter(
-        [1.0] * 4, unit="1", minimum=0.0, description="torque of each motor over the commanded one; 0: failed"
+        [1.0] * 4, unit="1", minimum=0.0, description="ratio of actual to commanded motor torque, per wheel; 0: failed"
     )
     speed_limit = Parameter(
-        418.87902047863906, unit="rad/s", minimum=0.0, description="largest speed of a wheel, 4000 rpm; 0: no limit"
+        418.87902047863906, unit="rad/s", minimum=0.0, description="largest wheel speed, 4000 rpm; 0: no limit"
     )
-    viscous_friction = Parameter(1e-5, unit="N.m.s", minimum=0.0, description="of a wheel, torque over speed")
-    coulomb_friction = Parameter(5e-4, unit="N.m", minimum=0.0, description="of a wheel, beyond coulomb_band")
-    coulomb_band = Parameter(0.1, unit="rad/s", minimum=1e-6, description="speed below which it falls to 0")
-    initial_wheel_speeds = satellite.WHEEL_SPEEDS.parameter(description="at the start, relative to the body")
+    viscous_friction = Parameter(1e-5, unit="N.m.s", minimum=0.0, description="viscous friction coefficient of a wheel")
+    coulomb_friction = Parameter(
+        5e-4, unit="N.m", minimum=0.0, description="Coulomb friction torque of a wheel beyond coulomb_band"
+    )
+    coulomb_band = Parameter(
+        0.1, unit="rad/s", minimum=1e-6, description="speed below which Coulomb friction falls linearly to 0"
+    )
+    initial_wheel_speeds = satellite.WHEEL_SPEEDS.parameter(description="initial wheel speeds relative to the body")
     motor_torques = satellite.MOTOR_TORQUES.input("commanded torque of each motor on its wheel")
     wheel_speeds = satellite.WHEEL_SPEEDS.output()
-    wheel_momentum = satellite.WHEEL_MOMENTUM.output("sum Js W g of the wheels, relative to the body")
-    applied_torques = satellite.MOTOR_TORQUES.output("torque that each motor gave over the last integration step")
-    spin = State([0.0] * 4, unit="N.m.s", description="h = Js (W + g.w) of each wheel about its axis, absolute")
-    axes = State(zeros(3, WHEELS), unit="1", frame="body", description="unit spin axes, by column")
+    wheel_momentum = satellite.WHEEL_MOMENTUM.output("angular momentum of the wheels relative to the body")
+    applied_torques = satellite.MOTOR_TORQUES.output("motor torques over the last integration step")
+    spin = State([0.0] * 4, unit="N.m.s", description="absolute angular momentum h of each wheel about its spin axis")
+    axes = State(zeros(3, WHEELS), unit="1", frame="body", description="unit spin axes of the wheels, by column")
 
     def start_wheels(self, w: Vector3) -> None:
         """Set the wheels as they are at the start on a body with the angular velocity w (rad/s)."""

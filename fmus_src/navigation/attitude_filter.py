@@ -24,72 +24,91 @@ AT_ONCE = ("measured_quaternion", "sample_count", "planned_quaternion", "planned
 
 
 class AttitudeFilter(Block):
-    """Error of attitude and angular velocity against the plan, in body axes: 2 e0 e of planned* estimated.
+    """Filter of attitude and angular velocity error against a plan, in body axes.
 
-    method 0: the mean of the last mean_samples samples' errors, put out when there are so many; the rate
-    is the difference of the last two means over the time between them.
-    method 1: Kalman filter of attitude, angular velocity and a disturbance, the same for all three axes. Between
-    samples the total angular momentum is conserved but for the torque of the jets: what the gyros gain, which their
-    gimbal angles tell (gyro_momentum), the body loses. jet_torque and jet_force are those of the step just
-    past, so they are read a step late. The disturbance is an angular acceleration that stays; where the jets change,
-    it is taken to change by jet_torque_error times the change of force (about 0.2 m times the
-    relative error of a jet), and process_noise and disturbance_noise are what else happens.
+    With the error quaternion (e_0, e) of planned^-1 estimated, the error is 2 e_0 e.
 
-    A sample that is not finite, or no attitude, is left out and reported; without a planned attitude errors stay.
-    sample_period is how often the filter looks; new samples are told by their count.
-    Frames: body, quaternions from body to inertial. Equations: docs/systems/robot_rendezvous.md.
-    Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2; Lefferts, Markley and Shuster 1982 (error in body axes).
+    method 0: mean of the last mean_samples errors; the rate is the difference of the last two means over the time
+    between them.
+
+    method 1: Kalman filter of attitude, angular velocity and disturbance, equal for all axes. Between samples the
+    angular momentum G is conserved except for the torque M of the jets and the disturbance d:
+
+        G^+ = C (G + (M + J d) h/2) + (M + J d) h/2    ω^+ = J^-1 (G^+ - H^+)
+
+    with C into the new body axes and the gyros' momentum H from the gimbal angles. jet_torque and jet_force are those
+    of the last step. When the jets change, the disturbance changes by jet_torque_error times the change of force;
+    process_noise and disturbance_noise cover the rest.
+
+    Samples that are not finite or no attitude are skipped and reported; without a planned attitude errors are held.
+
+    Frame: body; quaternions from body to inertial.
+
     Assumes small errors against the plan, and inertia and jets as declared.
+
+    Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2; Lefferts, Markley and Shuster 1982 (error in body axes).
+    See docs/theory/rendezvous.md.
     """
 
     default_step = 0.125
 
     method = Parameter(FilterMethod, start=FilterMethod.KALMAN)
-    mean_samples = Parameter(2, minimum=1, description="samples in a mean: those in a period of attitude control")
-    inertia = Parameter([812.0, 587.0, 910.0], unit="kg.m2", minimum=1e-3, description="of the robot, about x, y, z")
+    mean_samples = Parameter(
+        2, minimum=1, description="number of samples per mean, those of one attitude control period"
+    )
+    inertia = Parameter(
+        [812.0, 587.0, 910.0],
+        unit="kg.m2",
+        minimum=1e-3,
+        description="principal moments of inertia of the robot, about x, y, z",
+    )
     attitude_sigma = Parameter(
-        4.84813681109536e-6, unit="rad", minimum=1e-12, description="error of a sample, 1 sigma per axis"
+        4.84813681109536e-6, unit="rad", minimum=1e-12, description="error of an attitude sample, 1 sigma per axis"
     )
     first_rate_sigma = Parameter(
-        1e-4, unit="rad/s", minimum=0.0, description="error of the planned rate at the start, 1 sigma per axis"
+        1e-4, unit="rad/s", minimum=0.0, description="initial error of the planned angular rate, 1 sigma per axis"
     )
-    process_noise = Parameter(1e-16, minimum=0.0, description="density of white noise of angular acceleration, rad2/s3")
+    process_noise = Parameter(
+        1e-16, minimum=0.0, description="spectral density of the angular acceleration noise, rad2/s3"
+    )
     first_disturbance_sigma = Parameter(
-        0.0, unit="rad/s2", minimum=0.0, description="of the disturbance at the start, 1 sigma per axis"
+        0.0, unit="rad/s2", minimum=0.0, description="initial disturbance, 1 sigma per axis"
     )
     disturbance_noise = Parameter(
-        1e-18, minimum=0.0, description="density of white noise of the disturbance's derivative, rad2/s5"
+        1e-18, minimum=0.0, description="spectral density of the noise in the disturbance's derivative, rad2/s5"
     )
     jet_torque_error = Parameter(
         1e-4, unit="m", minimum=0.0, description="error of jet_torque per change of jet_force, 1 sigma per axis"
     )
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "between steps; 0: every communication point")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "sample period of the filter; 0: every communication point")
     measured_quaternion = robot.MEASURED_QUATERNION.input()
-    sample_count = sampling.SAMPLE_COUNT.input("samples taken by the sensor; a change tells a new one")
+    sample_count = sampling.SAMPLE_COUNT.input("number of sensor samples so far; a change signals a new one")
     planned_quaternion = robot.PLANNED_QUATERNION.input()
-    planned_angular_velocity = body.ANGULAR_VELOCITY.input("of the plan")
-    gyro_momentum = body.ANGULAR_MOMENTUM.input("of the gyro cluster, from its angles")
-    jet_torque = body.TORQUE.input("of the jets since the last communication point")
-    jet_force = body.FORCE.input("of the jets since the last communication point")
+    planned_angular_velocity = body.ANGULAR_VELOCITY.input("planned angular velocity")
+    gyro_momentum = body.ANGULAR_MOMENTUM.input("angular momentum of the gyro cluster, from its gimbal angles")
+    jet_torque = body.TORQUE.input("torque of the jets since the last communication point")
+    jet_force = body.FORCE.input("force of the jets since the last communication point")
     attitude_error = body.ROTATION.output(
-        "from planned to estimated attitude: axis times sine of the angle", direct=AT_ONCE
+        "attitude error from planned to estimated attitude: axis times sine of the angle", direct=AT_ONCE
     )
-    rate_error = body.ANGULAR_VELOCITY.output("estimated angular velocity less the planned one", direct=AT_ONCE)
+    rate_error = body.ANGULAR_VELOCITY.output("estimated angular velocity minus the planned one", direct=AT_ONCE)
     quaternion = robot.QUATERNION.output(direct=AT_ONCE)
     disturbance = body.ANGULAR_ACCELERATION.output(
-        "estimated angular acceleration by neither gyros nor commanded jets", direct=AT_ONCE
+        "estimated angular acceleration caused by neither gyros nor commanded jets", direct=AT_ONCE
     )
     attitude_error_sigma = Output(
-        0.0, unit="rad", direct=AT_ONCE, description="standard deviation of the estimate, per axis; 0: not known"
+        0.0, unit="rad", direct=AT_ONCE, description="standard deviation of attitude_error per axis; 0: unknown"
     )
     rate_error_sigma = Output(
-        0.0, unit="rad/s", direct=AT_ONCE, description="standard deviation of the estimate, per axis; 0: not known"
+        0.0, unit="rad/s", direct=AT_ONCE, description="standard deviation of rate_error per axis; 0: unknown"
     )
     innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
     samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
     status = Output(SampleStatus, direct=AT_ONCE)
-    angular_velocity = body.ANGULAR_VELOCITY.state("estimate of the Kalman filter")
-    covariance = State(zeros(3, 3), frozen=True, description="of attitude, rate and disturbance, row order, SI")
+    angular_velocity = body.ANGULAR_VELOCITY.state("estimated angular velocity of the Kalman filter")
+    covariance = State(
+        zeros(3, 3), frozen=True, description="covariance of attitude, rate and disturbance, in row order, SI"
+    )
     last_time = State(0.0, unit="s", description="time of the last step")
     start_time = sampling.START_TIME.state()
     last_momentum = body.ANGULAR_MOMENTUM.state("gyro_momentum at the last step")
@@ -98,7 +117,7 @@ class AttitudeFilter(Block):
     mean_time = State(0.0, unit="s", description="time of the last mean")
     total = body.ROTATION.state("sum of the errors since the last mean")
     summed = State(0, description="number of samples in the sum")
-    means = State(0, description="means put out")
+    means = State(0, description="number of means computed")
 
     def initialize(self) -> None:
         self.last_time = self.start_time

@@ -29,29 +29,38 @@ TRIAD_SINE = 0.17  # of the smallest angle between two directions that make an a
 class AttitudeNavigationFilter(MultiplicativeFilter):
     """Multiplicative extended Kalman filter of attitude and gyro bias.
 
-    A star sample corrects the attitude by a small rotation in body axes, and the bias; the first one is the first
-    attitude. Its error is star_sigma per axis, about the boresight roll_sigma where that is not 0. One with a
-    star_time before now, by up to eight cycles, is first turned on by the gyros; an older one is left out. A direction,
-    to the Sun or of the magnetic field, corrects the attitude across itself, by its reference in inertial axes. Before
-    the first star sample, both in one cycle make the first attitude (TRIAD). Three components are taken in one after
-    another, as exact as at once. The covariance is 6 x 6.
-    A sample that is not finite, or no attitude, or a direction of length 0, is left out and reported. So is one with a
-    normalised innovation squared beyond ``gate``; after rejects_to_restart in a row of one sensor the covariance of the
-    attitude is the initial one.
+    A star sample corrects attitude and bias by a small rotation in body axes; the first one initialises the attitude.
+    Its error is star_sigma per axis, about the boresight roll_sigma if that is not 0. A sample with a star_time up to
+    eight sample periods old is first propagated by the gyros; older ones are skipped. A direction y to the Sun or of
+    the field, with the modelled direction u in inertial axes, corrects the attitude across itself:
+
+        z = y - R^T u    H = [R^T u]    d^2 = z^T (H P H^T + σ^2)^-1 z
+
+    Before the first star sample both directions in one sample period give the initial attitude (TRIAD). Components are
+    processed one after another; the covariance is 6 x 6. A sample that is not finite, no attitude, or a direction of
+    length 0 is skipped and reported, as is one with d^2 beyond ``gate``; after rejects_to_restart in a row of one
+    sensor the attitude covariance is reset.
+
     Assumes independent errors as declared.
+
     Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2; Black 1964 (TRIAD); Markley and
     Crassidis 2014, sections 5.1 and 6.2.
     """
 
-    rejected = Output(0, direct=True, description="samples beyond the gate so far")
+    rejected = Output(0, direct=True, description="number of samples beyond the gate so far")
     star_counted = State(0, description="star_count of the last sample")
     sun_counted = State(0, description="sun_count of the last sample")
     field_counted = State(0, description="field_count of the last sample")
-    rejected_in_row = State([0] * 3, description="samples beyond the gate since the last good one: star, Sun, field")
-    last_star = State(0.0, unit="s", description="time of the last good star sample")
-    turns = State(zeros(TURNS, 3), unit="rad", frame="body", description="of the last cycles by gyros, newest first")
-    turn_starts = State([0.0] * TURNS, unit="s", description="starts of these cycles")
-    turn_ends = State([0.0] * TURNS, unit="s", description="ends of these cycles")
+    rejected_in_row = State([0] * 3, description="consecutive samples beyond the gate: star, Sun, field")
+    last_star = State(0.0, unit="s", description="time of the last accepted star sample")
+    turns = State(
+        zeros(TURNS, 3),
+        unit="rad",
+        frame="body",
+        description="rotations of the last sample periods by the gyros, newest first",
+    )
+    turn_starts = State([0.0] * TURNS, unit="s", description="start times of these rotations")
+    turn_ends = State([0.0] * TURNS, unit="s", description="end times of these rotations")
 
     def initialize(self) -> None:
         self.star_counted = 0  # a count of 0 is no sample, any other one is new

@@ -4,7 +4,7 @@ from .attitude_navigation import AttitudeNavigation
 
 
 class AttitudeNavigationIdeal(AttitudeNavigation):
-    """The true attitude and angular velocity: what control does when nothing is unknown.
+    """True attitude and angular velocity, as a reference without navigation errors.
 
     Assumes no sensors and no errors.
     """

@@ -14,7 +14,7 @@ from ..units import deg
 
 
 class ObserverStatus(Enumeration):
-    """Basis of the estimate."""
+    """Status of the estimate."""
 
     GOOD = member("good")
     HELD = member("no new sample")
@@ -25,61 +25,76 @@ class ObserverStatus(Enumeration):
 
 
 class AttitudeObserver(OrbitalBody, interface=True):
-    """Estimates roll, yaw, pitch and angular velocity where yaw is not measured.
+    """Observer of roll, yaw, pitch and angular velocity without a measurement of yaw.
 
-    Yaw acts on the roll rate through the orbit's turn only, by -w0 yaw. At each tick an observer is given a sample of
-    roll, pitch and angular velocity, and what the jets did over the tick that has passed. It starts from the first
-    sample with yaw 0. A tick without a new sample of both sensors, or with one that is not finite, carries the estimate
-    on by the observer's own equations of motion. The parameters are those that any observer of the slot may need, so
-    that one set of them serves all; the jets and the inertia are those known on board.
+    Yaw affects the roll rate only by -ω_0 ψ, through the rotation of the orbital frame. At each sample an observer gets
+    roll, pitch and angular velocity, and the pulses of the previous sample period. It starts from the first sample with
+    yaw 0. Without a new finite sample of both sensors it propagates the estimate by the equations of motion. The
+    parameters are common to all observers of the slot; jets and inertia are those known on board.
 
-    An observer writes `begin`, which may make gains, and `observe`, which sets angles_now and rates_now from the sample
-    (roll, pitch, rates), those of the tick before and the pulses between. Frames: orbital, body.
-    Equations: docs/systems/orbital_attitude.md. Source: Lapin, thesis, chapter 3.1.
+    An observer defines `begin`, which may compute gains, and `observe`, which sets angles_now and rates_now from the
+    sample, the previous sample and the pulses between them.
+
+    Frames: orbital; body.
+
     Assumes a circular orbit, and inertia and jets as known on board.
+
+    Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """
 
-    yaw_pole = Parameter(0.1, unit="1/s", minimum=1e-6, description="decay of a full observer's error of yaw")
-    measured_pole = Parameter(1.0, unit="1/s", minimum=1e-6, description="decay of its errors of what is measured")
-    reduced_yaw_pole = Parameter(
-        0.1, unit="1/s", minimum=1e-6, description="decay of a reduced observer's error of yaw"
+    yaw_pole = Parameter(0.1, unit="1/s", minimum=1e-6, description="decay rate of a full observer's yaw error")
+    measured_pole = Parameter(
+        1.0, unit="1/s", minimum=1e-6, description="decay rate of a full observer's errors of measured quantities"
     )
-    largest_yaw = Parameter(0.9, unit="rad", minimum=0.0, description="bound of the estimated yaw, but for a filter")
+    reduced_yaw_pole = Parameter(
+        0.1, unit="1/s", minimum=1e-6, description="decay rate of a reduced observer's yaw error"
+    )
+    largest_yaw = Parameter(
+        0.9, unit="rad", minimum=0.0, description="bound of the estimated yaw, except of the Kalman filter"
+    )
     vertical_sigma = Parameter(
         deg(0.001),
         unit="rad",
         minimum=1e-12,
-        description="of roll and pitch measured, 1 sigma, for a filter",
+        description="error of measured roll and pitch, 1 sigma, for the Kalman filter",
     )
     gyro_sigma = Parameter(
-        1.7453292519943296e-06, unit="rad/s", minimum=1e-12, description="of a rate measured, 1 sigma, for a filter"
+        1.7453292519943296e-06,
+        unit="rad/s",
+        minimum=1e-12,
+        description="error of a measured angular rate, 1 sigma, for the Kalman filter",
     )
     gyro_bias_sigma = Parameter(
-        4.84813681109536e-09, unit="rad/s", minimum=1e-12, description="of a gyro's bias, 1 sigma, for a filter"
+        4.84813681109536e-09,
+        unit="rad/s",
+        minimum=1e-12,
+        description="gyro bias, 1 sigma per axis, for the Kalman filter",
     )
-    sample_period = sampling.SAMPLE_PERIOD.parameter(description="tick", minimum=1e-3)
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period", minimum=1e-3)
     measured_roll = body.MEASURED_ROLL.input()
     measured_pitch = body.MEASURED_PITCH.input()
-    vertical_count = Input(0, description="samples of roll and pitch so far; a change tells a new one")
+    vertical_count = Input(0, description="number of roll and pitch samples so far; a change signals a new one")
     measured_angular_velocity = body.ANGULAR_VELOCITY.input()
-    gyro_count = Input(0, description="samples of the gyros so far; a change tells a new one")
-    fired_pulses = body.PULSES.input("pulses of the tick that has passed, with their sign")
-    held_torque = body.TORQUE.input("torque beside the pulses over that tick")
-    true_angles = Input([0.0, 0.0, 0.0], unit="rad", description="for the observer that is told")
-    true_angular_velocity = body.ANGULAR_VELOCITY.input("likewise, absolute")
+    gyro_count = Input(0, description="number of gyro samples so far; a change signals a new one")
+    fired_pulses = body.PULSES.input("signed pulse lengths of the previous sample period")
+    held_torque = body.TORQUE.input("torque in addition to the pulses over the previous sample period")
+    true_angles = Input([0.0, 0.0, 0.0], unit="rad", description="true roll, yaw and pitch, for the ideal observer")
+    true_angular_velocity = body.ANGULAR_VELOCITY.input(
+        "true angular velocity relative to the inertial frame, for the ideal observer"
+    )
     estimated_angles = body.ESTIMATED_ANGLES.output(direct=True)
     estimated_angular_velocity = body.ANGULAR_VELOCITY.output(direct=True)
-    estimated_gyro_bias = body.ANGULAR_VELOCITY.output("bias of the gyros; 0 where it is not sought", direct=True)
-    yaw_sigma = Output(0.0, unit="rad", direct=True, description="of the estimated yaw, 1 sigma; 0 where there is none")
+    estimated_gyro_bias = body.ANGULAR_VELOCITY.output("estimated gyro bias; 0: not estimated", direct=True)
+    yaw_sigma = Output(0.0, unit="rad", direct=True, description="standard deviation of the estimated yaw; 0: unknown")
     status = Output(ObserverStatus, direct=True)
-    estimate = State(AttitudeState, description="estimate of now")
-    last_roll = State(0.0, unit="rad", description="roll measured at the tick before")
-    last_pitch = State(0.0, unit="rad", description="pitch measured at the tick before")
-    last_rates = body.ANGULAR_VELOCITY.state("rates measured at the tick before")
+    estimate = State(AttitudeState, description="current estimate")
+    last_roll = State(0.0, unit="rad", description="roll measured at the previous sample")
+    last_pitch = State(0.0, unit="rad", description="pitch measured at the previous sample")
+    last_rates = body.ANGULAR_VELOCITY.state("angular velocity measured at the previous sample")
     vertical_counted = State(0, description="vertical_count of the last sample")
     gyro_counted = State(0, description="gyro_count of the last sample")
-    ticks = State(0, description="ticks since the start")
-    usable = State(True, description="the gain could be made")
+    ticks = State(0, description="number of samples since the start")
+    usable = State(True, description="true: gain computed")
 
     def begin(self) -> bool:
         """Make what the observer needs from the parameters; whether that could be done."""

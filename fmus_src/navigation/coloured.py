@@ -11,24 +11,30 @@ from ..mathlib.vectors import vector
 
 
 class ColouredNavigation(Navigation):
-    """The truth with errors of a first-order Gauss-Markov process and white ones, per axis.
+    """True position and velocity with first-order Gauss-Markov and white errors per axis.
 
-    Position and velocity have errors of their own: e(t + h) = f e(t) + sigma sqrt(1 - f^2) n with
-    f = exp(-h/correlation_time), which starts in its stationary state, and white_share sigma n besides, new at
-    every communication point. So a guidance is tried against errors of a filter's size and pace, without one. Sensors
-    are not used; errors of position do not follow from those of velocity. Which normal numbers a flight uses depends
-    on seed, stream and the point's number only. Frame: landing site.
+        e^+ = f e + σ sqrt(1 - f^2) n    f = exp(-h/correlation_time)    error = e + white_share σ n
+
+    It applies errors of a filter's size and bandwidth to guidance without a filter. The process starts in its
+    stationary state; errors of position and velocity are independent. Sensors are not used. Random numbers depend on
+    seed, stream and the number of the communication point only.
+
+    Frame: landing site.
+
+    Assumes errors independent of the motion and between axes.
+
     Source: Gillespie 1996 (exact updating formula of the Ornstein-Uhlenbeck process).
-    Assumes errors that do not depend on the motion, nor one axis on another.
     """
 
-    position_sigma = landing.POSITION_SIGMA.parameter(description="wandering error, 1 sigma per axis")
-    velocity_sigma = landing.VELOCITY_SIGMA.parameter(0.1, "wandering error, 1 sigma per axis")
-    correlation_time = Parameter(10.0, unit="s", minimum=1e-3, description="after which 1/e of an error is left")
-    white_share = Parameter(0.3, unit="1", minimum=0.0, description="white error over sigma")
+    position_sigma = landing.POSITION_SIGMA.parameter(description="Gauss-Markov position error, 1 sigma per axis")
+    velocity_sigma = landing.VELOCITY_SIGMA.parameter(0.1, "Gauss-Markov velocity error, 1 sigma per axis")
+    correlation_time = Parameter(10.0, unit="s", minimum=1e-3, description="correlation time of the errors")
+    white_share = Parameter(0.3, unit="1", minimum=0.0, description="ratio of white error to sigma")
     seed, stream = sampling.random_stream()
     generator = sampling.GENERATOR.state()
-    wandering = State([0.0] * 6, frozen=True, description="errors of position and velocity over their sigmas")
+    wandering = State(
+        [0.0] * 6, frozen=True, description="Gauss-Markov errors of position and velocity, normalised by their sigmas"
+    )
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -9,31 +9,35 @@ from ..mathlib.vectors import vector
 
 
 class EstimateMonitor(Block):
-    """Estimate monitor: errors of position and velocity over the estimate's own covariance.
+    """Monitor of position and velocity errors relative to the estimate's covariance P.
 
-    The squared error normalised by the covariance (NEES) is chi-square distributed with six degrees of
-    freedom where errors are normal and the covariance is right. Frame: landing site.
+        NEES = e^T P^-1 e
+
+    It is chi-square distributed with six degrees of freedom if errors are normal and the covariance is right.
+
+    Frame: landing site.
+
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 5.4.2.
     """
 
     position = landing.POSITION.input("true position")
     velocity = landing.VELOCITY.input("true velocity")
-    estimated_position = landing.POSITION.input("estimate")
-    estimated_velocity = landing.VELOCITY.input("estimate")
+    estimated_position = landing.POSITION.input("estimated position")
+    estimated_velocity = landing.VELOCITY.input("estimated velocity")
     estimate_covariance = landing.ESTIMATE_COVARIANCE.input(
-        "covariance of the error of position and velocity, SI; rows of the upper triangle"
+        "covariance of the position and velocity errors, SI, rows of the upper triangle"
     )
     normalised_error_square = Output(
         0.0,
         unit="1",
         direct=True,
-        description="squared error of the six states, normalised; 0 while the covariance is not positive definite",
+        description="normalised estimation error squared (NEES) of the six states; 0: covariance not positive definite",
     )
     position_error_ratio = landing.DIRECTION.output(
-        "estimate minus truth over standard deviation; 0 where that is 0", start=[0.0, 0.0, 0.0], direct=True
+        "position error over its standard deviation per axis; 0: deviation 0", start=[0.0, 0.0, 0.0], direct=True
     )
     velocity_error_ratio = landing.DIRECTION.output(
-        "estimate minus truth over standard deviation; 0 where that is 0", start=[0.0, 0.0, 0.0], direct=True
+        "velocity error over its standard deviation per axis; 0: deviation 0", start=[0.0, 0.0, 0.0], direct=True
     )
 
     def initialize(self) -> None:

@@ -19,31 +19,35 @@ CAMERA = 2
 
 
 class FilterStatus(Enumeration):
-    """Outcome of the last samples."""
+    """Status of the last samples."""
 
     GOOD = member("good")
-    REJECTED = member("a sensor's last sample was rejected")
-    LOCKED_OUT = member("its last rejection_limit")
+    REJECTED = member("last sample of a sensor rejected")
+    LOCKED_OUT = member("last rejection_limit samples of a sensor rejected")
     NOT_POSITIVE = member("variance negative")
 
 
 class FilteredNavigation(InertialNavigation, interface=True):
-    """Inertial navigation whose errors an extended Kalman filter estimates from altitude, velocity and position.
+    """Inertial navigation corrected by an extended Kalman filter from altitude, velocity and position.
 
-    Fifteen states: errors of position and velocity, and the inertial sensor's bias, scale factors and
-    misalignment, b + diag(k) f + w x f, which are taken off the measured specific force f. With
-    scale_factor_sigma and attitude_sigma 0 nine states are left: position, velocity and bias. Every sigma and random
-    walk of a sensor is an assumption and need not be the sensor's own. Samples are taken in at every communication
-    point, scalar by scalar, altitude first, then velocity, then position. A scalar whose innovation is beyond
-    innovation_gate of its own sigmas is rejected. The filter cannot tell a wrong sensor from
-    a wrong estimate: a sensor whose samples are rejected rejection_limit times in a row is reported by
-    the status and, with reacquire, believed again after the covariance has grown to fit it.
-    In free flight the inertial sensor's errors are not taken off and add nothing to the covariance. With
-    gravity_gradient velocity errors also grow by the difference of gravity that a position error makes, which
-    counts where nothing is measured for a good part of an orbit.
-    Frame: landing site. Equations: docs/systems/lunar_navigation.md.
-    Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.4 and 10.3; Groves 2013, chapter 14.
-    Assumes that sensors' errors are white, but for the inertial sensor's constants.
+    Fifteen states: errors of position and velocity, and the inertial sensor's bias b, scale factors k and misalignment
+    w, which are subtracted from the measured specific force f. Their errors propagate as
+
+        a = b + diag(k) f + w × f    δr^+ = δr + h δv - (h^2/2) a    δv^+ = δv - h a
+
+    With scale_factor_sigma and attitude_sigma 0 nine states remain. All sigmas and random walks are assumptions of the
+    filter, independent of the sensors'. Samples are processed at every communication point, scalar by scalar: altitude,
+    velocity, position. A scalar whose innovation exceeds innovation_gate of its sigmas is rejected; rejection_limit
+    consecutive rejections of a sensor set the status and, with reacquire, increase the covariance to accept it. With
+    gravity_gradient the gradient of gravity enters the propagation, which matters for long coasts without measurements.
+    In free flight the inertial sensor's errors have no effect.
+
+    Frame: landing site.
+
+    Assumes white sensor errors, except the constant errors of the inertial sensor.
+
+    Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.4 and 10.3; Groves 2013, chapter 14. See
+    docs/systems/lunar_navigation.md.
     """
 
     to_write = ("predict", "weigh", "take_in")
@@ -51,52 +55,62 @@ class FilteredNavigation(InertialNavigation, interface=True):
     bias_sigma = landing.BIAS_SIGMA.parameter()
     scale_factor_sigma = landing.SCALE_FACTOR_SIGMA.parameter()
     attitude_sigma = Parameter(
-        deg(0.02), unit="rad", minimum=0.0, description="attitude knowledge, 1 sigma per axis, constant"
+        deg(0.02),
+        unit="rad",
+        minimum=0.0,
+        description="attitude error of the inertial sensor, 1 sigma per axis, constant",
     )
     velocity_random_walk = landing.VELOCITY_RANDOM_WALK.parameter()
     bias_random_walk = Parameter(
-        0.0, minimum=0.0, description="inertial sensor: random walk of bias, m/s2 per square root of s"
+        0.0, minimum=0.0, description="bias random walk of the inertial sensor, m/s2 per square root of s"
     )
     altitude_relative_sigma = Parameter(
-        0.005, unit="1", minimum=0.0, description="error of a measured altitude, part of the altitude"
+        0.005, unit="1", minimum=0.0, description="altitude measurement error proportional to altitude, 1 sigma"
     )
-    altitude_sigma = Parameter(1.0, unit="m", minimum=0.0, description="error of a measured altitude, constant part")
+    altitude_sigma = Parameter(
+        1.0, unit="m", minimum=0.0, description="constant part of the altitude measurement error, 1 sigma"
+    )
     velocity_relative_sigma = Parameter(
-        0.001, unit="1", minimum=0.0, description="error of a measured velocity per axis, part of the speed"
+        0.001, unit="1", minimum=0.0, description="velocity measurement error proportional to speed, 1 sigma per axis"
     )
     velocity_sigma = landing.VELOCITY_SIGMA.parameter()
     position_relative_sigma = Parameter(
-        0.0015, unit="1", minimum=0.0, description="error of a measured position per axis, part of the altitude"
+        0.0015,
+        unit="1",
+        minimum=0.0,
+        description="position measurement error proportional to altitude, 1 sigma per axis",
     )
     position_sigma = landing.POSITION_SIGMA.parameter()
-    gravity_gradient = Parameter(False, description="the covariance grows by the gradient of gravity, too")
+    gravity_gradient = Parameter(False, description="true: gravity gradient included in the covariance propagation")
     innovation_gate = Parameter(
-        5.0, unit="1", minimum=0.0, description="reject scalars beyond so many sigmas of the innovation; 0: none"
+        5.0, unit="1", minimum=0.0, description="largest innovation of an accepted scalar, in sigmas; 0: no gate"
     )
-    rejection_limit = Parameter(5, minimum=1, description="samples of a sensor rejected in a row until status is 2")
-    reacquire = Parameter(False, description="then let the covariance grow to fit the sensor, and believe it")
-    estimated_bias = landing.ACCELERATION.output(
-        "constant part of what the inertial sensor adds to the specific force", direct=True
+    rejection_limit = Parameter(5, minimum=1, description="consecutive rejected samples of a sensor that set status 2")
+    reacquire = Parameter(
+        False, description="true: covariance increased to accept a sensor rejected rejection_limit times"
     )
+    estimated_bias = landing.ACCELERATION.output("estimated bias of the inertial sensor's specific force", direct=True)
     innovation_square = sampling.INNOVATION_SQUARE.output(
-        "normalised innovation squared of the last scalar, rejected or not", direct=True
+        "normalised innovation squared of the last scalar, accepted or rejected", direct=True
     )
     altitude_innovation_square = Output(
-        0.0, unit="1", direct=True, description="normalised innovation squared of the last altitude, one scalar"
+        0.0, unit="1", direct=True, description="normalised innovation squared of the last altitude, one component"
     )
     velocity_innovation_square = Output(
-        0.0, unit="1", direct=True, description="normalised innovation squared of the last velocity, three scalars"
+        0.0, unit="1", direct=True, description="normalised innovation squared of the last velocity, three components"
     )
     position_innovation_square = Output(
-        0.0, unit="1", direct=True, description="normalised innovation squared of the last position, three scalars"
+        0.0, unit="1", direct=True, description="normalised innovation squared of the last position, three components"
     )
-    rejected_count = Output(0, direct=True, description="scalars rejected by the gate")
+    rejected_count = Output(0, direct=True, description="number of scalars rejected by the gate")
     status = Output(FilterStatus, direct=True)
     sensor_errors = State(
-        zeros(9, 1), description="bias (m/s2), scale factor and misalignment (rad) per axis, estimated"
+        zeros(9, 1), description="estimated bias (m/s2), scale factor and misalignment (rad) per axis"
     )
-    covariance = State(zeros(15, 15), frozen=True, description="covariance of the fifteen states, row order, SI")
-    rejected_in_a_row = State([0] * 3, description="samples with a scalar rejected: altitude, velocity, position")
+    covariance = State(zeros(15, 15), frozen=True, description="covariance of the fifteen states, in row order, SI")
+    rejected_in_a_row = State(
+        [0] * 3, description="consecutive samples with a rejected scalar: altitude, velocity, position"
+    )
 
     def predict(self, h: float) -> None:
         """Predict the covariance h (s) ahead under the specific force."""

@@ -8,13 +8,16 @@ from .attitude_observer import AttitudeObserver
 
 
 class FullAttitudeObserver(AttitudeObserver, interface=True):
-    """Observer of all six states with a constant gain on what is measured of them: m = (roll, pitch, rates).
+    """Observer of all six states with a constant gain on the measured ones: roll, pitch and angular velocity.
 
-    With C picking m and e the unit vector of yaw, gains have the form M (C' + e l): a matrix M that sets the errors of
-    what is measured, and a row l that lets roll drive yaw. Equations: docs/systems/orbital_attitude.md.
+    With the measurement matrix C and the unit vector e of yaw, gains have the form
+
+        K = M (C^T + e l)
+
+    where the matrix M sets the dynamics of the measured errors, and the row l drives yaw by roll.
     """
 
-    gain = State([0.0] * 30, columns=5, description="of angles and rates (SI) over roll, pitch and rates measured")
+    gain = State([0.0] * 30, columns=5, description="gain from measured roll, pitch and rates to angles and rates (SI)")
 
     def compose(self, m: Matrix, row: list) -> None:
         """Set gain = m (C' + e row): m 6 x 6, row of five."""

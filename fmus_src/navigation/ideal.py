@@ -4,9 +4,11 @@ from ..interfaces.navigation import Navigation
 
 
 class IdealNavigation(Navigation):
-    """Ideal navigation: the estimate is the truth, and nothing else of the slot is used.
+    """Ideal navigation: true position and velocity as the estimate.
 
-    Frame: landing site. What it is compared with: docs/systems/lunar_navigation.md.
+    Frame: landing site.
+
+    See docs/systems/lunar_navigation.md.
     """
 
     def initialize(self) -> None:

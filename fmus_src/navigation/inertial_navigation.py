@@ -9,25 +9,33 @@ from ..mathlib.vectors import vector
 
 
 class InertialNavigation(Navigation, interface=True):
-    """Dead reckoning from velocity increments under central gravity, from a first knowledge with errors.
+    """Dead reckoning from velocity increments under central gravity, from an initial estimate with errors.
 
-    The estimate moves at every communication point. The velocity gained since the last point is
-    the measured increment; between inertial samples it is extrapolated with the last specific force, and
-    the next increment makes up for the difference. The first knowledge is the truth with errors of
-    first_position_sigma and first_velocity_sigma; two blocks with equal seed and stream begin
-    with equal errors. New samples are told by their counts; samples that are there at the start count.
-    In free flight the specific force is known to be 0, and inertial samples are passed over.
+    With the increment's mean specific force f over h, that of the step before f_b, and gravity g at r and g_1 at r + h
+    v:
+
+        v^+ = v + h (f + (g + g_1)/2)    r^+ = r + h (v + v^+)/2 - (h^2/12) (f - f_b)
+
+    The estimate is propagated at every communication point. Between inertial samples the increment is extrapolated with
+    the last specific force, and the next sample corrects the difference. The initial estimate is the truth with errors
+    of first_position_sigma and first_velocity_sigma; equal seed and stream give equal errors. Samples present at the
+    start are used. In free flight the specific force is 0 and inertial samples are ignored.
+
     Frame: landing site, not rotating; the Moon's centre is moon_radius below the origin.
-    Assumes a specific force that is linear in time over an inertial sample. Equations:
-    docs/systems/lunar_navigation.md.
+
+    Assumes a specific force that is linear in time over an inertial sample.
+
+    See docs/systems/lunar_navigation.md.
     """
 
     seed, stream = sampling.random_stream()
-    force = State([0.0] * 3, unit="m/s2", description="mean specific force of the last step, as assumed")
-    force_before = State([0.0] * 3, unit="m/s2", description="that of the step before")
-    under_way = State(False, description="a step has been taken")
-    last_force = State([0.0] * 3, unit="m/s2", description="measured specific force, for steps without a sample")
-    assumed_increment = State([0.0] * 3, unit="m/s", description="velocity gained without a sample since the last one")
+    force = State([0.0] * 3, unit="m/s2", description="mean specific force assumed over the last step")
+    force_before = State([0.0] * 3, unit="m/s2", description="mean specific force assumed over the step before")
+    under_way = State(False, description="true: at least one step taken")
+    last_force = State([0.0] * 3, unit="m/s2", description="last measured specific force, for steps without a sample")
+    assumed_increment = State(
+        [0.0] * 3, unit="m/s", description="velocity increment assumed since the last inertial sample"
+    )
     since_sample = State(0.0, unit="s", description="time since the last inertial sample")
     inertial_taken = State(0, description="inertial_count of the last sample taken")
     altitude_taken = State(0, description="altitude_count of the last sample taken")

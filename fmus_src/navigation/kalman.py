@@ -9,8 +9,7 @@ from .filtered_navigation import FilteredNavigation
 class KalmanNavigation(FilteredNavigation):
     """Kalman navigation: inertial navigation corrected from altimeter, velocimeter and camera by a Kalman filter.
 
-    The prediction works on the blocks of the covariance that change; updates take Joseph's form.
-    States, gate, status and frame: FilteredNavigation.
+    The propagation uses the changing blocks of the covariance only; updates take Joseph's form.
     """
 
     def predict(self, h: float) -> None:

@@ -9,10 +9,9 @@ from .filtered_navigation import FilteredNavigation
 
 
 class KalmanNavigationFilterpy(FilteredNavigation):
-    """Kalman navigation with filterpy's matrices: kalman_navigation written a second time, in Python only.
+    """Kalman navigation with filterpy's matrices, a second implementation of kalman_navigation in Python only.
 
-    The filter's state is what is still to be added to the estimate, 0 between updates; its matrices are
-    written out in full. States, gate, status and frame: FilteredNavigation.
+    The filter's state is the correction of the estimate, 0 between updates; its matrices are full.
     """
 
     python_only = True

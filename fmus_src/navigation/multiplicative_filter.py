@@ -10,19 +10,24 @@ from .attitude_navigation import AttitudeNavigation, AttitudeNavigationStatus
 
 
 class MultiplicativeFilter(AttitudeNavigation, interface=True):
-    """Prediction by gyros, and corrections by a small rotation in body axes and a change of the bias.
+    """Multiplicative filter: prediction by gyros, correction by a small rotation in body axes and a change of bias.
 
-    The attitude turns with the mean of the last two gyro samples less the bias, or with the last one until the next.
+    The attitude is propagated with the mean of the last two gyro samples minus the bias, or with the last one until the
+    next. With mean rate ω, angle random walk σ_v, rate random walk σ_u and cross-product matrix [·]:
+
+        δθ' = -[ω] δθ - δb    δb' = 0
+        Q_11 = σ_v^2 h + σ_u^2 h^3/3    Q_12 = -σ_u^2 h^2/2    Q_22 = σ_u^2 h
+
     Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2.
     """
 
     rate = body.ANGULAR_VELOCITY.state("last finite gyro sample")
-    covariance = State(zeros(6, 6), frozen=True, description="of the errors of attitude and bias, SI")
+    covariance = State(zeros(6, 6), frozen=True, description="covariance of the attitude and bias errors, SI")
     start_time = sampling.START_TIME.state()
-    last_time = State(0.0, unit="s", description="time of the last cycle")
+    last_time = State(0.0, unit="s", description="time of the last update")
     gyro_counted = State(0, description="gyro_count of the last sample")
-    begun = State(False, description="an attitude was measured")
-    turn = body.ROTATION.state("turn of the last cycle, by the gyros")
+    begun = State(False, description="true: attitude measured at least once")
+    turn = body.ROTATION.state("rotation since the last update, by the gyros")
 
     def begin(self) -> None:
         """Set the filter as it is before the first attitude."""

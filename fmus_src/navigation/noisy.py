@@ -16,37 +16,49 @@ VELOCITY = block(3, 3)
 
 
 class NoisyNavigation(Navigation):
-    """Position and velocity fixes with white errors at their own rates, filtered by a six-state Kalman filter.
+    """Position and velocity fixes with white errors at separate rates, filtered by a six-state Kalman filter.
 
-    Between fixes the filter moves with the measured mean specific force, constant gravity and
-    white process noise of density process_noise on each axis. Fixes count from the start, at most
-    one of each kind at a communication point: assumes steps no longer than both periods. The
-    first estimate is the truth with errors of first_position_sigma and first_velocity_sigma. A
-    sigma of 0 switches its sensor off; with both off the estimate is the truth. The slot's inputs
-    for sensor blocks and its central gravity are not used: the sensors are inside, the Moon is flat. The
-    specific force itself is measured without error; in free flight it is 0, and process noise, which stands for
-    what is not modelled, goes on. Frame: landing site.
+    Between fixes the filter is propagated with the true mean specific force, constant gravity and white noise of
+    density process_noise on each axis:
+
+        v^+ = v + (f + g) h    r^+ = r + v h + (f + g) h^2/2
+
+    Fixes count from the start, at most one of each kind at a communication point. The initial estimate is the truth
+    with errors of first_position_sigma and first_velocity_sigma. A sigma of 0 switches its sensor off; with both off
+    the estimate is the truth. The slot's sensor inputs and central gravity are not used. In free flight specific force
+    is 0.
+
+    Frame: landing site.
+
+    Assumes a flat Moon, specific force measured without error, and steps no longer than both periods.
+
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2 (discretised white acceleration noise).
     """
 
-    gravity = landing.GRAVITY.parameter(description="gravity assumed, constant, along -z")
+    gravity = landing.GRAVITY.parameter(description="constant gravity along -z in the filter's model")
     position_period = Parameter(1.0, unit="s", minimum=1e-3, description="time between position fixes")
-    position_sigma = landing.POSITION_SIGMA.parameter(0.0, "error of a position fix, 1 sigma per axis; 0: none taken")
+    position_sigma = landing.POSITION_SIGMA.parameter(
+        0.0, "error of a position fix, 1 sigma per axis; 0: no position fixes"
+    )
     velocity_period = Parameter(0.2, unit="s", minimum=1e-3, description="time between velocity fixes")
-    velocity_sigma = landing.VELOCITY_SIGMA.parameter(0.0, "error of a velocity fix, 1 sigma per axis; 0: none taken")
+    velocity_sigma = landing.VELOCITY_SIGMA.parameter(
+        0.0, "error of a velocity fix, 1 sigma per axis; 0: no velocity fixes"
+    )
     first_position_sigma = Navigation.first_position_sigma.with_start(0.0)
     first_velocity_sigma = Navigation.first_velocity_sigma.with_start(0.0)
-    process_noise = Parameter(1e-6, unit="m2/s3", minimum=0.0, description="density of white acceleration noise")
+    process_noise = Parameter(
+        1e-6, unit="m2/s3", minimum=0.0, description="spectral density of the white acceleration noise"
+    )
     seed, stream = sampling.random_stream()
     innovation_square = sampling.INNOVATION_SQUARE.output(
         "normalised innovation squared of the last scalar fix", direct=True
     )
     generator = sampling.GENERATOR.state()
-    estimate = State(zeros(6, 1), description="position (m) and velocity (m/s), landing-site frame")
-    covariance = State(zeros(6, 6), frozen=True, description="covariance of the estimate, row order, m and m/s")
+    estimate = State(zeros(6, 1), description="estimated position (m) and velocity (m/s), landing-site frame")
+    covariance = State(zeros(6, 6), frozen=True, description="covariance of the estimate, in row order, m and m/s")
     start_time = sampling.START_TIME.state()
-    position_fixes = State(0, description="position fixes taken")
-    velocity_fixes = State(0, description="velocity fixes taken")
+    position_fixes = State(0, description="number of position fixes")
+    velocity_fixes = State(0, description="number of velocity fixes")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -16,19 +16,26 @@ BIASES = block(3, 3)  # after the angles in the covariance
 
 
 class OrbitalFilter(AttitudeObserver):
-    """Extended Kalman filter of angles and gyro biases; the gyros are its motion, so inertia and thrust hardly matter.
+    """Extended Kalman filter of angles and gyro biases, propagated by the gyros.
 
-    Over a tick the mean of two samples of the gyros, less the bias, turns the angles; what the mean misses of a pulse
-    is added from its length. Roll and pitch correct angles and biases. Rates follow the pulses and lean on
-    the gyros with rate_gain. Yaw and the bias of the roll gyro over w0 look the same to all sensors while yaw is
-    small: their sum is known no better than the bias at the start, unless the body turns about yaw.
-    Equations: docs/systems/orbital_attitude.md. Source: Bar-Shalom, Li and Kirubarajan 2001, section 10.3.
+    Over a sample period the mean of two gyro samples minus the bias rotates the angles, plus the error of that mean for
+    a pulse of length τ and sign s with torque M:
+
+        c = J^-1 M s τ (T - τ)/(2 T)
+
+    Roll and pitch correct angles and biases. Rates follow the pulses and are corrected by the gyros with rate_gain. Yaw
+    and the roll gyro's bias over ω_0 are indistinguishable while yaw is small: their sum is known no better than the
+    initial bias unless the body rotates about yaw.
+
+    Source: Bar-Shalom, Li and Kirubarajan 2001, section 10.3. See docs/systems/orbital_attitude.md.
     """
 
-    first_yaw_sigma = Parameter(deg(10.0), unit="rad", minimum=0.0, description="of yaw at the start")
-    rate_gain = Parameter(0.15, unit="1", minimum=0.0, maximum=1.0, description="of a sample in the estimated rates")
-    bias = body.ANGULAR_VELOCITY.state("estimated bias of the gyros")
-    covariance = State([0.0] * 36, columns=6, frozen=True, description="of angles and biases, SI")
+    first_yaw_sigma = Parameter(deg(10.0), unit="rad", minimum=0.0, description="initial yaw error, 1 sigma")
+    rate_gain = Parameter(
+        0.15, unit="1", minimum=0.0, maximum=1.0, description="weight of a gyro sample in the estimated rates"
+    )
+    bias = body.ANGULAR_VELOCITY.state("estimated gyro bias")
+    covariance = State([0.0] * 36, columns=6, frozen=True, description="covariance of angles and biases, SI")
 
     def begin(self) -> bool:
         self.covariance[ANGLES, ANGLES] = self.vertical_sigma * self.vertical_sigma * identity(3)

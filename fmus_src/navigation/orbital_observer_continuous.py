@@ -8,15 +8,19 @@ from .full_attitude_observer import FullAttitudeObserver
 
 
 class OrbitalObserverContinuous(FullAttitudeObserver):
-    """Continuous observer of the whole state: x' = f(x, u) + L (m - C x), the sample m held over a tick.
+    """Continuous full-order observer with the sample m held over a sample period.
 
-    L = (A + measured_pole)(C' + e l), l = (-yaw_pole/w0, 0, 0, 0, 0) gives the linear errors yaw_pole once and
-    measured_pole five times. Integrated over a tick by one step of Runge-Kutta's fourth order under the mean torque,
-    or with split between the switch-offs of the jets. Source: Lapin, thesis, chapter 3.1; gain:
-    docs/systems/orbital_attitude.md.
+    With yaw_pole λ and measured_pole μ:
+
+        x' = f(x, u) + K (m - C x)    K = (A + μ) (C^T + e l)    l = (-λ/ω_0, 0, 0, 0, 0)
+
+    The linear errors have the poles -λ once and -μ five times. Integration over a sample period is one step of
+    Runge-Kutta of fourth order under the mean torque or, with split, between the switching times of the jets.
+
+    Source: Lapin, thesis, chapter 3.1. Gain: docs/systems/orbital_attitude.md.
     """
 
-    split = Parameter(False, description="follow each pulse instead of their mean")
+    split = Parameter(False, description="true: motion integrated pulse by pulse; false: under their mean torque")
 
     def begin(self) -> bool:
         a = linear_model(self.inertia, self.inverse_inertia, self.orbital_rate)

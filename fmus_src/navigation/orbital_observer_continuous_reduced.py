@@ -6,14 +6,17 @@ from .attitude_observer import AttitudeObserver
 
 
 class OrbitalObserverContinuousReduced(AttitudeObserver):
-    """Continuous observer of reduced order: yaw = z + l roll, l = -reduced_yaw_pole/w0; the rest is as measured.
+    """Continuous observer of reduced order for yaw; the other states are as measured.
 
-    z' = f - reduced_yaw_pole z, with all that is nonlinear or measured in f, which is held over a tick at the mean of
-    its two samples: solved exactly, without knowing torque or inertia.
-    Source: Lapin, thesis, chapter 3.1; equations: docs/systems/orbital_attitude.md.
+        ψ = z + l γ    l = -λ/ω_0    z' = f - λ z
+
+    with reduced_yaw_pole λ. f contains all nonlinear and measured terms and is held over a sample period at the mean of
+    its two samples, which gives an exact solution without knowledge of torque or inertia.
+
+    Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """
 
-    z = State(0.0, unit="rad", description="yaw less its share of roll")
+    z = State(0.0, unit="rad", description="observer state z = yaw - l roll")
 
     def begin(self) -> bool:
         self.z = self.reduced_yaw_pole / self.orbital_rate * self.measured_roll

@@ -8,15 +8,20 @@ from .full_attitude_observer import FullAttitudeObserver
 
 
 class OrbitalObserverDiscrete(FullAttitudeObserver):
-    """Discrete observer of the whole state: the motion over a tick, F(x), then x = F(x) + L (m - C F(x)).
+    """Discrete full-order observer with the motion F over a sample period.
 
-    With Ad = exp(A T): L = (1 - exp(-measured_pole T) Ad^-1)(C' + e l), l = ((Ad)_yaw,yaw - exp(-yaw_pole T)) c'/(c'c),
-    c = C Ad e, gives the linear errors the multipliers exp(-measured_pole T) five times and exp(-yaw_pole T) once. F is
-    one step of Runge-Kutta's fourth order under the mean torque, or with split one between any two switch-offs.
-    Source: Lapin, thesis, chapter 3.1; gain: docs/systems/orbital_attitude.md.
+    With yaw_pole λ, measured_pole μ and the unit vector e of yaw:
+
+        A_d = exp(A T)    x^+ = F(x) + K (m - C F(x))    K = (1 - exp(-μ T) A_d^-1) (C^T + e l)
+        l = (A_yaw - exp(-λ T)) c^T/(c^T c)    c = C A_d e
+
+    with the yaw element A_yaw of A_d. The linear errors have the multipliers exp(-μ T) five times and exp(-λ T) once. F
+    is one step of Runge-Kutta of fourth order under the mean torque or, with split, between any two switching times.
+
+    Source: Lapin, thesis, chapter 3.1. Gain: docs/systems/orbital_attitude.md.
     """
 
-    split = Parameter(False, description="follow each pulse instead of their mean")
+    split = Parameter(False, description="true: motion integrated pulse by pulse; false: under their mean torque")
 
     def begin(self) -> bool:
         period = self.sample_period

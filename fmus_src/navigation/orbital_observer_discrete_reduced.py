@@ -6,15 +6,19 @@ from .attitude_observer import AttitudeObserver
 
 
 class OrbitalObserverDiscreteReduced(AttitudeObserver):
-    """Discrete observer of reduced order: yaw by the motion over a tick, and by how far roll then is from its sample.
+    """Discrete observer of reduced order: yaw by the motion over a sample period, corrected by the roll residual.
 
-    From the last estimate, its measured parts as measured, the motion gives yaw and roll; yaw is moved by
-    -(1 - exp(-reduced_yaw_pole T))/(w0 T) times what the roll measured is ahead. Motion: one step of Runge-Kutta's
-    fourth order under the mean torque, or with split one between any two switch-offs.
-    Source: Lapin, thesis, chapter 3.1; equations: docs/systems/orbital_attitude.md.
+    From the last estimate, with measured states as measured, the motion F gives yaw and roll:
+
+        ψ^+ = ψ_F - (1 - exp(-λ T)) (γ_m - γ_F)/(ω_0 T)
+
+    with reduced_yaw_pole λ. F is one step of Runge-Kutta of fourth order under the mean torque or, with split, between
+    any two switching times.
+
+    Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """
 
-    split = Parameter(False, description="follow each pulse instead of their mean")
+    split = Parameter(False, description="true: motion integrated pulse by pulse; false: under their mean torque")
 
     def observe(self) -> None:
         carried = self.carry(self.split)

@@ -8,7 +8,7 @@ from .attitude_observer import AttitudeObserver
 
 
 class Stage(Enumeration):
-    """Stage of the vehicle."""
+    """Stage of the sequence."""
 
     LEVELLING = member("levelling")
     AVERAGING = member("averaging")
@@ -16,21 +16,24 @@ class Stage(Enumeration):
 
 
 class OrbitalSequence(AttitudeObserver):
-    """Three stages: level with yaw taken as 0, find yaw from the mean roll rate, then carry it on by the motion.
+    """Sequence without observer: levelling with yaw 0, yaw from the mean roll rate, then propagation.
 
-    Until levelling_end the vehicle levels and stops. Until averaging_end the measured roll rate is integrated;
-    what roll has not turned of that is w0 yaw times the time. From then on yaw is that of the motion from the last
-    estimate, pulse by pulse, with nothing to correct it. Angles and rates are as measured throughout.
-    The baseline that observers are compared with; docs/systems/orbital_attitude.md says what is known of the real one.
+        ψ = (∫ ω_x dt - Δγ)/(ω_0 Δt)
+
+    Until levelling_end the vehicle levels and stops. Until averaging_end the measured roll rate is integrated; the part
+    that roll has not turned gives yaw. From then on yaw is propagated by the motion, pulse by pulse, without
+    correction. Angles and rates are as measured.
+
+    It is the baseline of the observers. See docs/systems/orbital_attitude.md.
     """
 
-    levelling_end = Parameter(90.0, unit="s", minimum=0.0, description="end of the first stage after the start")
-    averaging_end = Parameter(270.0, unit="s", minimum=0.0, description="end of the second stage after the start")
+    levelling_end = Parameter(90.0, unit="s", minimum=0.0, description="end of levelling, after the start")
+    averaging_end = Parameter(270.0, unit="s", minimum=0.0, description="end of averaging, after the start")
     stage = State(Stage)
-    since = State(0, description="tick at which averaging began")
-    last_tick = State(0, description="tick of the last sample")
-    first_roll = State(0.0, unit="rad", description="roll when averaging began")
-    turned = State(0.0, unit="rad", description="roll rate integrated since then")
+    since = State(0, description="sample number at which averaging began")
+    last_tick = State(0, description="number of the last sample")
+    first_roll = State(0.0, unit="rad", description="roll at the start of averaging")
+    turned = State(0.0, unit="rad", description="integral of the measured roll rate since the start of averaging")
 
     def due(self, time: float) -> bool:
         """Return True if the tick nearest to a time (s after the start) has come."""

@@ -5,7 +5,7 @@ from .attitude_observer import AttitudeObserver
 
 
 class OrbitalTrueState(AttitudeObserver):
-    """The true angles and rates: what a regulator does when nothing is unknown."""
+    """True angles and rates, as a reference without observer errors."""
 
     def bound(self) -> None:
         """Tell the truth, whatever the sample."""

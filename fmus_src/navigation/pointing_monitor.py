@@ -8,39 +8,55 @@ from ..mathlib.vectors import cross, dot, norm
 
 
 class PointingMonitor(Block):
-    """Errors of attitude against reference and target; the flight ends when the satellite has pointed long enough.
+    """Monitor of attitude errors against reference and target; ends the simulation after sufficient pointing.
 
-    half_cone is the angle of the boresight from where the reference has it, knowledge_error the rotation from the true
-    to the estimated attitude. Pointing: pointing_error is within angle_limit and the angular velocity within
-    rate_limit. settling_time is when the present spell of it began, or the time of now outside one; finished once it
-    has lasted for hold_time.
-    Frame: body. Equations: docs/systems/satellite_pointing.md. Assumes that it is given the true motion.
+    half_cone is the angle of the boresight from that of the reference, knowledge_error the rotation from the true to
+    the estimated attitude. The satellite points while pointing_error is within angle_limit and the angular velocity
+    within rate_limit. settling_time is the start of the present pointing interval, or the present time outside one;
+    finished after hold_time of pointing.
+
+    Frame: body.
+
+    Assumes the true motion as input.
+
+    See docs/systems/satellite_pointing.md.
     """
 
     default_step = 0.125
 
     target_quaternion = Parameter(
-        [1.0, 0.0, 0.0, 0.0], unit="1", description="target attitude, from body to inertial, scalar first"
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="target attitude quaternion from body to inertial, scalar first"
     )
-    angle_limit = Parameter(4.84813681109536e-5, unit="rad", minimum=0.0, description="of pointing; 10 arcsec")
-    rate_limit = Parameter(1e-5, unit="rad/s", minimum=0.0, description="of pointing")
-    hold_time = Parameter(60.0, unit="s", minimum=0.0, description="how long to point before the end")
-    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="of half_cone, any length")
-    quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
+    angle_limit = Parameter(
+        4.84813681109536e-5, unit="rad", minimum=0.0, description="largest pointing error; 10 arcsec"
+    )
+    rate_limit = Parameter(1e-5, unit="rad/s", minimum=0.0, description="largest angular rate while pointing")
+    hold_time = Parameter(60.0, unit="s", minimum=0.0, description="duration of pointing that ends the simulation")
+    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="boresight for half_cone, of any length")
+    quaternion = robot.QUATERNION.input("true attitude quaternion from body to inertial, scalar first")
     angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity")
-    reference_quaternion = robot.PLANNED_QUATERNION.input("attitude to follow, body to inertial, scalar first")
+    reference_quaternion = robot.PLANNED_QUATERNION.input(
+        "reference attitude quaternion from body to inertial, scalar first"
+    )
     estimated_quaternion = robot.QUATERNION.input()
     attitude_error = body.ROTATION.output("rotation vector from the reference to the true attitude", direct=True)
     pointing_error = Output(
-        0.0, unit="rad", direct=True, description="angle between the target attitude and the true one"
+        0.0, unit="rad", direct=True, description="angle between the target attitude and the true attitude"
     )
-    half_cone = Output(0.0, unit="rad", direct=True, description="angle of the boresight from that of the reference")
+    half_cone = Output(
+        0.0, unit="rad", direct=True, description="angle between the true boresight and that of the reference"
+    )
     knowledge_error = body.ROTATION.output("rotation vector from the true to the estimated attitude", direct=True)
     rate = Output(0.0, unit="rad/s", direct=True, description="magnitude of the angular velocity")
-    settling_time = Output(0.0, unit="s", direct=True, description="since when it points, after the flight's start")
+    settling_time = Output(
+        0.0,
+        unit="s",
+        direct=True,
+        description="start of the present pointing interval, after the start of the simulation",
+    )
     finished = landing.FINISHED.output(direct=True)
     start_time = sampling.START_TIME.state()
-    pointing = State(False, description="within both limits")
+    pointing = State(False, description="true: pointing error and rate within their limits")
 
     def initialize(self) -> None:
         self.compare(self.start_time)

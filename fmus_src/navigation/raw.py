@@ -6,11 +6,11 @@ from .inertial_navigation import InertialNavigation
 
 
 class RawNavigation(InertialNavigation):
-    """Raw navigation: dead reckoning, with the latest fix put in as it is.
+    """Dead reckoning in which each fix replaces the estimate.
 
-    A position fix replaces the position, a velocity fix the velocity; an altitude moves the position
-    along the local vertical to that altitude. Of samples at the same time, the position fix comes last.
-    Sigmas and covariance stay 0: not known. Frame: landing site.
+    A position fix replaces the position, a velocity fix the velocity; an altitude moves the position along the local
+    vertical to that altitude. Of samples at the same time, the position fix is used last. Sigmas and covariance are 0
+    (unknown).
     """
 
     def initialize(self) -> None:

@@ -10,38 +10,40 @@ from ..units import deg
 
 
 class ClosingStart(Enumeration):
-    """Position at the start of the closing."""
+    """Position of the robot relative to the cone at the start of the closing."""
 
     AWAITED = member("not within closing_range yet")
     WITHIN_CONE = member("began within the cone")
     OUTSIDE_CONE = member("began outside of the cone")
-    NO_DIRECTION = member("began without a direction: object at rest, or robot at its centre")
+    NO_DIRECTION = member("began with undefined direction: object at rest, or robot at its centre")
 
 
 class RendezvousMonitor(Block):
-    """Errors of relative position, range and attitude against the plan, and the attitude as Rodrigues parameters.
+    """Monitor of relative position, range and attitude errors against the plan, with modified Rodrigues parameters.
 
-    position_error is the planned less the true relative position: the robot's distance from its place
-    beside the object. The closing begins when the range is closing_range for the first time; the robot shall then be
-    in a cone with its apex at the object's centre and its axis against the object's velocity.
+    position_error is the planned minus the true relative position. The closing begins when the range first falls to
+    closing_range; the robot shall then be in a cone with its apex at the object's centre and its axis against the
+    object's velocity.
+
     Frames: inertial; body for errors of attitude.
-    Equations: docs/systems/robot_rendezvous.md.
+
+    See docs/systems/robot_rendezvous.md.
     """
 
     default_step = 0.125
 
-    cone_half_angle = Parameter(deg(60.0), unit="rad", minimum=0.0, maximum=deg(180.0), description="of the cone")
-    closing_range = Parameter(
-        501.0, unit="m", minimum=0.0, description="range at which the closing begins, 500 m and 1"
+    cone_half_angle = Parameter(
+        deg(60.0), unit="rad", minimum=0.0, maximum=deg(180.0), description="half-angle of the approach cone"
     )
+    closing_range = Parameter(501.0, unit="m", minimum=0.0, description="range at which the closing begins")
     robot_position = inertial.POSITION.input("true position of the robot")
     target_position = inertial.POSITION.input("true position of the object")
     target_velocity = inertial.VELOCITY.input("true velocity of the object")
-    quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
-    planned_relative_position = inertial.POSITION.input("from the robot to the object")
+    quaternion = robot.QUATERNION.input("true attitude quaternion from body to inertial, scalar first")
+    planned_relative_position = inertial.POSITION.input("planned vector from the robot to the object")
     planned_quaternion = robot.PLANNED_QUATERNION.input()
     position_error = inertial.POSITION.output(
-        "of the robot from its planned place beside the object",
+        "planned minus true relative position",
         direct=("robot_position", "target_position", "planned_relative_position"),
     )
     range = robot.RANGE.output(direct=("robot_position", "target_position"))
@@ -49,13 +51,13 @@ class RendezvousMonitor(Block):
         0.0,
         unit="m",
         direct=("robot_position", "target_position", "planned_relative_position"),
-        description="range less the planned one",
+        description="range minus the planned range",
     )
     attitude_error = body.ROTATION.output(
         "rotation vector from the planned to the true attitude", direct=("quaternion", "planned_quaternion")
     )
     attitude_error_angle = Output(
-        0.0, unit="rad", direct=("quaternion", "planned_quaternion"), description="length of attitude_error"
+        0.0, unit="rad", direct=("quaternion", "planned_quaternion"), description="magnitude of attitude_error"
     )
     rodrigues = Output(
         [0.0, 0.0, 0.0],
@@ -68,7 +70,7 @@ class RendezvousMonitor(Block):
         0.0,
         unit="rad",
         direct=("robot_position", "target_position", "target_velocity"),
-        description="at the object's centre, from its reversed velocity to the robot; 0 without a direction",
+        description="angle at the object's centre from its reversed velocity to the robot; 0: undefined",
     )
     closing_start = Output(ClosingStart, direct=("robot_position", "target_position", "target_velocity"))
 

@@ -22,73 +22,80 @@ AT_ONCE = (
 
 
 class TranslationFilter(Block):
-    """Error of the robot's position and velocity against the plan, as planned minus measured relative position.
+    """Filter of the robot's position and velocity error against its plan.
 
-    method 0: the mean of the samples since the last tick of translation control, put out at the tick; the
-    velocity is the difference of the last two means over the time between their ticks.
-    method 1: Kalman filter of position and velocity, the same for all three inertial axes. It is moved by the
-    force that the jets are commanded to give (allocated_force is that of the step just past, so it is read a step late)
-    less the planned change of velocity. The force is wrong by force_error of its size, for about
-    force_error_time; process_noise is what else disturbs. A measured range below near_range has near_sigma.
+    method 0: mean of the samples since the last sample of translation control; the velocity is the difference of the
+    last two means over the time between them.
 
-    A sample that is not finite is left out and reported; without an attitude the force acts along the last one.
-    sample_period is how often the filter looks; new samples are told by their count.
-    Frames: inertial, except for the force. Equations: docs/systems/robot_rendezvous.md.
-    Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2.
-    Assumes errors that are alike in all axes, and a mass as declared.
+    method 1: Kalman filter of position x and velocity v, equal for all inertial axes, propagated by the commanded force
+    P of the jets minus the planned acceleration:
+
+        x' = v    v' = R(q) P/m - a_p + w    S_w = process_noise + (ε P/m)^2 τ
+
+    with force_error ε and force_error_time τ. allocated_force is that of the last step. Measurement errors are
+    near_sigma below near_range. Samples that are not finite are skipped and reported; without an attitude the force
+    acts along the last one.
+
+    Frames: inertial, except for the force, in body axes.
+
+    Assumes equal errors in all axes, and a mass as declared.
+
+    Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2. See docs/theory/rendezvous.md.
     """
 
     default_step = 0.125
 
     method = Parameter(FilterMethod, start=FilterMethod.KALMAN)
-    mass = landing.MASS.parameter(1000.0, "of the robot", minimum=1e-3)
+    mass = landing.MASS.parameter(1000.0, "mass of the robot", minimum=1e-3)
     far_sigma = robot.FAR_SIGMA.parameter()
     near_sigma = robot.NEAR_SIGMA.parameter()
     near_range = robot.NEAR_RANGE.parameter()
     first_velocity_sigma = Parameter(
-        0.02, unit="m/s", minimum=0.0, description="error of the velocity at the start, 1 sigma per axis"
+        0.02, unit="m/s", minimum=0.0, description="initial velocity error, 1 sigma per axis"
     )
-    process_noise = Parameter(1e-13, unit="m2/s3", minimum=0.0, description="density of white acceleration noise")
-    force_error = Parameter(
-        0.001, unit="1", minimum=0.0, description="error of the commanded force over its size, 1 sigma"
+    process_noise = Parameter(
+        1e-13, unit="m2/s3", minimum=0.0, description="spectral density of the white acceleration noise"
     )
-    force_error_time = Parameter(10.0, unit="s", minimum=0.0, description="for how long such an error stays the same")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "between steps; 0: every communication point")
-    relative_position = inertial.POSITION.input("measured, from the robot to the object")
-    sample_count = sampling.SAMPLE_COUNT.input("samples taken by the sensor; a change tells a new one")
-    planned_relative_position = inertial.POSITION.input("from the robot to the object")
-    planned_velocity = inertial.VELOCITY.input("of the robot")
-    translation_count = robot.TRANSLATION_COUNT.input("ticks of translation control; a change tells a new one")
-    quaternion = robot.QUATERNION.input("estimated attitude, body to inertial, scalar first")
-    allocated_force = body.FORCE.input("of the jets since the last communication point")
-    position_error = inertial.POSITION.output("of the robot from its plan", direct=AT_ONCE)
-    velocity_error = inertial.VELOCITY.output("of the robot from its plan", direct=AT_ONCE)
+    force_error = Parameter(0.001, unit="1", minimum=0.0, description="relative error of the commanded force, 1 sigma")
+    force_error_time = Parameter(10.0, unit="s", minimum=0.0, description="correlation time of the force error")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "sample period of the filter; 0: every communication point")
+    relative_position = inertial.POSITION.input("measured vector from the robot to the object")
+    sample_count = sampling.SAMPLE_COUNT.input("number of sensor samples so far; a change signals a new one")
+    planned_relative_position = inertial.POSITION.input("planned vector from the robot to the object")
+    planned_velocity = inertial.VELOCITY.input("planned velocity of the robot")
+    translation_count = robot.TRANSLATION_COUNT.input(
+        "number of translation control samples so far; a change signals a new one"
+    )
+    quaternion = robot.QUATERNION.input("estimated attitude quaternion from body to inertial, scalar first")
+    allocated_force = body.FORCE.input("force of the jets since the last communication point")
+    position_error = inertial.POSITION.output("position error of the robot against its plan", direct=AT_ONCE)
+    velocity_error = inertial.VELOCITY.output("velocity error of the robot against its plan", direct=AT_ONCE)
     position_error_sigma = Output(
         0.0,
         unit="m",
         direct=AT_ONCE,
-        description="standard deviation of the estimate, per axis; 0: not known",
+        description="standard deviation of position_error per axis; 0: unknown",
     )
     velocity_error_sigma = Output(
         0.0,
         unit="m/s",
         direct=AT_ONCE,
-        description="standard deviation of the estimate, per axis; 0: not known",
+        description="standard deviation of velocity_error per axis; 0: unknown",
     )
     innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
     samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
     status = Output(SampleStatus, direct=AT_ONCE)
-    covariance = State(zeros(2, 2), frozen=True, description="of position and velocity, row order, SI")
+    covariance = State(zeros(2, 2), frozen=True, description="covariance of position and velocity, in row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
     start_time = sampling.START_TIME.state()
     last_velocity = inertial.VELOCITY.state("planned_velocity at the last step")
     last_quaternion = State([1.0, 0.0, 0.0, 0.0], unit="1", description="quaternion at the last step")
     counted = State(0, description="sample_count of the last sample")
-    ticks = State(0, description="translation_count of the last tick")
+    ticks = State(0, description="translation_count of the last sample")
     tick_time = State(0.0, unit="s", description="time of the last mean")
-    total = inertial.POSITION.state("of the samples since the last tick")
+    total = inertial.POSITION.state("sum of the samples since the last translation control sample")
     summed = State(0, description="number of samples in the sum")
-    means = State(0, description="means put out")
+    means = State(0, description="number of means computed")
 
     def initialize(self) -> None:
         self.last_time = self.start_time

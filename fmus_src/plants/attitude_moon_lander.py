@@ -14,19 +14,21 @@ HALVINGS = 60  # of a step, until the moment at which the tank is empty is exact
 
 
 class AttitudeMoonLander(MoonLander):
-    """Point mass with one engine along a thrust axis that has an angular rate; roll about it is not modelled.
+    """Point mass with one engine along a thrust axis that has an angular rate; roll about the axis is not modelled.
 
-    The axis d turns with the rate w, which is perpendicular to it: d' = w x d, w' = the commanded angular acceleration
-    without its part along d, shortened to maximum_angular_acceleration, held over the communication step. Thrust is
-    thrust_factor times the command, with the lag and the end of a burn of `plants.moon_lander`, and none from
-    where mass has come down to dry_mass. Gravity is central, or uniform along -z where uniform_gravity is not 0; then
-    altitude is z and the vertical z too. Where altitude is 0 or less at the end of an internal step, position and
-    velocity go back to altitude 0 with the mean acceleration of that step, and are kept. An initial attitude without
-    length is the z axis. Frame: landing site.
+    The axis d rotates with the rate ω, perpendicular to it, under the commanded angular acceleration α:
 
-    Attitude: Runge-Kutta of fourth order, two steps in each internal one. The results depend on how communication
-    points cut a flight as those of spherical_moon_lander do.
-    Equations: docs/systems/hover_transfer.md.
+        d' = ω × d    ω' = α - (α · d) d
+
+    α is limited to maximum_angular_acceleration and held over the communication step. Thrust is thrust_factor times the
+    command, with lag and burn end as in `moon_lander`, and 0 from dry_mass on. Gravity is central, or uniform along -z
+    if uniform_gravity is not 0; altitude is then z. When altitude is 0 or less at the end of an internal step, position
+    and velocity are set back to altitude 0 with the step's mean acceleration and held. An initial attitude of length 0
+    is the z axis.
+
+    Attitude is integrated by Runge-Kutta of fourth order, two steps in each internal one.
+
+    See docs/systems/hover_transfer.md.
     """
 
     initial_position = MoonLander.initial_position.with_start([0.0, 0.0, 2400.0])
@@ -34,20 +36,23 @@ class AttitudeMoonLander(MoonLander):
     initial_mass = MoonLander.initial_mass.with_start(600.0)
     specific_impulse = MoonLander.specific_impulse.with_start(300.0)
     internal_step = MoonLander.internal_step.with_start(0.05)
-    initial_attitude = landing.DIRECTION.parameter(description="thrust axis at the start, of any length")
+    initial_attitude = landing.DIRECTION.parameter(description="initial thrust axis, of any length")
     initial_angular_rate = landing.ANGULAR_RATE.parameter(
-        description="angular rate at the start; its part along the thrust axis is dropped"
+        description="initial angular rate, whose component along the thrust axis is dropped"
     )
-    thrust_factor = Parameter(1.0, unit="1", minimum=0.0, description="thrust given over thrust commanded")
+    thrust_factor = Parameter(1.0, unit="1", minimum=0.0, description="ratio of actual to commanded thrust")
     uniform_gravity = landing.UNIFORM_GRAVITY.parameter()
     dry_mass = Parameter(1.0, unit="kg", minimum=1e-3, description="mass without propellant")
     probe_length = landing.PROBE_LENGTH.parameter()
     maximum_angular_acceleration = Parameter(
-        deg(1.0), unit="rad/s2", minimum=0.0, description="largest of the attitude jets; 0: no limit"
+        deg(1.0),
+        unit="rad/s2",
+        minimum=0.0,
+        description="largest angular acceleration of the attitude jets; 0: no limit",
     )
-    angular_acceleration = landing.ANGULAR_ACCELERATION.input("commanded angular acceleration")
+    angular_acceleration = landing.ANGULAR_ACCELERATION.input("commanded angular acceleration of the thrust axis")
     mass = MoonLander.mass.with_start(600.0)
-    angular_rate = landing.ANGULAR_RATE.output("of the thrust axis, perpendicular to it")
+    angular_rate = landing.ANGULAR_RATE.output("angular rate of the thrust axis, perpendicular to it")
     tilt = landing.TILT.output()
     vertical_speed = landing.VERTICAL_SPEED.output()
     horizontal_speed = landing.HORIZONTAL_SPEED.output()

@@ -11,26 +11,31 @@ from ..units import deg
 
 
 class DriftingTarget(Block):
-    """Moves uniformly and turns at a constant rate about an axis fixed in its body and in inertial space.
+    """Passive object in uniform motion with a constant spin about an axis fixed in its body and in inertial space.
 
-    Exact at any time. Its body axes are the inertial ones at the start; a spin_axis of length 0 means that it
-    does not turn. The paper does not give the rate of the spin. Frame: inertial.
-    Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md.
-    Assumes that nothing acts on it, and a spin about a principal axis of inertia.
+        r = r_0 + v t    q = (cos(Ω t/2), e sin(Ω t/2))
+
+    The solution is exact at any time. Body axes are inertial at the start; a spin_axis of length 0 means no spin.
+
+    Frame: inertial.
+
+    Assumes no forces and torques, and a spin about a principal axis of inertia.
+
+    Source: Somov, Butyrin, Somov and Somova. See docs/systems/robot_rendezvous.md.
     """
 
     default_step = 0.125
 
     initial_position = inertial.POSITION.parameter(
-        [500.0 * cos(math.pi / 9.0), 500.0 * sin(math.pi / 9.0), 0.0], "centre of mass at the start"
+        [500.0 * cos(math.pi / 9.0), 500.0 * sin(math.pi / 9.0), 0.0], "initial position of the centre of mass"
     )
     constant_velocity = inertial.VELOCITY.parameter([-0.05, 0.05, 0.075])
-    spin_axis = robot.SPIN_AXIS.parameter(description="axis of the spin, of any length")
-    spin_rate = Parameter(deg(1.0), unit="rad/s", description="angular velocity about it")
-    position = inertial.POSITION.output("centre of mass")
+    spin_axis = robot.SPIN_AXIS.parameter(description="spin axis, of any length")
+    spin_rate = Parameter(deg(1.0), unit="rad/s", description="angular velocity about the spin axis")
+    position = inertial.POSITION.output("position of the centre of mass")
     velocity = inertial.VELOCITY.output()
-    quaternion = robot.QUATERNION.output("attitude, from body to inertial, scalar first, not negative")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    quaternion = robot.QUATERNION.output("attitude quaternion from body to inertial, scalar first, not negative")
+    start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def initialize(self) -> None:
         self.place(0.0)

@@ -36,99 +36,143 @@ AXIAL, NORMAL = cap_tables(1.1, 2.235, MACH_NUMBERS, [5.0 * k for k in range(KNO
 
 
 class CapsuleStatus(Enumeration):
-    """Validity of the tables and the inertia."""
+    """Validity of tables and inertia."""
 
     GOOD = member("good")
     BEYOND_TABLES = member("beyond the tables")
-    NO_INERTIA = member("inertia cannot be inverted")
+    NO_INERTIA = member("inertia matrix singular")
 
 
 class Atmosphere(Enumeration):
-    """Standard of the atmosphere."""
+    """Model of the standard atmosphere."""
 
     US_1976 = member("US standard atmosphere 1976")
     GOST_4401_81 = member("GOST 4401-81")
 
 
 class EntryCapsule(Block):
-    """Rigid body in the atmosphere of a turning, spherical Earth, with jets about its axes and constant mass.
+    """Rigid capsule in the atmosphere of a rotating spherical Earth, with jets about its axes and constant mass.
 
-    Position is distance, longitude and latitude; velocity is speed over the turning Earth, path angle (up) and course
-    (from east, counter-clockwise from above). Velocity axes: x along the velocity, y up in the vertical plane
-    through it, z = x x y. Body axes: x along the axis of symmetry, out through the heat shield; bank, sideslip and
-    attack lead from velocity to body axes. Axial and normal coefficients are splines in the spatial angle of attack,
-    linear in Mach number between them; the last values hold beyond the tables, which the status says.
-    The air is that of a standard atmosphere times density_factor, moved by wind (velocity axes).
+    With radius r, longitude λ, latitude φ, speed V relative to the Earth, flight path angle θ (up), course χ (from
+    east, counter-clockwise from above), and the sum F of aerodynamic force, gravity and inertia forces in velocity
+    axes:
 
-    A change of pulse_count tells new pulses, which start at once and take the place of what is left of the last; each
-    is cut exactly where it ends, whatever the communication step. mean_torque acts beside them. jet_torque and
-    jet_factor: +x, -x, +y, -y, +z, -z. Runge-Kutta of fourth order in steps of at most internal_step. Equations:
-    docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
-    Assumes constant inertia, and jets that are at full level at once.
+        r' = V sin θ    λ' = V cos χ cos θ/(r cos φ)    φ' = (V/r) sin χ cos θ
+        V' = F_x/m    θ' = (V/r) cos θ + F_y/(m V)    χ' = -(V/r) cos θ cos χ tan φ - F_z/(m V cos θ)
+
+    With bank γ, sideslip β, angle of attack α, and angular velocity n relative to velocity axes:
+
+        γ' = (n_x cos α - n_y sin α)/cos β    β' = n_x sin α + n_y cos α    α' = n_z - tan β (n_x cos α - n_y sin α)
+        J ω' = (J ω) × ω + M_air + M_jets
+
+    With velocity v relative to the air, dynamic pressure p and pressure_arm d:
+
+        F_air = p S (-C_x, -C_y v_y/s, -C_y v_z/s)    s = |(v_y, v_z)|    M_air = d × F_air + m_q p S l^2 ω/|v|
+
+    Axial and normal coefficients C_x, C_y are splines in the spatial angle of attack, linear in Mach number; beyond the
+    tables the last values hold, with status 1. The atmosphere is a standard one times density_factor, moved by wind.
+
+    A change of pulse_count signals new pulses, which replace the remaining ones at once and end exactly, whatever the
+    communication step. mean_torque is added to them. Runge-Kutta of fourth order in steps of at most internal_step.
+
+    Frames: velocity (x along the velocity, y up in the vertical plane through it, z = x × y); body (x along the axis of
+    symmetry, out through the heat shield), rotated from velocity axes by bank, sideslip and angle of attack.
+
+    Assumes constant inertia, and jets without rise time.
+
+    Source: Lapin, thesis, chapter 1.2. See docs/systems/entry_attitude.md.
     """
 
     default_step = 0.2
 
     mass = landing.MASS.parameter(2900.0, minimum=1e-3)
     inertia = body.INERTIA.parameter()
-    reference_area = Parameter(3.8, unit="m2", minimum=0.0, description="of the coefficients")
-    reference_length = Parameter(2.2, unit="m", minimum=0.0, description="of the damping")
+    reference_area = Parameter(3.8, unit="m2", minimum=0.0, description="reference area of the force coefficients")
+    reference_length = Parameter(2.2, unit="m", minimum=0.0, description="reference length of the damping")
     pressure_arm = Parameter(
-        [-1.335, -0.066353, 0.0], unit="m", frame="body", description="from the centre of mass to that of pressure"
+        [-1.335, -0.066353, 0.0],
+        unit="m",
+        frame="body",
+        description="distance from the centre of mass to the centre of pressure",
     )
-    damping_coefficient = Parameter(-0.1, unit="1", description="moment over angular velocity, length and speed")
-    mach_numbers = Parameter(MACH_NUMBERS, unit="1", minimum=0.0, description="of the tables, ascending")
+    damping_coefficient = Parameter(-0.1, unit="1", description="damping moment per angular velocity, length and speed")
+    mach_numbers = Parameter(MACH_NUMBERS, unit="1", minimum=0.0, description="Mach numbers of the tables, ascending")
     axial_coefficient = Parameter(
-        AXIAL, columns=KNOTS, unit="1", description="along -x, by Mach number and spatial angle of attack, 0 to 60 deg"
+        AXIAL,
+        columns=KNOTS,
+        unit="1",
+        description="axial force coefficient along -x, by Mach number and spatial angle of attack, 0 to 60 deg",
     )
-    normal_coefficient = Parameter(NORMAL, columns=KNOTS, unit="1", description="across x, likewise")
+    normal_coefficient = Parameter(
+        NORMAL,
+        columns=KNOTS,
+        unit="1",
+        description="normal force coefficient across x, by Mach number and spatial angle of attack, 0 to 60 deg",
+    )
     jet_torque = Parameter(
-        [100.0, 100.0, 80.0, 80.0, 80.0, 80.0], unit="N.m", minimum=0.0, description="of each jet, a level of its own"
+        [100.0, 100.0, 80.0, 80.0, 80.0, 80.0],
+        unit="N.m",
+        minimum=0.0,
+        description="torque of each jet: +x, -x, +y, -y, +z, -z",
     )
-    gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter(3.986e14, "of the Earth")
+    gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter(
+        3.986e14, "gravitational parameter of the Earth"
+    )
     atmosphere = Parameter(Atmosphere, start=Atmosphere.US_1976)
-    earth_rate = Parameter(7.29e-5, unit="rad/s", description="turn of the Earth")
-    earth_radius = Parameter(6371000.0, unit="m", minimum=1.0, description="of the sphere under the height")
-    initial_height = Parameter(100000.0, unit="m", description="height at the start")
-    initial_longitude = Parameter(deg(60.0), unit="rad", description="longitude at the start")
-    initial_latitude = Parameter(deg(45.0), unit="rad", description="latitude at the start")
-    initial_speed = Parameter(7620.0, unit="m/s", minimum=1e-3, description="speed at the start, over the Earth")
-    initial_path_angle = Parameter(deg(-1.45), unit="rad", description="path angle at the start")
-    initial_course = Parameter(deg(40.0), unit="rad", description="course at the start")
-    initial_bank = Parameter(deg(60.0), unit="rad", description="bank at the start")
-    initial_sideslip = Parameter(0.0, unit="rad", description="sideslip at the start")
-    initial_attack = Parameter(deg(-20.0), unit="rad", description="attack at the start")
-    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="angular velocity at the start, absolute")
-    final_height = Parameter(25000.0, unit="m", description="height below which the flight ends")
+    earth_rate = Parameter(7.29e-5, unit="rad/s", description="rotation rate of the Earth")
+    earth_radius = Parameter(
+        6371000.0, unit="m", minimum=1.0, description="radius of the sphere from which height counts"
+    )
+    initial_height = Parameter(100000.0, unit="m", description="initial height")
+    initial_longitude = Parameter(deg(60.0), unit="rad", description="initial longitude")
+    initial_latitude = Parameter(deg(45.0), unit="rad", description="initial latitude")
+    initial_speed = Parameter(
+        7620.0, unit="m/s", minimum=1e-3, description="initial speed relative to the rotating Earth"
+    )
+    initial_path_angle = Parameter(deg(-1.45), unit="rad", description="initial flight path angle")
+    initial_course = Parameter(deg(40.0), unit="rad", description="initial course")
+    initial_bank = Parameter(deg(60.0), unit="rad", description="initial bank angle")
+    initial_sideslip = Parameter(0.0, unit="rad", description="initial sideslip angle")
+    initial_attack = Parameter(deg(-20.0), unit="rad", description="initial angle of attack")
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(
+        description="initial angular velocity relative to the inertial frame"
+    )
+    final_height = Parameter(25000.0, unit="m", description="height below which the simulation ends")
     internal_step = sampling.INTERNAL_STEP.parameter(0.025)
     pulse_lengths = body.PULSES.input()
     pulse_count = body.PULSE_COUNT.input()
-    mean_torque = body.TORQUE.input("torque beside the pulses, held")
+    mean_torque = body.TORQUE.input("torque in addition to the pulses, held over a step")
     wind = entry.WIND.input()
     density_factor = entry.DENSITY_FACTOR.input()
     jet_factor = entry.JET_FACTOR.input()
-    height = Output(100000.0, unit="m", description="above the sphere")
+    height = Output(100000.0, unit="m", description="height above the sphere")
     longitude = Output(0.0, unit="rad", description="longitude")
     latitude = Output(0.0, unit="rad", description="latitude")
-    speed = Output(0.0, unit="m/s", description="over the turning Earth")
-    path_angle = Output(0.0, unit="rad", description="of the velocity over the horizon")
-    course = Output(0.0, unit="rad", description="of the velocity, from east, counter-clockwise from above")
+    speed = Output(0.0, unit="m/s", description="speed relative to the rotating Earth")
+    path_angle = Output(0.0, unit="rad", description="flight path angle of the velocity above the horizon")
+    course = Output(0.0, unit="rad", description="course of the velocity, from east, counter-clockwise from above")
     bank = entry.BANK.output()
-    sideslip = Output(0.0, unit="rad", description="sideslip")
-    attack = Output(0.0, unit="rad", description="attack")
+    sideslip = Output(0.0, unit="rad", description="sideslip angle")
+    attack = Output(0.0, unit="rad", description="angle of attack")
     angular_velocity = body.ANGULAR_VELOCITY.output()
     dynamic_pressure = entry.DYNAMIC_PRESSURE.output()
-    mach = Output(0.0, unit="1", description="Mach number against the air")
-    fired_pulses = body.PULSES.output("the last pulses, with their sign")
-    jet_seconds = body.PULSES.output("time that jets have fired about x, y, z")
-    total_jet_seconds = Output(0.0, unit="s", description="their sum: the propellant")
-    finished = landing.FINISHED.output("below final_height")
+    mach = Output(0.0, unit="1", description="Mach number relative to the air")
+    fired_pulses = body.PULSES.output("signed lengths of the last pulses")
+    jet_seconds = body.PULSES.output("accumulated firing time of the jets about x, y, z")
+    total_jet_seconds = Output(
+        0.0, unit="s", description="accumulated firing time of all jets, a measure of propellant"
+    )
+    finished = landing.FINISHED.output("true: height below final_height")
     status = Output(CapsuleStatus)
     state = State(EntryState, radius=6471000.0, speed=7620.0)
-    inverse_inertia = State([0.0] * 9, columns=3, description="inverse of inertia, 1/(kg m2)")
-    axial_curvature = State([0.0] * 130, columns=KNOTS, description="second derivatives of the splines, 1/rad2")
-    normal_curvature = State([0.0] * 130, columns=KNOTS, description="likewise")
-    left = State([0.0, 0.0, 0.0], unit="s", frame="body", description="what is left of the pulses, with their sign")
+    inverse_inertia = State([0.0] * 9, columns=3, description="inverse inertia matrix, 1/(kg m2)")
+    axial_curvature = State(
+        [0.0] * 130, columns=KNOTS, description="second derivatives of the axial coefficient's splines, 1/rad2"
+    )
+    normal_curvature = State(
+        [0.0] * 130, columns=KNOTS, description="second derivatives of the normal coefficient's splines, 1/rad2"
+    )
+    left = State([0.0, 0.0, 0.0], unit="s", frame="body", description="remaining signed pulse lengths")
     counted = State(0, description="pulse_count of the last pulses")
 
     def initialize(self) -> None:

@@ -7,22 +7,26 @@ from ..mathlib.vectors import Vector3, norm, vector
 
 
 class FlatMoonLander(Block):
-    """Point mass over a flat Moon with constant gravity; thrust follows the commanded direction exactly.
+    """Point mass over a flat Moon with constant gravity and ideal attitude.
 
-    The thrust direction at time t is (d + d' (t - command_time)) normalised; thrust ends at
-    command_time + burn_duration, inside a step if need be. No mass flow. Fourth-order
-    Runge-Kutta with a fixed step of its own; the acceleration depends on time only, which makes it Simpson's
-    rule. Frame: landing site (x north, y west, z up).
+        r'' = (F/m) d(t)/|d(t)| - g k    d(t) = d_0 + d_0' (t - t_command)
+
+    Thrust ends at command_time + burn_duration, inside a step if need be. Mass is constant. Runge-Kutta of fourth order
+    in fixed steps; the acceleration depends on time only, which makes it Simpson's rule.
+
+    Frame: landing site (x north, y west, z up).
+
+    Assumes attitude and engine without lag.
+
     Source: Fomichev and Li 2017, equations of motion.
-    Assumes an attitude and an engine without lag.
     """
 
-    initial_position = landing.POSITION.parameter([1.0e5, 0.0, 1.05e4], "position at the start")
-    initial_velocity = landing.VELOCITY.parameter([-950.0, 0.0, 0.0], "velocity at the start")
-    initial_mass = landing.INITIAL_MASS.parameter(description="mass, constant")
+    initial_position = landing.POSITION.parameter([1.0e5, 0.0, 1.05e4], "initial position")
+    initial_velocity = landing.VELOCITY.parameter([-950.0, 0.0, 0.0], "initial velocity")
+    initial_mass = landing.INITIAL_MASS.parameter(description="constant mass")
     gravity = landing.GRAVITY.parameter()
     internal_step = sampling.INTERNAL_STEP.parameter()
-    latch_at_burn_end = Parameter(False, description="keep position and velocity as they are when thrust ends")
+    latch_at_burn_end = Parameter(False, description="true: position and velocity held from the end of thrust on")
     thrust = landing.THRUST.input("thrust of the engine")
     thrust_direction = landing.DIRECTION.input()
     thrust_direction_rate = landing.DIRECTION_RATE.input()
@@ -31,9 +35,9 @@ class FlatMoonLander(Block):
     position = landing.POSITION.output()
     velocity = landing.VELOCITY.output()
     mass = landing.MASS.output(start=940.0)
-    specific_force = landing.ACCELERATION.output("mean of thrust over mass in the last step")
-    latched = State(False, description="thrust has ended and the motion is kept")
-    under_thrust = State(False, description="thrust was on at the end of the last step")
+    specific_force = landing.ACCELERATION.output("mean thrust over mass in the last step")
+    latched = State(False, description="true: thrust ended and motion held")
+    under_thrust = State(False, description="true: thrust on at the end of the last step")
 
     def initialize(self) -> None:
         self.mass = self.initial_mass

@@ -14,33 +14,44 @@ from ..mathlib.vectors import Vector3, Vector4, clip, vector
 
 
 class RobotRotation(Record):
-    """Rotation of the robot; its rates are one more of the same kind."""
+    """Rotation of the robot or its time derivative."""
 
-    quaternion = Field(Vector4, unit="1", description="attitude, from body to inertial, scalar first")
-    angular_momentum = Field(Vector3, unit="N.m.s", frame="inertial", description="G of body and gyros")
+    quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
+    angular_momentum = Field(
+        Vector3, unit="N.m.s", frame="inertial", description="angular momentum G of body and gyros"
+    )
 
 
 class FreeFlyingRobot(Block):
-    """Rigid body without external forces, moved by jets and turned by jets and gyros.
+    """Rigid body without external forces, with eight jets and four control moment gyros.
 
-    m r'' = R(q) P, J w' + w x (J w + H) = M - H', q' = q w/2, with force P and torque M of the jets (body),
-    H = rotor_momentum h(gimbal angles), and gimbals that turn at the commanded rates from the first
-    instant; mass and inertia do not change. It is integrated as G' = R(q) M, w = J^-1 (R'(q) G - H), G
-    being the angular momentum in inertial axes: without jets G does not change by a bit, whatever the gimbals do.
-    Thrusts are kept within 0 and maximum_thrust and scaled by 1 + thrust_error times a normal number per jet,
-    constant over a flight and not below 0. Frames: body, principal axes with the origin at the centre of mass;
-    inertial. Equations: docs/systems/robot_rendezvous.md.
+    With force P and torque M of the jets in body axes, and the gyros' momentum H:
 
-    Runge-Kutta of fourth order in steps of internal_step, or equal parts of the communication step no longer
-    than that: results are the same to the bit for all communication steps that are whole multiples of
-    an internal_step which is a power of two.
-    Assumes rigid bodies, rotors of constant speed and jets without lag.
+        m r'' = R(q) P    J ω' + ω × (J ω + H) = M - H'    q' = q ω/2
+
+    The integrated state is the total angular momentum G in inertial axes:
+
+        G' = R(q) M    ω = J^-1 (R(q)^T G - H)    H = h_g h(β)
+
+    so that G is constant to the bit without jets. Gimbals follow the commanded rates without lag. Thrusts are limited
+    to 0 to maximum_thrust and scaled by 1 + thrust_error n, with a normal number n per jet, constant over a simulation.
+
+    Runge-Kutta of fourth order in steps of internal_step, or equal parts of the communication step: results are equal
+    to the bit for all communication steps that are multiples of an internal_step which is a power of two.
+
+    Frames: body, principal axes with the origin at the centre of mass; inertial.
+
+    Assumes constant mass and inertia, rotors of constant speed, and jets without lag.
+
+    Source: Somov, Butyrin, Somov and Somova. See docs/systems/robot_rendezvous.md and docs/theory/rendezvous.md.
     """
 
     default_step = 0.125
 
     mass = landing.MASS.parameter(1000.0, minimum=1e-3)
-    inertia = Parameter([812.0, 587.0, 910.0], unit="kg.m2", minimum=1e-3, frame="body", description="principal")
+    inertia = Parameter(
+        [812.0, 587.0, 910.0], unit="kg.m2", minimum=1e-3, frame="body", description="principal moments of inertia"
+    )
     jet_tilt = robot.JET_TILT.parameter()
     jet_azimuth = robot.JET_AZIMUTH.parameter()
     jet_arm = robot.JET_ARM.parameter()
@@ -49,31 +60,34 @@ class FreeFlyingRobot(Block):
         0.0, unit="1", minimum=0.0, description="relative error of thrust, 1 sigma per jet, constant over a flight"
     )
     rotor_momentum = robot.ROTOR_MOMENTUM.parameter(minimum=0.0)
-    initial_position = inertial.POSITION.parameter(description="position at the start")
-    initial_velocity = inertial.VELOCITY.parameter(description="velocity at the start")
+    initial_position = inertial.POSITION.parameter(description="initial position")
+    initial_velocity = inertial.VELOCITY.parameter(description="initial velocity")
     initial_quaternion = Parameter(
-        [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude at the start, from body to inertial, scalar first"
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="initial attitude quaternion from body to inertial, scalar first"
     )
-    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="angular velocity at the start")
-    initial_gimbal_angles = Parameter(ISOTROPIC_ANGLES, unit="rad", description="gimbal angles at the start")
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="initial angular velocity")
+    initial_gimbal_angles = Parameter(ISOTROPIC_ANGLES, unit="rad", description="initial gimbal angles")
     internal_step = sampling.INTERNAL_STEP.parameter(0.0625, minimum=1e-3)
     seed, stream = sampling.random_stream()
     jet_thrust = robot.JET_THRUST.input("thrust of each jet")
-    gimbal_rates = robot.GIMBAL_RATES.input("gimbal rates")
-    position = inertial.POSITION.output("centre of mass")
+    gimbal_rates = robot.GIMBAL_RATES.input("commanded gimbal rates")
+    position = inertial.POSITION.output("position of the centre of mass")
     velocity = inertial.VELOCITY.output()
-    quaternion = robot.QUATERNION.output("attitude, from body to inertial, scalar first, continuous")
-    angular_velocity = body.ANGULAR_VELOCITY.output("angular velocity")
-    gimbal_angles = robot.GIMBAL_ANGLES.output("gimbal angles, not wrapped")
-    gyro_momentum = body.ANGULAR_MOMENTUM.output("angular momentum H of the cluster")
+    quaternion = robot.QUATERNION.output("attitude quaternion from body to inertial, scalar first, continuous")
+    angular_velocity = body.ANGULAR_VELOCITY.output("angular velocity relative to the inertial frame")
+    gimbal_angles = robot.GIMBAL_ANGLES.output("gimbal angles, unwrapped")
+    gyro_momentum = body.ANGULAR_MOMENTUM.output("angular momentum H of the gyro cluster")
     jet_force = body.FORCE.output("force of the jets over the last step")
-    jet_torque = body.TORQUE.output("their torque over the last step")
-    impulse = Output(0.0, unit="N.s", description="thrusts of all jets, summed and integrated: the propellant")
-    generator = State([0.0] * 6, frozen=True, description="random number generator")
-    thrust_factor = State([1.0] * 8, unit="1", description="thrust of each jet over the commanded one")
+    jet_torque = body.TORQUE.output("torque of the jets over the last step")
+    impulse = Output(0.0, unit="N.s", description="time integral of the sum of all thrusts, a measure of propellant")
+    generator = State([0.0] * 6, frozen=True, description="state of the random number generator")
+    thrust_factor = State([1.0] * 8, unit="1", description="ratio of actual to commanded thrust of each jet")
     strength = State(JetStrength)
     angular_momentum = State(
-        [0.0, 0.0, 0.0], unit="N.m.s", frame="inertial", description="G of body and gyros about the centre of mass"
+        [0.0, 0.0, 0.0],
+        unit="N.m.s",
+        frame="inertial",
+        description="angular momentum G of body and gyros about the centre of mass",
     )
 
     def initialize(self) -> None:

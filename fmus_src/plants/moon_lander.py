@@ -11,12 +11,12 @@ from ..mathlib.vectors import Vector3, norm, vector
 
 
 class Burn(Record):
-    """Thrust over mass in a step, and its integrals."""
+    """Thrust acceleration over a step and the gained speed."""
 
-    start = Field(unit="m/s2", description="at the start of the step")
-    middle = Field(unit="m/s2", description="in its middle")
-    end = Field(unit="m/s2", description="at its end")
-    gain = Field(unit="m/s", description="the speed gained, of the rocket equation")
+    start = Field(unit="m/s2", description="thrust acceleration at the start of the step")
+    middle = Field(unit="m/s2", description="thrust acceleration in the middle of the step")
+    end = Field(unit="m/s2", description="thrust acceleration at the end of the step")
+    gain = Field(unit="m/s", description="speed gained by the rocket equation")
 
 
 def scale(burn: Burn, simpson: float) -> Burn:
@@ -30,22 +30,28 @@ def scale(burn: Burn, simpson: float) -> Burn:
 
 
 class MoonLander(Block, interface=True):
-    """Point mass with one engine along its thrust axis, in the central field of a Moon that does not rotate.
+    """Point mass with one engine along its thrust axis, in the central gravity field of a Moon that does not rotate.
 
-    A plant writes `turn`, which turns its attitude, and says what else a step does: `move` takes the whole of it,
-    `height` and `gravity` may stand for another field.
+    With position r from the Moon's centre, thrust axis d, thrust F, commanded thrust F_c and time constant τ_F:
 
-    The commanded thrust is thrust until command_time + burn_duration and 0 from there, inside a step if need be.
-    Thrust follows with a first-order lag from 0 at the start; mass' = -thrust/(standard gravity * specific_impulse)
-    and ends thrust where there is no mass left. Thrust and mass are exact between switchings. Motion:
-    Runge-Kutta-Nystrom of fourth order (Hairer, Norsett and Wanner 1993, section II.14); thrust is scaled so that each
-    step obeys the rocket equation. Where ground_contact is set, everything stops and is kept.
-    Frame: landing site (x north, y west, z up), the Moon's centre at (0, 0, -moon_radius).
-    Assumes a Moon without rotation and terrain, and propellant that neither sloshes nor moves the centre of mass.
+        r'' = -μ r/|r|^3 + (F/m) d    m' = -F/(g_0 I_sp)    F' = (F_c - F)/τ_F
+
+    F_c is `thrust` until command_time + burn_duration and 0 from there on, inside a step if need be; thrust ends where
+    no mass is left. Thrust and mass are exact between switchings. Motion is integrated by a Runge-Kutta-Nyström method
+    of fourth order, with thrust scaled so that each step obeys the rocket equation. With ground_contact set the motion
+    is held.
+
+    A plant of this slot defines `turn`, its attitude, and may override `move`, `height` and `gravity`.
+
+    Frame: landing site (x north, y west, z up), with the Moon's centre at (0, 0, -moon_radius).
+
+    Assumes a spherical Moon without rotation and terrain, and propellant without slosh or shift of the centre of mass.
+
+    Source: Hairer, Norsett and Wanner 1993, section II.14 (integration method).
     """
 
-    initial_position = landing.POSITION.parameter([266731.0, 0.0, -2233.0], "position at the start")
-    initial_velocity = landing.VELOCITY.parameter([-1676.0, 0.0, 208.0], "velocity at the start")
+    initial_position = landing.POSITION.parameter([266731.0, 0.0, -2233.0], "initial position")
+    initial_velocity = landing.VELOCITY.parameter([-1676.0, 0.0, 208.0], "initial velocity")
     initial_mass = landing.INITIAL_MASS.parameter()
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter()
     moon_radius = landing.MOON_RADIUS.parameter()
@@ -57,16 +63,16 @@ class MoonLander(Block, interface=True):
     burn_duration = landing.BURN_DURATION.input()
     position = landing.POSITION.output()
     velocity = landing.VELOCITY.output()
-    speed = Output(0.0, unit="m/s", description="length of velocity")
+    speed = Output(0.0, unit="m/s", description="speed relative to the landing site")
     mass = landing.MASS.output(start=940.0)
     altitude = landing.ALTITUDE.output()
-    specific_force = landing.ACCELERATION.output("mean of thrust over mass in the last step")
-    sensed_velocity = landing.VELOCITY.output("integral of specific force from the start")
-    delivered_thrust = Output(0.0, unit="N", description="thrust of the engine")
-    attitude = landing.DIRECTION.output("unit vector of thrust, as flown")
-    coast_time = Output(0.0, unit="s", description="time since the commanded burn ended; 0 while it goes on")
+    specific_force = landing.ACCELERATION.output("mean thrust over mass in the last step")
+    sensed_velocity = landing.VELOCITY.output("time integral of specific force since the start")
+    delivered_thrust = Output(0.0, unit="N", description="actual thrust of the engine")
+    attitude = landing.DIRECTION.output("actual thrust axis, unit vector")
+    coast_time = Output(0.0, unit="s", description="time since the commanded burn ended; 0 during a burn")
     ground_contact = landing.GROUND_CONTACT.output()
-    longest_step = State(0.1, unit="s", description="internal_step or the part of it that is taken")
+    longest_step = State(0.1, unit="s", description="integration step or the equal part of it in use")
 
     def place(self) -> None:
         """Put mass and motion at the start."""

@@ -9,37 +9,38 @@ from ..models.orbital_body import OrbitalBody
 
 
 class SpacecraftStatus(Enumeration):
-    """Motion of the spacecraft."""
+    """Validity of the inertia."""
 
     GOOD = member("good")
-    NO_INERTIA = member("inertia cannot be inverted, nothing moves")
+    NO_INERTIA = member("inertia matrix singular, no motion")
 
 
 class OrbitalSpacecraft(OrbitalBody):
-    """Rigid body on a circular orbit under the gravity gradient, whose jets give pure moments in pulses.
+    """Rigid body on a circular orbit under the gravity gradient, with jets that give pure torques in pulses.
 
-    A change of pulse_count tells new pulses, which start at once, all of them, and take the place of what is left of
-    the last; the count at the start counts. A pulse is cut exactly where it ends, whatever the communication step;
-    between, Runge-Kutta of fourth order in steps of at most internal_step. mean_torque is a torque beside the pulses,
-    held over the step, for the study of what pulses do in the mean. Jets are at full level at once; inertia does not
-    change. Frames: orbital, body. Equations: docs/systems/orbital_attitude.md. Source: Lapin, thesis, chapter 1.1.
+    A change of pulse_count signals new pulses, which replace the remaining ones at once; the count at the start counts.
+    Pulses end exactly, whatever the communication step; between these instants Runge-Kutta of fourth order in steps of
+    at most internal_step. mean_torque is added to the pulses and held over the step, for studies of the mean. Jets have
+    no rise time.
+
+    See docs/systems/orbital_attitude.md.
     """
 
-    initial_angles = Parameter([0.0, 0.0, 0.0], unit="rad", description="roll, yaw, pitch at the start")
+    initial_angles = Parameter([0.0, 0.0, 0.0], unit="rad", description="initial roll, yaw and pitch")
     initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(
-        [0.0, 0.0, -0.0011], "angular velocity at the start, absolute"
+        [0.0, 0.0, -0.0011], "initial angular velocity relative to the inertial frame"
     )
     internal_step = sampling.INTERNAL_STEP.parameter(minimum=1e-3)
     pulse_lengths = body.PULSES.input()
     pulse_count = body.PULSE_COUNT.input()
-    mean_torque = body.TORQUE.input("torque beside the pulses, held")
+    mean_torque = body.TORQUE.input("torque in addition to the pulses, held over a step")
     angles = body.ANGLES.output()
     angular_velocity = body.ANGULAR_VELOCITY.output()
-    fired_pulses = body.PULSES.output("the last pulses, with their sign")
+    fired_pulses = body.PULSES.output("signed lengths of the last pulses")
     held_torque = body.TORQUE.output("mean_torque over the last step")
-    jet_seconds = Output(0.0, unit="s", description="time that jets have fired, summed over the axes: the propellant")
+    jet_seconds = Output(0.0, unit="s", description="accumulated firing time of all jets, a measure of propellant")
     status = Output(SpacecraftStatus)
-    left = State([0.0, 0.0, 0.0], unit="s", frame="body", description="what is left of the pulses, with their sign")
+    left = State([0.0, 0.0, 0.0], unit="s", frame="body", description="remaining signed pulse lengths")
     counted = State(0, description="pulse_count of the last pulses")
 
     def initialize(self) -> None:

@@ -13,51 +13,54 @@ from ..mathlib.lunar.gravity import STANDARD_GRAVITY
 class PlanarMotion(Record):
     """Motion over a round Moon, in local vertical axes."""
 
-    vertical_speed = Field(unit="m/s", description="upwards")
-    horizontal_speed = Field(unit="m/s", description="where the central angle grows")
+    vertical_speed = Field(unit="m/s", description="vertical speed, upwards")
+    horizontal_speed = Field(unit="m/s", description="horizontal speed along increasing central angle")
     altitude = Field(unit="m", description="altitude")
-    central_angle = Field(unit="rad", description="angle flown over the Moon")
+    central_angle = Field(unit="rad", description="central angle flown over the Moon")
 
 
 class PlanarMoonLander(Block):
-    """Point mass in a plane over a round Moon; thrust follows the commanded angle at once.
+    """Point mass in a plane over a round Moon, with thrust along the commanded angle.
 
-    Angles are measured from the local vertical, positive where the central angle grows. Published
-    equations, with V the speed, th the path angle, u the thrust angle and W thrust over mass:
+    With speed V, path angle θ and thrust angle u from the local vertical, thrust over mass W and R = moon_radius + h:
 
-        V' = W cos(u - th) - g cos th      th' = (W sin(u - th) + g sin th)/V      h' = V cos th
-        central angle' = V sin th/R        mass' = -thrust/(standard gravity * specific_impulse)
+        V' = W cos(u - θ) - g cos θ    θ' = (W sin(u - θ) + g sin θ)/V    h' = V cos θ
+        φ' = V sin θ/R    m' = -F/(g_0 I_sp)    g = g_s (R_0/R)^2
 
-    Integrated in vertical and horizontal velocity, where they read vz' = W cos u - g, vx' = W sin u
-    and are regular at V = 0. ``curvature`` adds what they leave out, vx^2/R and -vz vx/R. Gravity
-    falls with the square of R = moon_radius + altitude. Fourth-order Runge-Kutta with a step of its
-    own. On the ground the motion stops and is kept. Thrust ends where the mass would.
-    Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
-    Assumes an attitude and an engine without lag, and a Moon without rotation.
+    They are integrated in vertical and horizontal velocity, where they are regular at V = 0:
+
+        v_z' = W cos u - g    v_x' = W sin u
+
+    `curvature` adds v_x^2/R and -v_z v_x/R, the rotation of the local vertical, which the published equations omit. On
+    the ground the motion is held. Thrust ends where no mass is left. Runge-Kutta of fourth order in fixed steps.
+
+    Assumes attitude and engine without lag, and a Moon without rotation.
+
+    Source: Diveev, Pupkov and Sofronova 2013. See docs/systems/lunar_descent_2d.md.
     """
 
-    initial_speed = Parameter(1689.0, unit="m/s", minimum=0.0, description="speed at the start")
-    initial_path_angle = Parameter(-1.6, unit="rad", description="path angle at the start")
-    initial_altitude = Parameter(18148.0, unit="m", description="altitude at the start")
-    initial_central_angle = Parameter(0.0, unit="rad", description="angle flown over the Moon at the start")
+    initial_speed = Parameter(1689.0, unit="m/s", minimum=0.0, description="initial speed")
+    initial_path_angle = Parameter(-1.6, unit="rad", description="initial path angle")
+    initial_altitude = Parameter(18148.0, unit="m", description="initial altitude")
+    initial_central_angle = Parameter(0.0, unit="rad", description="initial central angle")
     initial_mass = landing.INITIAL_MASS.parameter()
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter()
     surface_gravity = Parameter(1.623, unit="m/s2", minimum=0.0, description="gravity at altitude 0")
-    moon_radius = landing.MOON_RADIUS.parameter(1.7384e6, "of the Moon, at altitude 0")
-    curvature = Parameter(False, description="the vertical turns with the vehicle; false: as published")
-    thrust_factor = Parameter(1.0, unit="1", minimum=0.0, description="thrust given over thrust commanded")
+    moon_radius = landing.MOON_RADIUS.parameter(1.7384e6, "radius of the Moon at altitude 0")
+    curvature = Parameter(
+        False, description="true: rotation of the local vertical included; false: published equations"
+    )
+    thrust_factor = Parameter(1.0, unit="1", minimum=0.0, description="ratio of actual to commanded thrust")
     internal_step = sampling.INTERNAL_STEP.parameter()
     thrust_angle = landing.THRUST_ANGLE.input()
     thrust = landing.THRUST.input()
     altitude = landing.ALTITUDE.output("altitude", start=18148.0)
-    path_angle = Output(-1.6, unit="rad", description="from the local vertical to the velocity, unwrapped")
+    path_angle = Output(-1.6, unit="rad", description="angle of the velocity from the local vertical, unwrapped")
     speed = Output(1689.0, unit="m/s", description="speed")
-    central_angle = Output(0.0, unit="rad", description="angle flown over the Moon")
+    central_angle = Output(0.0, unit="rad", description="central angle flown over the Moon")
     mass = landing.MASS.output(start=940.0)
     ground_contact = landing.GROUND_CONTACT.output()
-    load_factor = Output(
-        0.0, unit="1", description="thrust over mass and standard gravity, at the end of the last step"
-    )
+    load_factor = Output(0.0, unit="1", description="thrust over weight on the Earth at the end of the last step")
     motion = State(PlanarMotion)
 
     def initialize(self) -> None:

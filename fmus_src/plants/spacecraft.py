@@ -18,110 +18,136 @@ FASTEST_MODE = 0.7  # rad of a mode within an internal step: Runge-Kutta then ad
 
 
 class SpacecraftStatus(Enumeration):
-    """Limit that the spacecraft has reached, the last of several."""
+    """Limit reached by the spacecraft, the last of several."""
 
     GOOD = member("good")
     TORQUE_LIMITED = member("a motor torque limited")
     SPEED_LIMITED = member("a wheel at its speed limit")
     DIPOLE_LIMITED = member("a dipole limited")
-    NO_NORMAL = member("a plate without normal left out")
+    NO_NORMAL = member("plate without normal omitted")
     BELOW_AIR = member("below 100 km, density of the air that of 100 km")
     MODE_TOO_FAST = member("a mode too fast for the internal step")
     NOT_FINITE = member("an input not finite, taken as 0")
-    BELOW_SURFACE = member("below the surface, nothing moves")
-    NO_INERTIA = member("inertia or mass not positive without wheels and modes, nothing moves")
+    BELOW_SURFACE = member("below the surface, no motion")
+    NO_INERTIA = member("inertia or mass not positive without wheels and modes, no motion")
 
 
 class SpacecraftMotion(Record):
-    """Motion of the spacecraft, its wheels and its modes; its rates are one more of the same kind."""
+    """Motion of spacecraft, wheels and modes, or its time derivative."""
 
-    position = Field(Vector3, unit="m", frame="inertial", description="of the centre of mass")
-    velocity = Field(Vector3, unit="m/s", frame="inertial", description="of the centre of mass")
-    quaternion = Field(Vector4, unit="1", description="attitude, from body to inertial, scalar first")
-    angular_momentum = Field(Vector3, unit="N.m.s", frame="inertial", description="G of the whole")
-    spin = Field(Vector4, unit="N.m.s", description="h = Js (W + g.w) of each wheel about its axis, absolute")
-    displacements = Field(Vector4, description="of the modes, m times the root of kg")
-    momenta = Field(Vector4, description="of the modes, m/s times the root of kg")
+    position = Field(Vector3, unit="m", frame="inertial", description="position of the centre of mass")
+    velocity = Field(Vector3, unit="m/s", frame="inertial", description="velocity of the centre of mass")
+    quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
+    angular_momentum = Field(
+        Vector3, unit="N.m.s", frame="inertial", description="angular momentum G of the whole spacecraft"
+    )
+    spin = Field(Vector4, unit="N.m.s", description="absolute angular momentum h of each wheel about its spin axis")
+    displacements = Field(Vector4, description="modal displacements, m times square root of kg")
+    momenta = Field(Vector4, description="modal momenta, m/s times square root of kg")
 
 
 class StepInputs(Record):
     """Inputs over a step, all finite."""
 
-    motors = Field(Vector4, unit="N.m", description="torques of the motors")
+    motors = Field(Vector4, unit="N.m", description="motor torques")
     dipole = Field(Vector3, unit="A.m2", frame="body", description="commanded dipole, within its limit")
     force = Field(Vector3, unit="N", frame="body", description="force at force_point")
-    torque = Field(Vector3, unit="N.m", frame="body", description="torque")
-    acceleration = Field(Vector3, unit="m/s2", frame="inertial", description="acceleration that acts like gravity")
+    torque = Field(Vector3, unit="N.m", frame="body", description="torque of body_torque")
+    acceleration = Field(
+        Vector3, unit="m/s2", frame="inertial", description="external acceleration without excitation of modes"
+    )
 
 
 class Loads(Record):
-    """Forces and torques that act at one instant, but for gravity."""
+    """Forces and torques at one instant, without gravity."""
 
     force = Field(Vector3, unit="N", frame="body", description="force")
     torque = Field(Vector3, unit="N.m", frame="body", description="torque about the undeformed centre of mass")
-    disturbance = Field(Vector3, unit="N.m", frame="body", description="torque that no input commands")
+    disturbance = Field(
+        Vector3,
+        unit="N.m",
+        frame="body",
+        description="disturbance torque: gravity gradient, drag, solar pressure, residual dipole",
+    )
 
 
 class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
-    """Orbit, attitude, four wheels and up to four modes under gravity, air, light and the magnetic field.
+    """Orbit, attitude, four reaction wheels and up to four modes under gravity, air, sunlight and the magnetic field.
 
-    With G the angular momentum of the whole, A the wheel axes, L and D the modes' participations, M the mass and
-    Me = 1 - L'L/M: r' = v, v' = g + third bodies + R F/M + external, q' = q w/2, G' = R (T - c x F), c = L eta/M,
-    w = (I - Js A A' - D Me^-1 D')^-1 (R'G - A h - D Me^-1 p), h' = motors with friction, eta' = Me^-1 (p - D'w),
-    p' = -L'F/M - 2 zeta W eta' - W^2 eta. Without torque G does not change by a bit, whatever wheels and modes do.
-    F: drag, solar pressure, body_force. T: theirs, body_torque, gravity gradient, magnetic torque.
-    All forces are evaluated in the stages of the integration, since gravity of the start of a step would
-    cost kilometres a day; the axes of the pole, Sun and Moon are those of the middle of the step.
+    With angular momentum G of the whole in inertial axes, wheel axes A, wheel momenta h, modal momenta p,
+    participations L and D, mass M, M_e = 1 - L^T L/M and the shift c = L η/M of the centre of mass:
 
-    To exchange a model, derive a class and override one method: `gravity`, `air_density`, `air_velocity`,
-    `surface_load`, `flux_density` or `further_torque`.
-    Frames: inertial (GCRS axes, origin at the body's centre), body (origin at the undeformed centre of mass).
-    Equations, checks and accuracy: docs/systems/earth_pointing.md. Source: Montenbruck and Gill 2000; Likins 1970;
-    Schaub and Junkins 2018.
+        r' = v    v' = g(r, t) + R(q) F/M + a_ext    q' = q ω/2    G' = R(q) (T - c × F)
+        ω = (I - J_s A A^T - D M_e^-1 D^T)^-1 (R(q)^T G - A h - D M_e^-1 p)
+        h' = u    η' = M_e^-1 (p - D^T ω)    p' = -L^T F/M - 2 ζ W η' - W^2 η
+        T = Σ r_k × F_k + (3 μ/|r|^3) e × (I e) + (m + m_r) × B + T_body
 
-    Runge-Kutta of fourth order in steps of internal_step, or equal parts of the communication step no longer than that.
-    Assumes a constant mass: thrust changes nothing but the force. Inertia is that of the whole at rest, wheels included
-    as if they did not spin and modes as if they were rigid.
+    F is the sum of drag, solar pressure and body_force; e the direction of r, m and m_r the commanded and the residual
+    dipole. Without torque G is constant to the bit. All forces are evaluated in the stages of the integration; axes of
+    the pole, Sun and Moon are those of the middle of the step. Runge-Kutta of fourth order in steps of internal_step,
+    or equal parts of the communication step.
+
+    To exchange a model, derive a class and override `gravity`, `air_density`, `air_velocity`, `surface_load`,
+    `flux_density` or `further_torque`.
+
+    Frames: inertial (GCRS axes, origin at the body's centre); body (origin at the undeformed centre of mass).
+
+    Assumes constant mass and an inertia of the whole at rest, wheels included as if not spinning and modes as if rigid.
+
+    Source: Montenbruck and Gill 2000; Likins 1970; Schaub and Junkins 2018. See docs/systems/earth_pointing.md.
     """
 
     default_step = 0.25
 
-    mass = Parameter(50.0, unit="kg", minimum=1e-3, description="of the whole")
+    mass = Parameter(50.0, unit="kg", minimum=1e-3, description="mass of the whole spacecraft")
     inertia = satellite.INERTIA.parameter([4.2, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 3.0])
     wheel_inertia = satellite.WHEEL_INERTIA.parameter(3e-4)
     motor_torque_limit = satellite.MOTOR_TORQUE_LIMIT.parameter(5e-3)
     speed_limit = Parameter(
-        1000.0 / 3.0, unit="rad/s", minimum=0.0, description="largest speed of a wheel, 0.1 N m s; 0: no limit"
+        1000.0 / 3.0, unit="rad/s", minimum=0.0, description="largest wheel speed, 0.1 N m s; 0: no limit"
     )
-    viscous_friction = Parameter(1e-7, unit="N.m.s", minimum=0.0, description="of a wheel, torque over speed")
-    coulomb_friction = Parameter(1e-5, unit="N.m", minimum=0.0, description="of a wheel, beyond coulomb_band")
-    residual_dipole = space.DIPOLE.parameter([0.05, 0.05, 0.05], description="dipole that nobody commands")
-    dipole_limit = Parameter(5.0, unit="A.m2", minimum=0.0, description="largest dipole about an axis, both ways")
-    force_point = Parameter([0.0, 0.0, 0.0], unit="m", frame="body", description="where body_force acts")
-    initial_position = inertial.POSITION.parameter([6878137.0, 0.0, 0.0], description="position at the start")
+    viscous_friction = Parameter(1e-7, unit="N.m.s", minimum=0.0, description="viscous friction coefficient of a wheel")
+    coulomb_friction = Parameter(
+        1e-5, unit="N.m", minimum=0.0, description="Coulomb friction torque of a wheel beyond coulomb_band"
+    )
+    residual_dipole = space.DIPOLE.parameter([0.05, 0.05, 0.05], description="residual magnetic dipole")
+    dipole_limit = Parameter(5.0, unit="A.m2", minimum=0.0, description="largest dipole about an axis, both signs")
+    force_point = Parameter([0.0, 0.0, 0.0], unit="m", frame="body", description="point of application of body_force")
+    initial_position = inertial.POSITION.parameter([6878137.0, 0.0, 0.0], description="initial position")
     initial_velocity = inertial.VELOCITY.parameter(
-        [0.0, -980.4704108126322, 7549.203993067037], description="velocity at the start"
+        [0.0, -980.4704108126322, 7549.203993067037], description="initial velocity"
     )
     initial_quaternion = Parameter(
-        [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude at the start, from body to inertial, scalar first"
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="initial attitude quaternion from body to inertial, scalar first"
     )
-    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="angular velocity at the start")
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="initial angular velocity")
     internal_step = sampling.INTERNAL_STEP.parameter(0.25, minimum=1e-3)
-    dipole = space.DIPOLE.input("commanded dipole")
+    dipole = space.DIPOLE.input("commanded magnetic dipole")
     body_force = body.FORCE.input("force at force_point, such as thrust")
-    body_torque = body.TORQUE.input("torque")
-    external_acceleration = inertial.ACCELERATION.input("acceleration that acts like gravity and excites no mode")
+    body_torque = body.TORQUE.input("external torque on the body")
+    external_acceleration = inertial.ACCELERATION.input("external acceleration without excitation of modes")
     orbit = Outputs(space.Orbit)
     attitude = Outputs(space.Attitude)
     angular_momentum = Output(
-        [0.0, 0.0, 0.0], unit="N.m.s", frame="inertial", description="G of the whole about the centre of mass"
+        [0.0, 0.0, 0.0],
+        unit="N.m.s",
+        frame="inertial",
+        description="angular momentum G of the whole spacecraft about the centre of mass",
     )
-    specific_force = Output([0.0, 0.0, 0.0], unit="m/s2", frame="body", description="force but for gravity over mass")
-    applied_dipole = space.DIPOLE.output("commanded dipole within its limit")
-    disturbance_torque = body.TORQUE.output("torque that no input commands")
+    specific_force = Output([0.0, 0.0, 0.0], unit="m/s2", frame="body", description="non-gravitational force over mass")
+    applied_dipole = space.DIPOLE.output("magnetic dipole applied within its limit")
+    disturbance_torque = body.TORQUE.output(
+        "disturbance torque: gravity gradient, drag, solar pressure, residual dipole"
+    )
     status = Output(SpacecraftStatus)
-    inverse_inertia = State(zeros(3, 3), frozen=True, description="(I - Js A A' - D Me^-1 D')^-1, 1/(kg m2)")
-    fastest = State(0.0, unit="rad/s", frozen=True, description="largest frequency of the modes of the free whole")
+    inverse_inertia = State(
+        zeros(3, 3),
+        frozen=True,
+        description="inverse of the inertia without the wheels' spin inertia and the modes', 1/(kg m2)",
+    )
+    fastest = State(
+        0.0, unit="rad/s", frozen=True, description="highest natural frequency of the modes of the free spacecraft"
+    )
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:

@@ -9,38 +9,36 @@ from .moon_lander import MoonLander
 
 
 class SphericalMoonLander(MoonLander):
-    """Point mass with one engine along its thrust axis, in the central field of a Moon that does not rotate.
+    """Point mass with one engine and a first-order attitude response, in the central gravity field of the Moon.
 
-    The commanded direction at time t is (d + d' (t - command_time)) normalised, the commanded thrust
-    is thrust until command_time + burn_duration and 0 from there, inside a step if need be. Thrust
-    follows with a first-order lag from 0 at the start; mass' = -thrust/(standard gravity *
-    specific_impulse) and ends thrust where there is no mass left. The attitude starts on the first
-    command and turns towards it at angle/direction_response, no faster than slew_rate_limit; without
-    both it is the command. Where altitude is 0 or less at the end of an internal step everything stops
-    and is kept. Frame: landing site (x north, y west, z up), the Moon's centre at (0, 0, -moon_radius).
+    The commanded direction at time t is the unit vector of d + d' (t - command_time). The attitude starts on the first
+    command and turns towards the command at the rate
 
-    Thrust and mass are exact between switchings. Motion: Runge-Kutta-Nystrom of fourth order (Hairer,
-    Norsett and Wanner 1993, section II.14), of third where the attitude comes off its limit within a
-    step; thrust is scaled so that each step obeys the rocket equation. Steps are internal_step, or
-    equal parts of it no longer than lag and response (down to 1/100, below which a response counts as
-    none), and cut where thrust ends. So the results depend on how communication points cut a flight
-    by rounding only, if these are whole multiples of internal_step apart; other distances are divided
-    into equal steps.
-    The vehicle is ours: docs/systems/lunar_landing.md.
+        |ω| = min(angle/direction_response, slew_rate_limit)
+
+    Without both it equals the command. Thrust, mass and motion are those of `moon_lander`; where the attitude leaves
+    its rate limit within a step the order is three. When altitude is 0 or less at the end of an internal step the
+    motion is held.
+
+    Steps are internal_step or equal parts of it no longer than lag and response (down to 1/100, below which a response
+    is ignored), cut where thrust ends. Results depend on the communication step by rounding only if communication
+    points are whole multiples of internal_step apart; other distances are divided into equal steps.
+
+    See docs/systems/lunar_landing.md.
     """
 
     direction_response = Parameter(0.5, unit="s", minimum=0.0, description="time constant of the attitude; 0: none")
     slew_rate_limit = Parameter(
-        deg(10.0), unit="rad/s", minimum=0.0, description="largest rate of the attitude; 0: no limit"
+        deg(10.0), unit="rad/s", minimum=0.0, description="largest angular rate of the attitude; 0: no limit"
     )
     latch_at_burn_end = Parameter(
-        False, description="keep the motion as it is when a burn ends inside a step, whatever thrust is left by a lag"
+        False, description="true: motion held from a burn's end inside a step on, without the thrust left by the lag"
     )
-    thrust_direction = landing.DIRECTION.input("commanded direction at command_time")
+    thrust_direction = landing.DIRECTION.input("commanded thrust direction at command_time, unit vector")
     thrust_direction_rate = landing.DIRECTION_RATE.input()
-    latched = State(False, description="a burn has ended and the motion is kept")
-    aligned = State(False, description="the attitude has been put on the first command")
-    response = State(0.5, unit="s", description="direction_response, 0 where it is too short to count")
+    latched = State(False, description="true: burn ended and motion held")
+    aligned = State(False, description="true: attitude aligned with the first command")
+    response = State(0.5, unit="s", description="direction_response; 0: too short to matter")
 
     def initialize(self) -> None:
         self.place()

@@ -12,57 +12,70 @@ from ..models.spinning_wheels import SpinningWheels
 
 
 class WheelSatelliteStatus(Enumeration):
-    """Limits of the wheels, and motion of the satellite."""
+    """Limit of the wheels, and validity of the inertia."""
 
     GOOD = member("good")
     TORQUE_LIMITED = member("a motor torque limited")
     SPEED_LIMITED = member("a wheel at its speed limit")
-    NO_INERTIA = member("inertia without the wheels' spin not positive, nothing moves")
+    NO_INERTIA = member("inertia without the wheels' spin not positive, no motion")
 
 
 class SatelliteMotion(Record):
-    """Rotation of the satellite and of its wheels; its rates are one more of the same kind."""
+    """Rotation of satellite and wheels, or its time derivative."""
 
-    quaternion = Field(Vector4, unit="1", description="attitude, from body to inertial, scalar first")
-    angular_momentum = Field(Vector3, unit="N.m.s", frame="inertial", description="G of body and wheels")
-    spin = Field(Vector4, unit="N.m.s", description="h = Js (W + g.w) of each wheel about its axis, absolute")
+    quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
+    angular_momentum = Field(
+        Vector3, unit="N.m.s", frame="inertial", description="angular momentum G of body and wheels"
+    )
+    spin = Field(Vector4, unit="N.m.s", description="absolute angular momentum h of each wheel about its spin axis")
 
 
 class WheelSatellite(SpinningWheels):
-    """Rigid body with four balanced reaction wheels, under a constant external torque.
+    """Rigid body with four balanced reaction wheels, under constant external torques.
 
-    With unit spin axes g, the wheels' speeds W relative to the body and their spin inertia Js, and with I the inertia
-    of the whole satellite, wheels included as if they did not spin (Basilisk's convention for balanced wheels):
-    (I - sum Js g g') w' = -w x (I w + sum Js W g) - sum us g + L,  W' = us/Js - g.w',  q' = q w/2.
-    us is the motor's torque with friction, L = body_torque + inertial_torque. It is integrated as h' = us,
-    G' = R(q) L, w = (I - sum Js g g')^-1 (R'(q) G - sum h g), W = h/Js - g.w, with G the angular momentum in
-    inertial axes: without L it does not change by a bit, whatever the wheels do.
-    Frames: body, origin at the centre of mass; inertial. Equations: docs/systems/satellite_pointing.md.
-    Source: Schaub and Junkins 2018, section 4.5; Alcorn, Allard and Schaub 2018.
+    With unit spin axes g_i, wheel speeds Ω_i relative to the body, spin inertia J_s, motor torques with friction u_i,
+    inertia I of the whole satellite, wheels included as if not spinning, and external torque L:
 
-    Runge-Kutta of fourth order in steps of internal_step, or equal parts of the communication step no longer than that.
-    Assumes rigid bodies, wheels that are alike, balanced and aligned with principal axes of theirs.
+        (I - Σ J_s g_i g_i^T) ω' = -ω × (I ω + Σ J_s Ω_i g_i) - Σ u_i g_i + L
+        Ω_i' = u_i/J_s - g_i · ω'    q' = q ω/2
+
+    The integrated states are the wheels' momenta h and the total angular momentum G in inertial axes:
+
+        h' = u    G' = R(q) L    ω = (I - J_s A A^T)^-1 (R(q)^T G - A h)    Ω = h/J_s - A^T ω
+
+    so that G is constant to the bit without external torque. Runge-Kutta of fourth order in steps of internal_step, or
+    equal parts of the communication step.
+
+    Frames: body, origin at the centre of mass; inertial.
+
+    Assumes a rigid body, and equal balanced wheels aligned with their principal axes.
+
+    Source: Schaub and Junkins 2018, section 4.5; Alcorn, Allard and Schaub 2018. See
+    docs/systems/satellite_pointing.md.
     """
 
     default_step = 0.125
 
     inertia = satellite.INERTIA.parameter()
-    body_torque = body.TORQUE.parameter(description="external torque that is constant in body axes")
-    inertial_torque = Parameter(
-        [0.0, 0.0, 0.0], unit="N.m", frame="inertial", description="external torque that is constant in inertial axes"
-    )
+    body_torque = body.TORQUE.parameter(description="constant external torque")
+    inertial_torque = Parameter([0.0, 0.0, 0.0], unit="N.m", frame="inertial", description="constant external torque")
     initial_quaternion = Parameter(
-        [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude at the start, from body to inertial, scalar first"
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="initial attitude quaternion from body to inertial, scalar first"
     )
-    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="angular velocity at the start")
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="initial angular velocity")
     internal_step = sampling.INTERNAL_STEP.parameter(0.0625, minimum=1e-3)
-    quaternion = robot.QUATERNION.output("attitude, from body to inertial, scalar first, continuous")
-    angular_velocity = body.ANGULAR_VELOCITY.output("angular velocity")
+    quaternion = robot.QUATERNION.output("attitude quaternion from body to inertial, scalar first, continuous")
+    angular_velocity = body.ANGULAR_VELOCITY.output("angular velocity relative to the inertial frame")
     angular_momentum = Output(
-        [0.0, 0.0, 0.0], unit="N.m.s", frame="inertial", description="G of body and wheels about the centre of mass"
+        [0.0, 0.0, 0.0],
+        unit="N.m.s",
+        frame="inertial",
+        description="angular momentum G of body and wheels about the centre of mass",
     )
     status = Output(WheelSatelliteStatus)
-    inverse_inertia = State(zeros(3, 3), description="(I - sum Js g g')^-1, 1/(kg m2)")
+    inverse_inertia = State(
+        zeros(3, 3), description="inverse of the inertia without the wheels' spin inertia, 1/(kg m2)"
+    )
 
     def initialize(self) -> None:
         self.angular_velocity = self.initial_angular_velocity

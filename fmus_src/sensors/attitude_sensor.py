@@ -9,34 +9,39 @@ from .random_sensor import RandomSensor
 
 
 class AttitudeSensor(RandomSensor):
-    """The thrust axis turned by a small rotation, and its angular rate with white errors.
+    """Sensor of a thrust axis and its angular rate, with constant and white errors.
 
-    measured_attitude is the unit vector along d + e x d, where e has a constant part, drawn at the start with
-    constant_sigma per axis, and one of attitude_sigma per axis that is new in every sample; measured_angular_rate has
-    an error of rate_sigma per axis, new in every sample. The first sample is at the start. Which normal numbers a
-    flight uses depends on seed, stream and the sample's number only. Frame: landing site.
-    Assumes errors that do not depend on the motion. They are ours: docs/systems/hover_transfer.md.
+        d_m = (d + e × d)/|d + e × d|    e = e_0 + attitude_sigma n    ω_m = ω + rate_sigma n
+
+    The constant error e_0 has constant_sigma per axis. The first sample is at the start. Random numbers depend on seed,
+    stream and sample number only.
+
+    Frame: landing site.
+
+    Assumes errors independent of the motion.
+
+    See docs/systems/hover_transfer.md.
     """
 
     constant_sigma = Parameter(
-        deg(0.05), unit="rad", minimum=0.0, description="constant error, 1 sigma per axis; 0.05 deg"
+        deg(0.05), unit="rad", minimum=0.0, description="constant attitude error, 1 sigma per axis; 0.05 deg"
     )
     attitude_sigma = Parameter(
-        deg(0.015), unit="rad", minimum=0.0, description="white error, 1 sigma per axis; 0.015 deg"
+        deg(0.015), unit="rad", minimum=0.0, description="white attitude error, 1 sigma per axis; 0.015 deg"
     )
     rate_sigma = Parameter(
-        3.490658503988659e-4, unit="rad/s", minimum=0.0, description="white error of the rate, 1 sigma per axis"
+        3.490658503988659e-4, unit="rad/s", minimum=0.0, description="white angular rate error, 1 sigma per axis"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.0)
     seed, stream = sampling.random_stream()
-    attitude = landing.DIRECTION.input("true unit vector of thrust")
-    angular_rate = landing.ANGULAR_RATE.input("true angular rate")
-    measured_attitude = landing.DIRECTION.output("measured unit vector of thrust", direct=True)
-    measured_angular_rate = landing.ANGULAR_RATE.output("measured angular rate", direct=True)
+    attitude = landing.DIRECTION.input("true thrust axis, unit vector")
+    angular_rate = landing.ANGULAR_RATE.input("true angular rate of the thrust axis")
+    measured_attitude = landing.DIRECTION.output("measured thrust axis, unit vector", direct=True)
+    measured_angular_rate = landing.ANGULAR_RATE.output("measured angular rate of the thrust axis", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
     misalignment = State(
-        [0.0] * 3, unit="rad", frame="landing site", description="rotation vector of the constant error"
+        [0.0] * 3, unit="rad", frame="landing site", description="rotation vector of the constant attitude error"
     )
 
     def draw_constants(self) -> None:

@@ -7,16 +7,21 @@ from .random_sensor import RandomSensor
 
 
 class BankSensor(RandomSensor):
-    """Bank with a bias and white normal errors: measured = true + bias + sigma n.
+    """Bank sensor with a bias and white normal errors.
 
-    The first sample is at the start. Which numbers a flight uses depends on seed, stream and the sample's number only.
-    Assumes errors that do not depend on the motion. They are ours: docs/systems/entry_attitude.md.
+        γ_m = γ + bias + sigma n
+
+    The first sample is at the start. Random numbers depend on seed, stream and sample number only.
+
+    Assumes errors independent of the motion.
+
+    See docs/systems/entry_attitude.md.
     """
 
     default_step = 0.2
 
-    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error, 1 sigma")
-    bias = Parameter(0.0, unit="rad", description="constant error")
+    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="white bank error, 1 sigma")
+    bias = Parameter(0.0, unit="rad", description="constant bank error")
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()
     bank = entry.BANK.input("true bank")

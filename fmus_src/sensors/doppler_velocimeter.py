@@ -9,18 +9,27 @@ from .random_sensor import RandomSensor
 
 
 class DopplerVelocimeter(RandomSensor):
-    """Measures the velocity, at maximum_altitude and below, with errors new in every sample.
+    """Doppler velocimeter up to maximum_altitude, with white errors.
 
-    Each axis has an error of sigma speed_error times speed (the length of the velocity: beams mix
-    the axes) plus noise_sigma. The first sample is at the start. Above maximum_altitude output and
-    count are held, 0 before the first sample; random numbers are drawn all the same, so that the
-    errors of sample k depend on seed, stream and k only, whatever path was flown before. Frame:
-    landing site, the attitude being known.
-    Assumes beams that always find the ground. Errors are ours: docs/systems/lunar_landing.md.
+        v_m = v + (speed_error |v| + noise_sigma) n
+
+    The error is proportional to speed in each axis, since beams mix the axes. The first sample is at the start. Above
+    maximum_altitude output and count are held, 0 before the first sample. Random numbers are drawn at every sample, so
+    that they depend on seed, stream and sample number only.
+
+    Frame: landing site, with known attitude.
+
+    Assumes beams that always reach the ground.
+
+    See docs/systems/lunar_landing.md.
     """
 
-    speed_error = Parameter(0.001, unit="1", minimum=0.0, description="error over speed, 1 sigma per axis")
-    noise_sigma = Parameter(0.05, unit="m/s", minimum=0.0, description="constant part of the error, 1 sigma per axis")
+    speed_error = Parameter(
+        0.001, unit="1", minimum=0.0, description="velocity error proportional to speed, 1 sigma per axis"
+    )
+    noise_sigma = Parameter(
+        0.05, unit="m/s", minimum=0.0, description="constant part of the velocity error, 1 sigma per axis"
+    )
     maximum_altitude = landing.MAXIMUM_ALTITUDE.parameter(5e3)
     moon_radius = landing.MOON_RADIUS.parameter()
     sample_period = sampling.SAMPLE_PERIOD.parameter()
@@ -29,7 +38,7 @@ class DopplerVelocimeter(RandomSensor):
     velocity = landing.VELOCITY.input("true velocity")
     measured_velocity = landing.VELOCITY.output("measured velocity", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output(
-        "samples in range; tells a new one from a held one", direct=("position",)
+        "number of samples in range so far; a change signals a new one", direct=("position",)
     )
     generator = sampling.GENERATOR.state()
 

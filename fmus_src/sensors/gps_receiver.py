@@ -22,35 +22,44 @@ class ReceiverStatus(Enumeration):
 
 
 class GpsReceiver(RandomSensor):
-    """Position and velocity in inertial axes with white noise, a Gauss-Markov error of position, and latency.
+    """Receiver of position and velocity with white noise, a Gauss-Markov position error, and latency.
 
-    measured position = position + markov + position_sigma n, measured velocity = velocity + velocity_sigma n. The
-    Gauss-Markov error has markov_sigma per axis and the autocorrelation e^(-t/markov_time); it begins in its steady
-    state. A sample arrives ``latency`` sample periods later, with its time plus clock_error. During an outage no
-    sample is taken; those under way arrive. Which numbers a flight uses depends on seed, stream and the sample's number
-    only. Frame: inertial. Equations: docs/systems/earth_pointing.md. Assumes no model of signals or satellites.
+        r_m = r + e + position_sigma n    v_m = v + velocity_sigma n
+        e^+ = f e + markov_sigma sqrt(1 - f^2) n    f = exp(-h/markov_time)
+
+    The Gauss-Markov error starts in its stationary state. A sample arrives ``latency`` sample periods later, with its
+    time plus clock_error. During an outage no sample is taken; those in transit arrive. Random numbers depend on seed,
+    stream and sample number only.
+
+    Frame: inertial.
+
+    Assumes no model of signals or satellites.
+
+    See docs/systems/earth_pointing.md.
     """
 
     default_step = 1.0
 
-    position_sigma = Parameter(3.0, unit="m", minimum=0.0, description="white error, 1 sigma per axis")
-    velocity_sigma = Parameter(0.03, unit="m/s", minimum=0.0, description="white error, 1 sigma per axis")
-    markov_sigma = Parameter(5.0, unit="m", minimum=0.0, description="Gauss-Markov error of position, 1 sigma per axis")
+    position_sigma = Parameter(3.0, unit="m", minimum=0.0, description="white position error, 1 sigma per axis")
+    velocity_sigma = Parameter(0.03, unit="m/s", minimum=0.0, description="white velocity error, 1 sigma per axis")
+    markov_sigma = Parameter(5.0, unit="m", minimum=0.0, description="Gauss-Markov position error, 1 sigma per axis")
     markov_time = Parameter(300.0, unit="s", minimum=1e-3, description="correlation time of the Gauss-Markov error")
-    clock_error = Parameter(0.0, unit="s", description="error of sample_time")
+    clock_error = Parameter(0.0, unit="s", description="clock error of sample_time")
     latency = Parameter(1, minimum=0, maximum=LATEST, description="delay of a sample, in sample periods")
     sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
     seed, stream = sampling.random_stream()
     position = inertial.POSITION.input("true position")
     velocity = inertial.VELOCITY.input("true velocity")
-    outage = Input(False, description="true: no sample is taken")
+    outage = Input(False, description="true: outage, no sample")
     measured_position = inertial.POSITION.output("measured position", direct=True)
     measured_velocity = inertial.VELOCITY.output("measured velocity", direct=True)
-    sample_time = Output(0.0, unit="s", direct=True, description="time of the sample by the clock of the receiver")
-    sample_count = sampling.SAMPLE_COUNT.output("samples that arrived; a change signals a new one")
+    sample_time = Output(0.0, unit="s", direct=True, description="time of the sample by the receiver's clock")
+    sample_count = sampling.SAMPLE_COUNT.output("number of samples received so far; a change signals a new one")
     status = Output(ReceiverStatus, direct=True)
     markov = inertial.POSITION.state("Gauss-Markov error of position")
-    samples = State(zeros(LATEST + 1, 8), description="last samples, the newest first: SI, time, 1 for good")
+    samples = State(
+        zeros(LATEST + 1, 8), description="samples in transit, newest first: position, velocity, time (SI), 1 for valid"
+    )
     start_time = sampling.START_TIME.state()
     last_time = State(0.0, unit="s", description="time of the last sample")
 

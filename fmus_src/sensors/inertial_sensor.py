@@ -10,38 +10,45 @@ from ..mathlib.vectors import vector
 
 
 class InertialSensor(Block):
-    """Three accelerometers whose specific force, summed over a sample, is turned into the landing-site frame.
+    """Three accelerometers with integrated specific force in landing-site axes.
 
-    With dv the true increment since the last sample, T (s) before:
+    With the true increment Δv since the last sample, T before:
 
-        velocity_increment = dv + scale dv + misalignment x (dv + scale dv) + bias T + random walk
+        Δv_m = (1 + w ×) (1 + diag(k)) Δv + b T + σ sqrt(T) n
 
-    Bias, scale factors and misalignment (rad, what is not known of the attitude) are drawn per axis
-    at the start and stay; the random walk is velocity_random_walk sqrt(T) times a normal number per
-    axis and sample. The start has no increment, so it is not counted. Which normal numbers a flight
-    uses depends on seed, stream and the sample's number only, not on the sizes of the errors.
-    Source: Groves 2013, section 4.4 (error model of inertial sensors).
-    Assumes accelerometers at the centre of mass, and an attitude error that is constant over a flight.
+    Bias b, scale factors k and misalignment w (rad, attitude error) are drawn per axis at the start and constant; σ is
+    velocity_random_walk. The start has no increment and is not counted. Random numbers depend on seed, stream and
+    sample number only.
+
+    Frame: landing site.
+
+    Assumes accelerometers at the centre of mass, and a constant attitude error.
+
+    Source: Groves 2013, section 4.4 (error model of inertial sensors). See docs/systems/lunar_landing.md.
     """
 
-    bias_sigma = landing.BIAS_SIGMA.parameter(description="bias, 1 sigma per axis, constant")
-    scale_factor_sigma = landing.SCALE_FACTOR_SIGMA.parameter(description="relative error, 1 sigma per axis, constant")
+    bias_sigma = landing.BIAS_SIGMA.parameter(description="constant bias of specific force, 1 sigma per axis")
+    scale_factor_sigma = landing.SCALE_FACTOR_SIGMA.parameter(
+        description="constant scale factor error, 1 sigma per axis"
+    )
     velocity_random_walk = landing.VELOCITY_RANDOM_WALK.parameter(
-        description="in m/s per square root of s, 1 sigma per axis"
+        description="velocity random walk, m/s per square root of s, 1 sigma per axis"
     )
     attitude_sigma = Parameter(
-        3.490658503988659e-4, unit="rad", minimum=0.0, description="error of attitude, 1 sigma per axis, constant"
+        3.490658503988659e-4, unit="rad", minimum=0.0, description="constant attitude error, 1 sigma per axis"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.1)
     seed, stream = sampling.random_stream()
-    sensed_velocity = landing.VELOCITY.input("true integral of specific force")
+    sensed_velocity = landing.VELOCITY.input("true time integral of specific force since the start")
     velocity_increment = landing.VELOCITY.output(
         "measured integral of specific force between the last two samples", direct=True
     )
-    sample_count = sampling.SAMPLE_COUNT.output("samples with an increment; tells a new one from a held one")
+    sample_count = sampling.SAMPLE_COUNT.output(
+        "number of samples with an increment so far; a change signals a new one"
+    )
     generator = sampling.GENERATOR.state()
-    bias = landing.ACCELERATION.state("error of specific force")
-    scale_factor = landing.DIRECTION.state("relative error of specific force", start=[0.0] * 3)
+    bias = landing.ACCELERATION.state("bias of specific force")
+    scale_factor = landing.DIRECTION.state("scale factor error of specific force", start=[0.0] * 3)
     misalignment = State(
         [0.0] * 3, unit="rad", frame="landing site", description="rotation vector of the attitude error"
     )

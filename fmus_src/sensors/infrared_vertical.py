@@ -10,27 +10,35 @@ from ..mathlib.vectors import vector
 
 
 class InfraredVertical(Block):
-    """Roll and pitch against the horizon, each with a bias and a normal error; yaw is not seen.
+    """Infrared horizon sensor of roll and pitch with bias and normal errors; yaw is not measured.
 
-    measured = true + bias + sigma n. The errors n are white, or with a correlation_time those of a first-order
-    Gauss-Markov process with the same sigma, which is what real horizons do. The first sample is at the start; which
-    numbers a flight uses depends on seed, stream and the sample's number only.
-    Assumes a horizon that is alike all around. Errors are ours: docs/systems/orbital_attitude.md.
+        γ_m = γ + bias_1 + sigma n    θ_m = θ + bias_2 + sigma n
+
+    The errors n are white or, with a correlation_time, those of a first-order Gauss-Markov process of the same sigma.
+    The first sample is at the start. Random numbers depend on seed, stream and sample number only.
+
+    Frame: orbital.
+
+    Assumes a uniform horizon.
+
+    See docs/systems/orbital_attitude.md.
     """
 
     default_step = 0.2
 
-    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error, 1 sigma per angle")
+    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error of each angle, 1 sigma")
     bias = Parameter([0.0, 0.0], unit="rad", description="constant error of roll and pitch")
-    correlation_time = Parameter(0.0, unit="s", minimum=0.0, description="of the errors; 0: white")
+    correlation_time = Parameter(
+        0.0, unit="s", minimum=0.0, description="correlation time of the errors; 0: white errors"
+    )
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()
-    angles = body.ANGLES.input("true roll, yaw, pitch")
+    angles = body.ANGLES.input("true roll, yaw and pitch")
     measured_roll = body.MEASURED_ROLL.output("measured roll", direct=True)
     measured_pitch = body.MEASURED_PITCH.output("measured pitch", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
-    error = State([0.0, 0.0], unit="1", frozen=True, description="errors of roll and pitch, in sigmas")
+    error = State([0.0, 0.0], unit="1", frozen=True, description="errors of roll and pitch, normalised by sigma")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -19,40 +19,51 @@ class MagnetometerStatus(Enumeration):
 
 
 class Magnetometer(RandomSensor):
-    """Magnetometer of three axes with scale factors, misalignment, bias, noise, field of the torquers, range, rounding.
+    """Three-axis magnetometer with scale factors, misalignment, bias, noise, torquer field, range and rounding.
 
-    measured = (1 + S) B + K m + bias + random bias + sigma n, limited to +- range and rounded to a multiple of quantum.
-    S is scale plus a random matrix; it and the random bias are constant over a flight. m is the dipole of the torquers,
-    as the plant applies it. The first sample is at the start. Which numbers a flight uses depends on seed, stream and
-    the sample's number only.
-    Frame: body. Equations: docs/systems/earth_pointing.md. Assumes errors that do not change with temperature.
+        B_m = (1 + S) B + K m + bias + b + sigma n
+
+    B_m is limited to ±range and rounded to a multiple of quantum. S is scale plus a random matrix; that and the random
+    bias b are constant over a simulation. m is the applied dipole of the torquers. The first sample is at the start.
+    Random numbers depend on seed, stream and sample number only.
+
+    Frame: body.
+
+    Assumes errors independent of temperature.
+
+    See docs/systems/earth_pointing.md.
     """
 
     default_step = 1.0
 
-    sigma = Parameter(5e-8, unit="T", minimum=0.0, description="noise, 1 sigma per axis")
-    bias = space.MAGNETIC_FIELD.parameter(description="constant error, added to the random bias")
+    sigma = Parameter(5e-8, unit="T", minimum=0.0, description="white noise, 1 sigma per axis")
+    bias = space.MAGNETIC_FIELD.parameter(description="constant bias, added to the random bias")
     bias_sigma = Parameter(
-        2e-7, unit="T", minimum=0.0, description="random bias, constant over a flight, 1 sigma per axis"
+        2e-7, unit="T", minimum=0.0, description="random bias, constant over a simulation, 1 sigma per axis"
     )
-    scale = Parameter([0.0] * 9, unit="1", frame="body", columns=3, description="S, scale factors and misalignment")
+    scale = Parameter(
+        [0.0] * 9, unit="1", frame="body", columns=3, description="matrix S of scale factors and misalignments"
+    )
     scale_sigma = Parameter(
-        2e-3, unit="1", minimum=0.0, description="random additions to S, constant over a flight, 1 sigma per element"
+        2e-3, unit="1", minimum=0.0, description="random part of S, constant over a simulation, 1 sigma per element"
     )
     coupling = Parameter(
-        [0.0] * 9, frame="body", columns=3, description="K, field by the dipole of the torquers, T/(A m2)"
+        [0.0] * 9,
+        frame="body",
+        columns=3,
+        description="coupling matrix K from the torquers' dipole to the field at the sensor, T/(A m2)",
     )
-    range = Parameter(1e-4, unit="T", minimum=1e-9, description="largest measured component")
+    range = Parameter(1e-4, unit="T", minimum=1e-9, description="range of each measured component, both signs")
     quantum = Parameter(1e-8, unit="T", minimum=0.0, description="quantisation step of the output; 0: none")
     sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
     seed, stream = sampling.random_stream()
-    magnetic_field_body = space.MAGNETIC_FIELD.input("true field")
-    applied_dipole = space.DIPOLE.input("dipole of the torquers")
-    measured_field = space.MAGNETIC_FIELD.output("measured field", direct=True)
+    magnetic_field_body = space.MAGNETIC_FIELD.input("true magnetic flux density")
+    applied_dipole = space.DIPOLE.input("magnetic dipole of the torquers")
+    measured_field = space.MAGNETIC_FIELD.output("measured magnetic flux density", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(MagnetometerStatus, direct=True)
-    total_bias = space.MAGNETIC_FIELD.state("constant and random bias")
-    total_scale = State(zeros(3, 3), frozen=True, description="S with its random additions")
+    total_bias = space.MAGNETIC_FIELD.state("sum of constant and random bias")
+    total_scale = State(zeros(3, 3), frozen=True, description="matrix S with its random part")
     generator = sampling.GENERATOR.state()
 
     def draw_constants(self) -> None:

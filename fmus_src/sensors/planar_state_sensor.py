@@ -7,11 +7,15 @@ from .random_sensor import RandomSensor
 
 
 class PlanarStateSensor(RandomSensor):
-    """Measures path angle and altitude with uniform relative errors, independent from sample to sample.
+    """Sensor of path angle and altitude with uniform relative errors, independent from sample to sample.
 
-    measured = true (1 + noise u), u uniform on (-1, 1) and drawn anew for each quantity and sample.
+        θ_m = θ (1 + path_angle_noise u_1)    h_m = h (1 + altitude_noise u_2)
+
+    with u_1, u_2 uniform on (-1, 1).
+
+    Assumes no bias and no delay.
+
     Source: Diveev, Pupkov and Sofronova 2013, table 2.
-    Assumes that nothing else is wrong: no bias, no delay.
     """
 
     default_step = 0.01

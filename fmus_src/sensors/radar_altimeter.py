@@ -8,16 +8,23 @@ from .random_sensor import RandomSensor
 
 
 class RadarAltimeter(RandomSensor):
-    """Measures the altitude above the sphere, at maximum_altitude and below, with an error new in every sample.
+    """Radar altimeter up to maximum_altitude, with white errors.
 
-    The error's sigma is range_error times altitude plus noise_sigma. The first sample is at the
-    start. Above maximum_altitude output and count are held, 0 before the first sample; random
-    numbers are drawn all the same, so that the error of sample k depends on seed, stream and k only,
-    whatever path was flown before. Frame: landing site.
-    Assumes a smooth sphere, without terrain. Errors are ours: docs/systems/lunar_landing.md.
+        h_m = h + (range_error h + noise_sigma) n
+
+    The first sample is at the start. Above maximum_altitude output and count are held, 0 before the first sample.
+    Random numbers are drawn at every sample, so that they depend on seed, stream and sample number only.
+
+    Frame: landing site.
+
+    Assumes a smooth sphere without terrain.
+
+    See docs/systems/lunar_landing.md.
     """
 
-    range_error = Parameter(0.005, unit="1", minimum=0.0, description="error over altitude, 1 sigma")
+    range_error = Parameter(
+        0.005, unit="1", minimum=0.0, description="altitude error proportional to altitude, 1 sigma"
+    )
     noise_sigma = landing.NOISE_SIGMA.parameter()
     maximum_altitude = landing.MAXIMUM_ALTITUDE.parameter()
     moon_radius = landing.MOON_RADIUS.parameter()
@@ -25,7 +32,9 @@ class RadarAltimeter(RandomSensor):
     seed, stream = sampling.random_stream()
     position = landing.POSITION.input("true position")
     measured_altitude = landing.MEASURED_ALTITUDE.output(direct=True)
-    sample_count = sampling.SAMPLE_COUNT.output("samples in range; tells a new one from a held one", direct=True)
+    sample_count = sampling.SAMPLE_COUNT.output(
+        "number of samples in range so far; a change signals a new one", direct=True
+    )
     generator = sampling.GENERATOR.state()
 
     def measure(self) -> None:

@@ -5,10 +5,10 @@ from ..mathlib.rng import seed_streams
 
 
 class RandomSensor(Block, interface=True):
-    """Takes a sample at the start and at every step, with errors from a stream of random numbers of its own.
+    """Sensor with a sample at the start and at every step, and errors from its own random stream.
 
-    A sensor declares seed, stream and generator, and writes `measure`; errors that stay for the whole flight are drawn
-    in `draw_constants`.
+    A sensor declares seed, stream and generator, and defines `measure`; errors that are constant over a simulation are
+    drawn in `draw_constants`.
     """
 
     to_write = ("measure",)

@@ -23,39 +23,52 @@ class RateGyrosStatus(Enumeration):
 class RateGyros(RandomSensor):
     """Three rate gyros with scale factors, misalignment, bias, noise, bias instability, range, rounding and latency.
 
-    measured = (1 + S) true + bias + random bias + instability + sigma n, limited to +- range and rounded to a multiple
-    of quantum. The random bias is uniform within +- bias_limit per axis and constant over a flight, but for a random
-    walk of bias_walk sqrt(h) n per sample, h (s) after the last one; a sample has the mean of the bias before and after
-    this step. An angle random walk of s rad/sqrt(s) is sigma = s/sqrt(sample_period). Bias instability is a first-order
-    Gauss-Markov process that begins in its steady state. A sample arrives ``latency`` sample periods later. The first
-    sample is at the start. Which numbers a flight uses depends on seed, stream and the sample's number only, and on
-    whether there are a walk and an instability. Frame: body. Assumes errors that do not change with temperature.
-    Source: Farrenkopf 1978; Crassidis and Junkins 2012, section 7.1; IEEE Std 952. Sizes: docs/systems.
+        ω_m = (1 + S) ω + bias + b + e + sigma n    b^+ = b + bias_walk sqrt(h) n
+
+    ω_m is limited to ±range and rounded to a multiple of quantum. The random bias b is uniform within ±bias_limit per
+    axis at the start and performs a random walk; a sample has the mean of the bias before and after the step. An angle
+    random walk of s rad/sqrt(s) is sigma = s/sqrt(sample_period). The bias instability e is a first-order Gauss-Markov
+    process that starts in its stationary state. A sample arrives ``latency`` sample periods later. The first sample is
+    at the start. Random numbers depend on seed, stream, sample number, and on the presence of a walk and an
+    instability.
+
+    Frame: body.
+
+    Assumes errors independent of temperature.
+
+    Source: Farrenkopf 1978; Crassidis and Junkins 2012, section 7.1; IEEE Std 952. Sizes:
+    docs/systems/earth_pointing.md.
     """
 
     default_step = 0.2
 
     sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="white noise, 1 sigma per axis")
-    bias = body.ANGULAR_VELOCITY.parameter(description="constant error, added to the random bias")
+    bias = body.ANGULAR_VELOCITY.parameter(description="constant bias, added to the random bias")
     bias_limit = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest random bias per axis")
-    bias_walk = Parameter(0.0, minimum=0.0, description="random walk of the bias, rad/s per square root of s")
-    scale = Parameter([0.0] * 9, unit="1", frame="body", columns=3, description="S, scale factors and misalignment")
+    bias_walk = Parameter(0.0, minimum=0.0, description="rate random walk of the bias, rad/s per square root of s")
+    scale = Parameter(
+        [0.0] * 9, unit="1", frame="body", columns=3, description="matrix S of scale factors and misalignments"
+    )
     instability_sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="bias instability, 1 sigma per axis")
     instability_time = Parameter(300.0, unit="s", minimum=1e-3, description="correlation time of the bias instability")
-    range = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest measured component; 0: no limit")
+    range = Parameter(
+        0.0, unit="rad/s", minimum=0.0, description="range of each measured component, both signs; 0: no limit"
+    )
     quantum = Parameter(0.0, unit="rad/s", minimum=0.0, description="quantisation step of the output; 0: none")
-    latency = Parameter(0, minimum=0, maximum=LATEST, description="delay of a sample, in sample periods")
+    latency = Parameter(0, minimum=0, maximum=LATEST, description="latency of a sample, in sample periods")
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()
-    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity, absolute")
-    measured_angular_velocity = body.ANGULAR_VELOCITY.output("measured angular velocity, absolute", direct=True)
-    true_bias = body.ANGULAR_VELOCITY.output("bias without the instability")
+    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity relative to the inertial frame")
+    measured_angular_velocity = body.ANGULAR_VELOCITY.output(
+        "measured angular velocity relative to the inertial frame", direct=True
+    )
+    true_bias = body.ANGULAR_VELOCITY.output("true bias without instability")
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(RateGyrosStatus, direct=True)
     instability = body.ANGULAR_VELOCITY.state("bias instability")
-    samples = State(zeros(LATEST + 1, 3), unit="rad/s", frame="body", description="last samples, the newest first")
-    measurements = State(0, description="samples so far, arrived or not")
-    has_scale = State(False, description="true: S is not 0")
+    samples = State(zeros(LATEST + 1, 3), unit="rad/s", frame="body", description="samples in transit, newest first")
+    measurements = State(0, description="number of samples so far, received or in transit")
+    has_scale = State(False, description="true: S not 0")
     generator = sampling.GENERATOR.state()
 
     def draw_constants(self) -> None:

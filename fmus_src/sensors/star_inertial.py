@@ -19,7 +19,7 @@ GOOD = 5
 
 
 class StarTrackerStatus(Enumeration):
-    """State of the last sample."""
+    """Status of the last sample."""
 
     GOOD = member("good")
     DAZZLED = member("Sun, Moon or limb too near to the boresight, no sample")
@@ -27,27 +27,32 @@ class StarTrackerStatus(Enumeration):
 
 
 class StarInertial(RandomSensor):
-    """Star-inertial attitude: the true quaternion turned by a small rotation, new in every sample.
+    """Star tracker with a small white rotation error, exclusion angles and latency.
 
-    The rotation vector has normal, independent components of attitude_sigma in body axes, about the boresight
-    roll_sigma if that is not 0. No sample is taken while the Sun is within sun_exclusion of the boresight, the Moon
-    within moon_exclusion, the limb of the body within limb_exclusion, or the angular velocity above rate_limit; 0 turns
-    an exclusion off. A sample arrives ``latency`` sample periods later, with its time. The first sample is at the
-    start. Which normal numbers a flight uses depends on seed, stream and the sample's number only.
-    Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md; exclusions are ours.
+        q_m = q rotation(e)    e = attitude_sigma n
+
+    e is in body axes, with roll_sigma about the boresight if that is not 0. No sample is taken while the Sun is within
+    sun_exclusion of the boresight, the Moon within moon_exclusion, the limb of the body within limb_exclusion, or the
+    angular velocity above rate_limit; 0 switches an exclusion off. A sample arrives ``latency`` sample periods later,
+    with its time. The first sample is at the start. Random numbers depend on seed, stream and sample number only.
+
+    Frames: body; inertial.
+
     Assumes small errors without bias.
+
+    Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md; exclusions: this repository.
     """
 
     default_step = 0.125
 
     attitude_sigma = Parameter(
-        4.84813681109536e-6, unit="rad", minimum=0.0, description="error, 1 sigma per axis; 1 arcsec"
+        4.84813681109536e-6, unit="rad", minimum=0.0, description="attitude error, 1 sigma per axis; 1 arcsec"
     )
     boresight = Parameter(
         [0.0, 0.0, 1.0], unit="1", frame="body", description="boresight of the tracker, of any length"
     )
     roll_sigma = Parameter(
-        0.0, unit="rad", minimum=0.0, description="error about the boresight, 1 sigma; 0: attitude_sigma"
+        0.0, unit="rad", minimum=0.0, description="attitude error about the boresight, 1 sigma; 0: attitude_sigma"
     )
     sun_exclusion = Parameter(
         0.0, unit="rad", minimum=0.0, maximum=math.pi, description="exclusion angle of the Sun; 0: none"
@@ -58,22 +63,30 @@ class StarInertial(RandomSensor):
     moon_exclusion = Parameter(
         0.0, unit="rad", minimum=0.0, maximum=math.pi, description="exclusion angle of the Moon; 0: none"
     )
-    rate_limit = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest angular velocity; 0: no limit")
-    body_radius = Parameter(6378137.0, unit="m", minimum=0.0, description="radius of the body")
-    latency = Parameter(0, minimum=0, maximum=LATEST, description="delay of a sample, in sample periods")
+    rate_limit = Parameter(
+        0.0, unit="rad/s", minimum=0.0, description="largest angular velocity with samples; 0: no limit"
+    )
+    body_radius = Parameter(6378137.0, unit="m", minimum=0.0, description="radius of the central body")
+    latency = Parameter(0, minimum=0, maximum=LATEST, description="latency of a sample, in sample periods")
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.125)
     seed, stream = sampling.random_stream()
-    quaternion = robot.QUATERNION.input("true attitude, body to inertial, scalar first")
+    quaternion = robot.QUATERNION.input("true attitude quaternion from body to inertial, scalar first")
     angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity")
-    position = inertial.POSITION.input("true position, from the centre of the body")
-    sun_direction = SpaceEnvironment.sun_direction.input("to the Sun; 0: no Sun", start=[0.0] * 3)
+    position = inertial.POSITION.input("true position relative to the centre of the central body")
+    sun_direction = SpaceEnvironment.sun_direction.input(
+        "direction to the Sun, unit vector; 0: no Sun", start=[0.0] * 3
+    )
     moon_position = SpaceEnvironment.moon_position.input()
-    measured_quaternion = robot.MEASURED_QUATERNION.output("measured, from body to inertial, scalar first", direct=True)
+    measured_quaternion = robot.MEASURED_QUATERNION.output(
+        "measured attitude quaternion from body to inertial, scalar first", direct=True
+    )
     sample_time = Output(0.0, unit="s", direct=True, description="time of the sample")
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(StarTrackerStatus, direct=True)
-    samples = State(zeros(LATEST + 1, 6), description="last samples, the newest first: attitude, time in s, 1 for good")
-    axis = State([0.0] * 3, unit="1", frame="body", frozen=True, description="boresight, of length one or 0")
+    samples = State(
+        zeros(LATEST + 1, 6), description="samples in transit, newest first: attitude, time in s, 1 for valid"
+    )
+    axis = State([0.0] * 3, unit="1", frame="body", frozen=True, description="unit vector of the boresight; 0: none")
     generator = sampling.GENERATOR.state()
     start_time = sampling.START_TIME.state()
 

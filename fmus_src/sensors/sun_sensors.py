@@ -21,22 +21,29 @@ class SunSensorStatus(Enumeration):
     """State of the last sample."""
 
     GOOD = member("good")
-    NO_SUN = member("no Sun, direction unchanged")
+    NO_SUN = member("no Sun, direction held")
     NOT_FINITE = member("input not finite or no attitude, no sample")
 
 
 class SunSensors(RandomSensor):
     """Six coarse Sun sensor heads with cosine characteristic, and a fine head with a small field of view.
 
-    The current of a head with normal n is max(0, n.s) (1 + scale) times the visible share of the Sun, if s, the
-    direction to the Sun, is within field_of_view of n; plus albedo_factor max(0, n.down), plus noise. The measured
-    direction is that of the sum of currents times normals, as long as the sum is longer than threshold. For pairs of
-    opposite heads on perpendicular axes it is exact with a field_of_view of 90 deg; with less, components below
-    its cosine are 0, which at 85 deg are up to 7.1 deg. If fine_sigma is not 0 and the Sun within fine_field of the
-    boresight, the fine head gives the true direction instead, after a small random rotation. Scale factors are random
-    and constant over a flight. Which numbers a flight uses depends on seed, stream and the sample's number only.
-    Frames: body; Sun and position in inertial axes. Equations: docs/systems/earth_pointing.md. Assumes heads without
-    shadows of the spacecraft.
+    The current of a head with normal n, direction s to the Sun, scale factor k and visible fraction ν of the Sun is
+
+        i = max(0, n · s) (1 + k) ν + albedo_factor max(0, n · down) + sigma n_r
+
+    where the first term needs s within field_of_view of n. The measured direction is that of the sum of currents times
+    normals if the sum is longer than threshold. For pairs of opposite heads on perpendicular axes it is exact with a
+    field_of_view of 90 deg; with less, components below its cosine are 0, up to 7.1 deg at 85 deg. If fine_sigma is not
+    0 and the Sun within fine_field of the boresight, the fine head gives the direction with a small random rotation.
+    Scale factors are random and constant over a simulation. Random numbers depend on seed, stream and sample number
+    only.
+
+    Frames: body; Sun and position in inertial axes.
+
+    Assumes heads without shadows of the spacecraft.
+
+    See docs/systems/earth_pointing.md.
     """
 
     default_step = 0.5
@@ -48,15 +55,27 @@ class SunSensors(RandomSensor):
         columns=3,
         description="unit normals of the heads, by row",
     )
-    sigma = Parameter(0.01, unit="1", minimum=0.0, description="noise of a current, 1 sigma, of full scale")
+    sigma = Parameter(
+        0.01, unit="1", minimum=0.0, description="noise of a head's current, 1 sigma, as a fraction of full scale"
+    )
     scale_sigma = Parameter(
-        0.0, unit="1", minimum=0.0, description="random scale factor of a head, constant over a flight, 1 sigma"
+        0.0,
+        unit="1",
+        minimum=0.0,
+        description="random scale factor error of a head, constant over a simulation, 1 sigma",
     )
-    albedo_factor = Parameter(0.0, unit="1", minimum=0.0, description="current of a head that looks straight down")
+    albedo_factor = Parameter(
+        0.0,
+        unit="1",
+        minimum=0.0,
+        description="albedo current of a head pointing straight down, as a fraction of full scale",
+    )
     field_of_view = Parameter(
-        deg(85.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle that a head sees"
+        deg(85.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle of a head's field of view"
     )
-    threshold = Parameter(0.5, unit="1", minimum=0.0, description="shortest sum of currents that counts as the Sun")
+    threshold = Parameter(
+        0.5, unit="1", minimum=0.0, description="least length of the sum of currents for a valid direction"
+    )
     boresight = Parameter(
         [0.0, 0.0, 1.0], unit="1", frame="body", description="boresight of the fine head, of any length"
     )
@@ -64,22 +83,24 @@ class SunSensors(RandomSensor):
         0.0, unit="rad", minimum=0.0, description="error of the fine head, 1 sigma per axis; 0: no fine head"
     )
     fine_field = Parameter(
-        deg(30.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle that the fine head sees"
+        deg(30.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle of the fine head's field of view"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.5)
     seed, stream = sampling.random_stream()
-    quaternion = robot.QUATERNION.input("true attitude, from body to inertial, scalar first")
+    quaternion = robot.QUATERNION.input("true attitude quaternion from body to inertial, scalar first")
     position = inertial.POSITION.input("true position")
     sun_direction = SpaceEnvironment.sun_direction.input()
     illumination = SpaceEnvironment.illumination.input()
-    currents = Output([0.0] * HEADS, unit="1", direct=True, description="currents of the heads, of full scale")
-    measured_direction = Output(
-        [1.0, 0.0, 0.0], unit="1", frame="body", direct=True, description="measured direction to the Sun"
+    currents = Output(
+        [0.0] * HEADS, unit="1", direct=True, description="currents of the heads, as fractions of full scale"
     )
-    valid = Output(False, direct=True, description="true: the Sun is in the last sample")
-    sample_count = sampling.SAMPLE_COUNT.output("samples with the Sun; a change signals a new one")
+    measured_direction = Output(
+        [1.0, 0.0, 0.0], unit="1", frame="body", direct=True, description="measured direction to the Sun, unit vector"
+    )
+    valid = Output(False, direct=True, description="true: Sun in the last sample")
+    sample_count = sampling.SAMPLE_COUNT.output("number of samples with the Sun so far; a change signals a new one")
     status = Output(SunSensorStatus, direct=True)
-    scales = State([0.0] * HEADS, unit="1", frozen=True, description="scale factors of the heads")
+    scales = State([0.0] * HEADS, unit="1", frozen=True, description="scale factor errors of the heads")
     generator = sampling.GENERATOR.state()
 
     def draw_constants(self) -> None:

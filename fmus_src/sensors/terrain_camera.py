@@ -8,25 +8,34 @@ from .random_sensor import RandomSensor
 
 
 class TerrainCamera(RandomSensor):
-    """Measures the position from minimum_altitude to maximum_altitude, both included, with errors new in every sample.
+    """Terrain camera for position from minimum_altitude to maximum_altitude, with white errors.
 
-    Each axis has an error of sigma altitude_error times altitude plus noise_sigma. The first sample
-    is at the start. Outside of the band output and count are held, 0 before the first sample; random
-    numbers are drawn all the same, so that the errors of sample k depend on seed, stream and k only,
-    whatever path was flown before. Frame: landing site.
-    Assumes mapped terrain in sight all over the band. Errors are ours: docs/systems/lunar_landing.md.
+        r_m = r + (altitude_error h + noise_sigma) n
+
+    The first sample is at the start. Outside the range of altitude output and count are held, 0 before the first
+    sample. Random numbers are drawn at every sample, so that they depend on seed, stream and sample number only.
+
+    Frame: landing site.
+
+    Assumes mapped terrain in sight over the whole range.
+
+    See docs/systems/lunar_landing.md.
     """
 
-    altitude_error = Parameter(0.0015, unit="1", minimum=0.0, description="error over altitude, 1 sigma per axis")
-    noise_sigma = landing.NOISE_SIGMA.parameter(2.0, "constant part of the error, 1 sigma per axis")
-    minimum_altitude = Parameter(500.0, unit="m", description="measures at this altitude and above")
+    altitude_error = Parameter(
+        0.0015, unit="1", minimum=0.0, description="position error proportional to altitude, 1 sigma per axis"
+    )
+    noise_sigma = landing.NOISE_SIGMA.parameter(2.0, "constant part of the position error, 1 sigma per axis")
+    minimum_altitude = Parameter(500.0, unit="m", description="least altitude of the sensor's range")
     maximum_altitude = landing.MAXIMUM_ALTITUDE.parameter()
     moon_radius = landing.MOON_RADIUS.parameter()
     sample_period = sampling.SAMPLE_PERIOD.parameter(5.0)
     seed, stream = sampling.random_stream()
     position = landing.POSITION.input("true position")
     measured_position = landing.POSITION.output("measured position", direct=True)
-    sample_count = sampling.SAMPLE_COUNT.output("samples in the band; tells a new one from a held one", direct=True)
+    sample_count = sampling.SAMPLE_COUNT.output(
+        "number of samples in range so far; a change signals a new one", direct=True
+    )
     generator = sampling.GENERATOR.state()
 
     def measure(self) -> None:

@@ -15,7 +15,7 @@ from ..units import deg
 class AocsMode(Enumeration):
     """Mode of the satellite."""
 
-    DETUMBLE = member("brake the rotation by torquers")
+    DETUMBLE = member("detumble by torquers")
     SUN = member("panel towards the Sun")
     NADIR = member("nadir")
 
@@ -24,44 +24,62 @@ class AocsModesStatus(Enumeration):
     """Validity of the last decision."""
 
     GOOD = member("good")
-    NOT_FINITE = member("an input not finite, the mode stays")
+    NOT_FINITE = member("an input not finite, mode held")
 
 
 class AocsModes(Block):
-    """Sequence of modes from separation to nadir pointing, and back where it is lost.
+    """Mode sequence from separation to nadir pointing, with recovery.
 
-    DETUMBLE to SUN after the rate was below calm_rate for settle_time. SUN to NADIR after an attitude was known and
-    panel_normal within sun_error of the Sun for settle_time. To DETUMBLE after the rate was above lost_rate for
-    lost_time; to SUN from NADIR after no attitude for blind_time, and a quaternion shorter than 0.5 is none. Each is
-    decided at this block's samples, of which one that is not finite keeps the mode and ends a spell of settling or of
-    lost_rate. Wheels are off and torquers brake in DETUMBLE; wheels are on and torquers unload them in the other modes.
-    Frame: body. Rules: docs/systems/earth_pointing.md. Assumes that nobody else orders a mode. Source: ours.
+    DETUMBLE to SUN: rate below calm_rate for settle_time. SUN to NADIR: attitude known and panel_normal within
+    sun_error of the Sun for settle_time. To DETUMBLE: rate above lost_rate for lost_time. NADIR to SUN: no attitude for
+    blind_time; a quaternion shorter than 0.5 is no attitude. Transitions are decided at this block's samples; a sample
+    that is not finite keeps the mode and restarts the times of settling and of lost_rate. In DETUMBLE wheels are off
+    and torquers brake; in the other modes wheels are on and torquers unload them.
+
+    Frame: body.
+
+    Assumes no other source of modes.
+
+    See docs/systems/earth_pointing.md.
     """
 
     default_step = 0.25
 
     calm_rate = Parameter(deg(0.3), unit="rad/s", minimum=0.0, description="rate below which DETUMBLE may end")
-    lost_rate = Parameter(deg(2.0), unit="rad/s", minimum=0.0, description="rate above which DETUMBLE begins again")
-    sun_error = Parameter(deg(10.0), unit="rad", minimum=0.0, description="of panel_normal, below which SUN may end")
-    panel_normal = Parameter([0.0, -1.0, 0.0], unit="1", frame="body", description="which SUN turns to the Sun")
-    settle_time = Parameter(60.0, unit="s", minimum=0.0, description="for which both hold")
-    lost_time = Parameter(5.0, unit="s", minimum=0.0, description="for which lost_rate is exceeded")
-    blind_time = Parameter(300.0, unit="s", minimum=0.0, description="without attitude until SUN")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "between decisions; 0: every communication point")
-    estimated_angular_velocity = body.ANGULAR_VELOCITY.input("angular velocity, estimated or measured")
+    lost_rate = Parameter(deg(2.0), unit="rad/s", minimum=0.0, description="rate above which DETUMBLE is resumed")
+    sun_error = Parameter(
+        deg(10.0),
+        unit="rad",
+        minimum=0.0,
+        description="largest angle between panel_normal and the Sun at the end of SUN",
+    )
+    panel_normal = Parameter(
+        [0.0, -1.0, 0.0], unit="1", frame="body", description="axis pointed to the Sun in SUN, body"
+    )
+    settle_time = Parameter(
+        60.0, unit="s", minimum=0.0, description="time for which the conditions of a transition must hold"
+    )
+    lost_time = Parameter(
+        5.0, unit="s", minimum=0.0, description="time above lost_rate after which DETUMBLE is resumed"
+    )
+    blind_time = Parameter(300.0, unit="s", minimum=0.0, description="time without attitude after which SUN is resumed")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.25, "sample period of the decisions; 0: every communication point"
+    )
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.input("estimated or measured angular velocity")
     estimated_quaternion = robot.QUATERNION.input()
-    sun_direction = SpaceEnvironment.sun_direction.input("to the Sun, as known on board")
-    attitude_known = Input(False, description="true: the estimated attitude is usable")
+    sun_direction = SpaceEnvironment.sun_direction.input("modelled direction to the Sun, unit vector")
+    attitude_known = Input(False, description="true: estimated attitude valid")
     mode = Output(AocsMode, direct=True)
     pointing_mode = Output(PointingMode, start=PointingMode.SUN, direct=True)
     magnetic_mode = Output(MagneticMode, start=MagneticMode.DETUMBLE, direct=True)
-    wheels_on = Output(False, direct=True, description="true: wheels follow the attitude reference")
-    time_in_mode = Output(0.0, unit="s", direct=True, description="since the mode began")
+    wheels_on = Output(False, direct=True, description="true: wheels active, attitude reference followed")
+    time_in_mode = Output(0.0, unit="s", direct=True, description="time since the start of the mode")
     status = Output(AocsModesStatus, direct=True)
-    begun = State(0.0, unit="s", description="when the mode began")
-    settled_since = State(0.0, unit="s", description="since when the condition to go on holds")
-    fast_since = State(0.0, unit="s", description="since when lost_rate is exceeded")
-    blind_since = State(0.0, unit="s", description="since when no attitude is known")
+    begun = State(0.0, unit="s", description="start time of the mode")
+    settled_since = State(0.0, unit="s", description="time from which the transition's conditions have held")
+    fast_since = State(0.0, unit="s", description="time from which lost_rate has been exceeded")
+    blind_since = State(0.0, unit="s", description="time from which no attitude has been known")
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:

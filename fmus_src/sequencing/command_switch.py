@@ -7,26 +7,35 @@ from ..mathlib.vectors import vector
 
 
 class CommandSwitch(Block):
-    """The command of one of three sources, without thrust unless the engine is on.
+    """Selection of one of three command sources, without thrust unless the engine is on.
 
-    `source` 1 is the sequencer's own command, 2 the braking guidance's, 3 the hover guidance's, and only its
-    angular_acceleration_feed is passed on. Where the hover guidance takes over, the last command is held until
-    hover_plan, the plan that its command belongs to, is the requested plan_number. Without a source there is no thrust,
-    and a direction of length 0, at which the attitude control only brings the rate to rest. Frame: landing site.
-    Ours: docs/systems/landing_mission.md.
+    `source` 1 is the sequencer, 2 the braking guidance, 3 the hover guidance, whose angular_acceleration_feed alone is
+    passed on. At the change to the hover guidance the last command is held until hover_plan, the plan of its command,
+    equals plan_number. Without a source there is no thrust, and a direction of length 0, for which attitude control
+    brings the rate to rest.
+
+    Frame: landing site.
+
+    See docs/systems/landing_mission.md.
     """
 
     source = Input(CommandSource)
     engine_on = landing.ENGINE_ON.input()
-    plan_number = landing.PLAN_NUMBER.input("of the plan requested from the hover guidance")
+    plan_number = landing.PLAN_NUMBER.input("number of the plan requested from the hover guidance")
     hover_plan = landing.HOVER_PLAN.input()
     sequencer = Inputs(ThrustCommand, prefix="own_", about="the sequencer's own command:")
     braking = Inputs(ThrustCommand, prefix="braking_", about="the braking guidance:")
     hover = Inputs(ThrustCommand, prefix="hover_", about="the hover guidance:")
-    hover_angular_acceleration_feed = landing.ANGULAR_ACCELERATION.input("the hover guidance: of its plan")
+    hover_angular_acceleration_feed = landing.ANGULAR_ACCELERATION.input(
+        "angular acceleration feedforward of the hover guidance"
+    )
     command = Outputs(ThrustCommand, direct=True)
-    angular_acceleration_feed = landing.ANGULAR_ACCELERATION.output("that the command itself needs", direct=True)
-    passed_thrust_acceleration = State(0.0, unit="m/s2", description="thrust of the last command, engine on or off")
+    angular_acceleration_feed = landing.ANGULAR_ACCELERATION.output(
+        "angular acceleration feedforward of the command", direct=True
+    )
+    passed_thrust_acceleration = State(
+        0.0, unit="m/s2", description="thrust acceleration of the last command, engine on or off"
+    )
 
     def initialize(self) -> None:
         self.switch()

@@ -5,21 +5,26 @@ from ..interfaces.ports import landing
 
 
 class FlightMonitor(Block):
-    """Ends a flight when guidance has finished, at the hand-over to a next phase, or at the ground.
+    """End of a flight by guidance, by hand-over to the next phase, or at the ground.
 
-    The hand-over is the first communication point with less than handover_speed inside the band of
-    altitudes. All outputs stay true once they are.
-    Ours: docs/systems/lunar_landing.md.
+    The hand-over is the first communication point below handover_speed within the altitude limits. All outputs are
+    latched.
+
+    See docs/systems/lunar_landing.md.
     """
 
-    handover_speed = landing.HANDOVER_SPEED.parameter(0.0, "hand over below it; 0: no hand-over here")
-    handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter(description="lowest altitude of the hand-over")
-    handover_altitude_high = landing.HANDOVER_ALTITUDE_HIGH.parameter(description="highest altitude of the hand-over")
-    guidance_finished = Input(False, description="guidance says that the flight is over")
+    handover_speed = landing.HANDOVER_SPEED.parameter(
+        0.0, "speed below which the hand-over takes place; 0: no hand-over"
+    )
+    handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter(description="lower altitude limit of the hand-over")
+    handover_altitude_high = landing.HANDOVER_ALTITUDE_HIGH.parameter(
+        description="upper altitude limit of the hand-over"
+    )
+    guidance_finished = Input(False, description="true: guidance finished")
     altitude = landing.ALTITUDE.input("altitude above the ground", start=1.0)
-    speed = Input(0.0, unit="m/s", description="speed")
+    speed = Input(0.0, unit="m/s", description="speed of the vehicle")
     finished = landing.FINISHED.output(direct=True)
-    handed_over = Output(False, direct=True, description="the hand-over was reached")
+    handed_over = Output(False, direct=True, description="true: hand-over reached")
     ground_contact = landing.GROUND_CONTACT.output(direct=True)
 
     def initialize(self) -> None:

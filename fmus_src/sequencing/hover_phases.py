@@ -9,29 +9,42 @@ from .landing_sequence import NEVER, ROUNDING, LandingSequence, LandingStatus
 
 
 class HoverPhases(LandingSequence, interface=True):
-    """Hovers, the ways between them, descent and contact: each says at every step whether it is over.
+    """Hovers, transfers, descent and contact with their end conditions.
 
-    Hover targets stand on the local vertical of `site`: first the origin, or where braking has ended elsewhere, then
-    moved by the re-designations and put back on the sphere.
+    Hover targets lie on the local vertical of `site`: first the origin, or the place where braking ended, then moved by
+    the re-designations and projected on the sphere.
     """
 
-    hover_time = Parameter(20.0, unit="s", minimum=0.0, description="of hover 1 and 2, in which a site is chosen")
-    hover_patience = Parameter(60.0, unit="s", minimum=0.0, description="longest hover 1 and 2")
-    settled_speed = Parameter(0.5, unit="m/s", minimum=0.0, description="with which a hover may end")
-    settled_distance = Parameter(10.0, unit="m", minimum=0.0, description="from its target with which it may end")
-    reach_over_drop = Parameter(1.3, unit="1", minimum=0.0, description="first re-designation at most, over the drop")
-    second_reach = Parameter(100.0, unit="m", minimum=0.0, description="second re-designation at most")
-    reserve = Parameter(25.0, unit="kg", minimum=0.0, description="propellant that the transfer is to leave")
-    lookahead = Parameter(8.0, unit="s", minimum=0.0, description="of velocity, to the hover after braking elsewhere")
-    lowest_hover = Parameter(300.0, unit="m", minimum=0.0, description="least altitude of that hover")
-    descent_wait = Parameter(3.0, unit="s", minimum=0.0, description="hover before the descent")
-    cut_altitude = Parameter(
-        0.5, unit="m", minimum=0.0, description="estimated altitude at which thrust ends without the probe"
+    hover_time = Parameter(
+        20.0, unit="s", minimum=0.0, description="duration of hover 1 and hover 2, in which a site is chosen"
     )
-    plan_end = State(NEVER, frozen=True, unit="s", description="when the plan of hover 1 was over; -1: not yet")
-    plan_judged = State(False, description="the transfer's propellant has been looked at")
+    hover_patience = Parameter(60.0, unit="s", minimum=0.0, description="longest duration of hover 1 and hover 2")
+    settled_speed = Parameter(0.5, unit="m/s", minimum=0.0, description="largest speed at the end of a hover")
+    settled_distance = Parameter(
+        10.0, unit="m", minimum=0.0, description="largest distance from the target at the end of a hover"
+    )
+    reach_over_drop = Parameter(
+        1.3, unit="1", minimum=0.0, description="largest first re-designation, as a fraction of the altitude drop"
+    )
+    second_reach = Parameter(100.0, unit="m", minimum=0.0, description="largest second re-designation")
+    reserve = Parameter(25.0, unit="kg", minimum=0.0, description="propellant reserve after the transfer")
+    lookahead = Parameter(
+        8.0,
+        unit="s",
+        minimum=0.0,
+        description="look-ahead time of the velocity for the hover position after an early end of braking",
+    )
+    lowest_hover = Parameter(
+        300.0, unit="m", minimum=0.0, description="least altitude of the hover after an early end of braking"
+    )
+    descent_wait = Parameter(3.0, unit="s", minimum=0.0, description="duration of the hover before the descent")
+    cut_altitude = Parameter(
+        0.5, unit="m", minimum=0.0, description="estimated altitude of the engine cut-off without probe contact"
+    )
+    plan_end = State(NEVER, frozen=True, unit="s", description="end time of hover 1's plan; -1: not yet")
+    plan_judged = State(False, description="true: propellant of the transfer evaluated")
     first_site = State(
-        [0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="site before the transfer"
+        [0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="landing site before the transfer"
     )
 
     def begin_first_hover(self) -> None:

@@ -9,65 +9,78 @@ TIME_TOLERANCE = 1e-15  # of the time
 
 
 class LandingInputs(Block, interface=True):
-    """Inputs of a landing's sequencer, sampled at start + k cycle and held until the decision at start + (k + 1) cycle.
+    """Inputs of a landing sequencer, sampled at start + k cycle and used at start + (k + 1) cycle.
 
-    What is decided from them holds one cycle after they were sampled, whatever the communication step, so that events
-    such as the contact of the probe act with the same delay at every step that divides the cycle. Where communication
-    points miss these times, the next one is taken. The sampled values are in the states ``sampled_...``.
+    Decisions lag their inputs by one cycle whatever the communication step, so that events such as the probe's contact
+    act with the same delay at every step that divides the cycle. Times between communication points move to the next
+    one.
+
     Frame: landing site.
     """
 
-    cycle = Parameter(0.1, unit="s", minimum=0.0, description="time between decisions; 0: every communication point")
+    cycle = Parameter(0.1, unit="s", minimum=0.0, description="decision period; 0: every communication point")
     estimated_position = landing.POSITION.input()
     estimated_velocity = landing.VELOCITY.input()
     mass = landing.MASS.input("mass of the vehicle")
-    attitude = landing.DIRECTION.input("measured unit vector of thrust")
-    braking_direction = landing.DIRECTION.input("thrust direction of the braking guidance")
+    attitude = landing.DIRECTION.input("measured thrust axis, unit vector")
+    braking_direction = landing.DIRECTION.input("thrust direction of the braking guidance, unit vector")
     braking_command_time = Input(
-        0.0, unit="s", description="of the braking guidance; what it puts out counts only from the braking's start on"
+        0.0, unit="s", description="reference time of the braking command, valid from the start of braking"
     )
-    braking_time_to_go = Input(0.0, unit="s", description="of the braking guidance")
-    braking_status = Input(TerminalStatus, description="of the braking guidance")
-    braking_finished = Input(False, description="the braking guidance has ended its flight")
-    hover_plan = landing.HOVER_PLAN.input("plan_number that the hover guidance's outputs belong to")
-    hover_finished = Input(False, description="the plan of the hover guidance is over")
-    hover_status = Input(HoverStatus, description="of the hover guidance")
-    predicted_propellant = landing.PREDICTED_PROPELLANT.input("propellant that the hover guidance's plan needs")
+    braking_time_to_go = Input(0.0, unit="s", description="time to go of the braking guidance")
+    braking_status = Input(TerminalStatus, description="status of the braking guidance")
+    braking_finished = Input(False, description="true: braking guidance finished")
+    hover_plan = landing.HOVER_PLAN.input("plan_number of the hover guidance's outputs")
+    hover_finished = Input(False, description="true: plan of the hover guidance completed")
+    hover_status = Input(HoverStatus, description="status of the hover guidance")
+    predicted_propellant = landing.PREDICTED_PROPELLANT.input("predicted propellant of the hover guidance's plan")
     probe_contact = landing.PROBE_CONTACT.input()
     ground_contact = landing.GROUND_CONTACT.input()
     redesignation_1 = Input(
-        [0.0, 0.0], unit="m", frame="landing site", description="move of the site, x and y, read when hover 1 ends"
+        [0.0, 0.0],
+        unit="m",
+        frame="landing site",
+        description="first re-designation of the site, x and y, read at the end of hover 1",
     )
     redesignation_2 = Input(
-        [0.0, 0.0], unit="m", frame="landing site", description="move of the site, x and y, read when hover 2 ends"
+        [0.0, 0.0],
+        unit="m",
+        frame="landing site",
+        description="second re-designation of the site, x and y, read at the end of hover 2",
     )
     divert_count = Input(
-        0, description="of diverts of the braking guidance; a change during the braking moves the site"
+        0, description="number of diverts of the braking guidance; a change during braking moves the site"
     )
-    divert_position = landing.POSITION.input("target of the braking after a divert, above the new site")
-    sampled_time = State(0.0, unit="s", description="when the inputs were sampled")
-    sampled_position = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimated_position then")
-    sampled_velocity = State([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimated_velocity then")
-    sampled_mass = State(1.0, unit="kg", description="mass then")
-    sampled_attitude = State([0.0, 0.0, 1.0], unit="1", frame="landing site", description="attitude then")
-    sampled_direction = State([0.0, 0.0, 1.0], unit="1", frame="landing site", description="braking_direction then")
-    sampled_command_time = State(0.0, unit="s", description="braking_command_time then")
-    sampled_time_to_go = State(0.0, unit="s", description="braking_time_to_go then")
-    sampled_braking_status = State(TerminalStatus, description="braking_status then")
-    sampled_braking_finished = State(False, description="braking_finished then")
-    sampled_plan = State(0, description="hover_plan then")
-    sampled_hover_finished = State(False, description="hover_finished then")
-    sampled_hover_status = State(HoverStatus, description="hover_status then")
-    sampled_propellant = State(0.0, unit="kg", description="predicted_propellant then")
-    sampled_probe_contact = State(False, description="probe_contact then")
-    sampled_ground_contact = State(False, description="ground_contact then")
-    sampled_move_1 = State([0.0, 0.0], unit="m", frame="landing site", description="redesignation_1 then")
-    sampled_move_2 = State([0.0, 0.0], unit="m", frame="landing site", description="redesignation_2 then")
-    sampled_divert = State(0, description="divert_count then")
-    sampled_divert_position = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="divert_position then")
-    is_sampled = State(False, description="the inputs of the cycle under way have been sampled")
-    cycles = State(0, description="cycles completed")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    divert_position = landing.POSITION.input(
+        "target position of the braking guidance after a divert, above the new site"
+    )
+    sampled_time = State(0.0, unit="s", description="sampling time of the inputs")
+    sampled_position = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="sampled estimated_position")
+    sampled_velocity = State(
+        [0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="sampled estimated_velocity"
+    )
+    sampled_mass = State(1.0, unit="kg", description="sampled mass")
+    sampled_attitude = State([0.0, 0.0, 1.0], unit="1", frame="landing site", description="sampled attitude")
+    sampled_direction = State([0.0, 0.0, 1.0], unit="1", frame="landing site", description="sampled braking_direction")
+    sampled_command_time = State(0.0, unit="s", description="sampled braking_command_time")
+    sampled_time_to_go = State(0.0, unit="s", description="sampled braking_time_to_go")
+    sampled_braking_status = State(TerminalStatus, description="sampled braking_status")
+    sampled_braking_finished = State(False, description="sampled braking_finished")
+    sampled_plan = State(0, description="sampled hover_plan")
+    sampled_hover_finished = State(False, description="sampled hover_finished")
+    sampled_hover_status = State(HoverStatus, description="sampled hover_status")
+    sampled_propellant = State(0.0, unit="kg", description="sampled predicted_propellant")
+    sampled_probe_contact = State(False, description="sampled probe_contact")
+    sampled_ground_contact = State(False, description="sampled ground_contact")
+    sampled_move_1 = State([0.0, 0.0], unit="m", frame="landing site", description="sampled redesignation_1")
+    sampled_move_2 = State([0.0, 0.0], unit="m", frame="landing site", description="sampled redesignation_2")
+    sampled_divert = State(0, description="sampled divert_count")
+    sampled_divert_position = State(
+        [0.0, 0.0, 0.0], unit="m", frame="landing site", description="sampled divert_position"
+    )
+    is_sampled = State(False, description="true: inputs of this decision period sampled")
+    cycles = State(0, description="number of completed decision periods")
+    start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def sample_inputs(self, time: float) -> None:
         """Copy the inputs, which are those of ``time`` (s)."""

@@ -12,7 +12,7 @@ ROUNDING = 1e-6  # s, allowed for in times of communication points
 
 
 class LandingPhase(Enumeration):
-    """Stages of a landing, in their order."""
+    """Phases of a landing in their order."""
 
     REFUSED = member("refused")
     DEORBIT = member("deorbit")
@@ -27,11 +27,11 @@ class LandingPhase(Enumeration):
 
 
 class LandingStatus(Enumeration):
-    """Deviation from the planned landing."""
+    """Deviation from the nominal sequence."""
 
     GOOD = member("good")
     SHORTENED = member("re-designation shortened")
-    HOVER_GUIDANCE_SAID = member("hover guidance said so")
+    HOVER_GUIDANCE_SAID = member("hover guidance not good")
     TIMEOUT = member("timeout")
     SITE_MOVED = member("site moved")
     DROPPED = member("re-designation dropped")
@@ -42,50 +42,51 @@ class LandingStatus(Enumeration):
 
 
 class LandingSequence(LandingInputs, interface=True):
-    """Phases of a landing, entered one after another, with the command that each of them gives.
+    """Phases of a landing in sequence, with the command of each.
 
-    Phases only go on. No output depends directly on an input: what is decided from the inputs of one cycle holds from
-    the next. A status is remembered with its first time, and in `status_flags`; `status` is the largest so far.
+    Phases only advance. No output depends directly on an input. A status is stored with its first time and in
+    `status_flags`; `status` is the largest so far. Plans of the hover guidance are requested by `plan_number`; its
+    outputs are ignored until it returns that number.
 
-    Plans of the hover guidance are requested by a `plan_number`. The guidance answers with the number of the plan that
-    its outputs belong to, and until that is the requested one nothing it puts out is acted on.
     Frame: landing site, not rotating; the Moon's centre is moon_radius below the origin.
     """
 
-    start_phase = Parameter(LandingPhase.DEORBIT, description="phase to begin with, 1 to 9")
+    start_phase = Parameter(LandingPhase.DEORBIT, description="first phase, 1 to 9")
     moon_radius = landing.MOON_RADIUS.parameter()
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter()
     minimum_thrust = landing.MINIMUM_THRUST.parameter(340.0, "least thrust of the engine")
     maximum_thrust = landing.MAXIMUM_THRUST.parameter(description="largest thrust of the engine")
     dry_mass = Parameter(440.0, unit="kg", minimum=0.0, description="mass without propellant")
     probe_length = landing.PROBE_LENGTH.parameter()
-    preliminary_altitude = Parameter(2400.0, unit="m", description="altitude of hover 1, to which braking goes")
-    final_altitude = Parameter(100.0, unit="m", description="altitude of hover 2, to which the transfer goes")
-    cutoff_altitude = Parameter(4.0, unit="m", description="altitude of the hover that the approach goes to")
+    preliminary_altitude = Parameter(2400.0, unit="m", description="target altitude of hover 1, after braking")
+    final_altitude = Parameter(100.0, unit="m", description="target altitude of hover 2, after the transfer")
+    cutoff_altitude = Parameter(4.0, unit="m", description="target altitude of the hover after the approach")
     phase = Output(LandingPhase)
-    braking_active = Output(False, description="the braking guidance is to command")
-    hover_active = Output(False, description="the hover guidance is to command")
+    braking_active = Output(False, description="true: braking guidance active")
+    hover_active = Output(False, description="true: hover guidance active")
     hover_mode = Output(HoverMode)
     plan_number = landing.PLAN_NUMBER.output(
-        "of the plan requested from the hover guidance; a change requests a new one"
+        "number of the plan requested from the hover guidance; a change requests a new one"
     )
-    target_position = landing.POSITION.output("of the hover guidance")
-    site = landing.POSITION.output("where to land, on the sphere")
-    source = Output(CommandSource, description="whose command counts")
-    engine_on = landing.ENGINE_ON.output("the command's thrust is given")
+    target_position = landing.POSITION.output("target position of the hover guidance")
+    site = landing.POSITION.output("landing site on the sphere")
+    source = Output(CommandSource, description="source of the command in force")
+    engine_on = landing.ENGINE_ON.output("true: engine on")
     command = Outputs(ThrustCommand, about="own command:")
-    free_flight = landing.FREE_FLIGHT.output("no thrust acts; for navigation")
-    status = Output(LandingStatus, description="largest so far")
+    free_flight = landing.FREE_FLIGHT.output("true: no thrust, for navigation")
+    status = Output(LandingStatus, description="largest status so far")
     status_flags = Output(
-        0, minimum=0, maximum=511, description="all statuses so far: the sum of 2^(k - 1) over every status k that came"
+        0, minimum=0, maximum=511, description="all statuses so far: sum of 2^(k - 1) over each status k that occurred"
     )
-    status_time = Output([NEVER] * 9, unit="s", description="first time of each status from 1 on; -1: never")
-    phase_time = Output([NEVER] * 9, unit="s", description="start of each phase; -1: never")
+    status_time = Output(
+        [NEVER] * 9, unit="s", description="time of the first occurrence of each status from 1 on; -1: never"
+    )
+    phase_time = Output([NEVER] * 9, unit="s", description="start time of each phase; -1: never")
     phase_mass = Output(
-        [0.0] * 9, unit="kg", description="mass at the start of each phase, known a cycle later; 0: never"
+        [0.0] * 9, unit="kg", description="mass at the start of each phase, one decision period late; 0: never"
     )
     finished = landing.FINISHED.output()
-    mass_is_known = State(False, description="phase_mass of the phase has been set")
+    mass_is_known = State(False, description="true: phase_mass of the phase set")
 
     def note(self, status: int, time: float) -> None:
         """Remember a status at ``time`` (s)."""

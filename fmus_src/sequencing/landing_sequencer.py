@@ -12,21 +12,22 @@ LEAST_MARGIN = 0.9  # of the least weight: what the least thrust must stay below
 
 
 class LandingSequencer(OrbitPhases, HoverPhases):
-    """Leads a landing through nine phases: deorbit, coast, braking, hover, transfer, hover, approach, descent, contact.
+    """Sequencer of nine landing phases: deorbit, coast, braking, hover, transfer, hover, approach, descent, contact.
 
-    Any of them can be the first. A phase that does not come to its end in time is ended with a status, and the flight
-    goes on with the next. Ground contact before phase 8 ends the flight, as cut off without the probe. Refused at the
-    start, with status 9, phase 0 and finished: a start_phase that does not exist, minimum_thrust not below
-    maximum_thrust or not below 0.9 of the empty vehicle's weight, preliminary_altitude, final_altitude, cutoff_altitude
-    and probe_length not one below the other, any parameter that is not finite.
-    free_flight is true in phases 1 to 3 where the engine has been off for settling_time.
+    Any phase can be the first. A phase that exceeds its time is ended with a status, and the next one follows. Ground
+    contact before phase 8 ends the flight as a cut-off without probe. Refused at the start, with status 9, phase 0 and
+    finished: an undefined start_phase; minimum_thrust not below maximum_thrust and 0.9 of the dry weight;
+    preliminary_altitude, final_altitude, cutoff_altitude and probe_length not in descending order; parameters that are
+    not finite. free_flight is true in phases 1 to 3 when the engine has been off for settling_time. Decisions are made
+    once per cycle, from the inputs of the previous cycle.
 
-    Decisions come once a cycle, from the inputs of a cycle before, whatever the communication step.
-    Stages and altitudes: Huang Yichun 2017. Rules and times are ours: docs/systems/landing_mission.md.
+    Source: Huang 2017 (phases and altitudes); rules and times: docs/systems/landing_mission.md.
     """
 
-    settling_time = Parameter(2.0, unit="s", minimum=0.0, description="from the engine's end to free flight")
-    last_thrust = State(0.0, frozen=True, unit="s", description="the engine is off from then on")
+    settling_time = Parameter(
+        2.0, unit="s", minimum=0.0, description="settling time from engine cut-off to free flight"
+    )
+    last_thrust = State(0.0, frozen=True, unit="s", description="time from which the engine has been off")
 
     def initialize(self) -> None:
         self.sample_inputs(self.start_time)

@@ -15,59 +15,70 @@ from .landing_sequence import NEVER, ROUNDING, LandingPhase, LandingSequence, La
 
 
 class PhaseEnd(Enumeration):
-    """Ending of deorbit, coast and braking."""
+    """Completion of deorbit, coast and braking."""
 
-    GOES_ON = member("goes on")
-    OVER = member("over")
-    ELSEWHERE = member("over, far from the site")
+    GOES_ON = member("in progress")
+    OVER = member("complete")
+    ELSEWHERE = member("complete, far from the site")
 
 
 class OrbitPhases(LandingSequence, interface=True):
-    """Deorbit, coast and braking: each says at every step whether it is over.
+    """Deorbit, coast and braking with their end conditions.
 
-    Deorbit brakes against the horizontal velocity, its middle where the ellipse's pericentre comes to lie braking_range
-    before the site; how long is computed anew in every step, and held from hold_time before the end, since a
-    remainder that is computed anew is never burnt. Braking ends handover_time_to_go before its target, or, where it is
-    then far from the site, when it is slow or at its end.
+    The deorbit burn reduces horizontal velocity, centred where the ellipse's pericentre lies braking_range before the
+    site; its duration is recomputed every step and held from hold_time before its end. Braking ends handover_time_to_go
+    before its target or, far from the site, when slow or at its end.
     """
 
-    braking_range = Parameter(285e3, unit="m", minimum=0.0, description="ground range from the site at which to brake")
-    pericentre_altitude = Parameter(15e3, unit="m", minimum=0.0, description="that the deorbit aims at")
-    deorbit_throttle = Parameter(0.1, unit="1", minimum=1e-3, maximum=1.0, description="part of maximum_thrust")
-    hold_time = Parameter(1.0, unit="s", minimum=0.0, description="before its end the deorbit's burn is held")
-    deorbit_patience = Parameter(2.0, unit="1", minimum=1.0, description="longest burn over the planned one")
-    lowest_coast = Parameter(
-        12e3, unit="m", description="altitude below which the coast is given up where it would come to the ground"
+    braking_range = Parameter(
+        285e3, unit="m", minimum=0.0, description="ground range from the site at the start of braking"
     )
+    pericentre_altitude = Parameter(
+        15e3, unit="m", minimum=0.0, description="target pericentre altitude of the deorbit"
+    )
+    deorbit_throttle = Parameter(
+        0.1, unit="1", minimum=1e-3, maximum=1.0, description="thrust of the deorbit, as a fraction of maximum_thrust"
+    )
+    hold_time = Parameter(
+        1.0, unit="s", minimum=0.0, description="time before the end of the deorbit from which its burn is held"
+    )
+    deorbit_patience = Parameter(
+        2.0, unit="1", minimum=1.0, description="longest deorbit burn, as a multiple of the planned one"
+    )
+    lowest_coast = Parameter(12e3, unit="m", description="altitude below which a coast towards the ground is ended")
     coast_clearance = Parameter(
         300.0,
         unit="m",
         minimum=0.0,
-        description="least altitude of the coast up to braking_range; below: to the ground",
+        description="least predicted altitude of the coast up to braking_range; below: ground expected",
     )
     coast_patience = Parameter(
-        20.0, unit="s", minimum=0.0, description="how long the estimate must say so: the first fixes settle meanwhile"
+        20.0, unit="s", minimum=0.0, description="time for which the ground must be expected before the coast is ended"
     )
-    pointing_tolerance = Parameter(
-        deg(2.0), unit="rad", minimum=0.0, description="ignite with the axis so close to its command"
+    pointing_tolerance = Parameter(deg(2.0), unit="rad", minimum=0.0, description="largest attitude error at ignition")
+    pointing_patience = Parameter(
+        30.0, unit="s", minimum=0.0, description="longest wait for pointing_tolerance before ignition"
     )
-    pointing_patience = Parameter(30.0, unit="s", minimum=0.0, description="ignite after that in any case")
-    handover_time_to_go = Parameter(28.0, unit="s", minimum=0.0, description="left of the braking when hover 1 begins")
-    braking_patience = Parameter(450.0, unit="s", minimum=0.0, description="longest braking")
-    solution_patience = Parameter(20.0, unit="s", minimum=0.0, description="longest braking without a solution")
-    far_range = Parameter(5e3, unit="m", minimum=0.0, description="ground left from which on braking ends elsewhere")
-    slow_speed = Parameter(30.0, unit="m/s", minimum=0.0, description="at which braking elsewhere ends")
-    ignition_time = State(NEVER, frozen=True, unit="s", description="of the deorbit; -1: not yet")
-    planned_burn = State(0.0, frozen=True, unit="s", description="of the deorbit, as it was at ignition")
-    holding = State(False, description="the deorbit's burn is held")
+    handover_time_to_go = Parameter(
+        28.0, unit="s", minimum=0.0, description="time to go of braking at which hover 1 begins"
+    )
+    braking_patience = Parameter(450.0, unit="s", minimum=0.0, description="longest duration of braking")
+    solution_patience = Parameter(
+        20.0, unit="s", minimum=0.0, description="longest duration of braking without a solution"
+    )
+    far_range = Parameter(
+        5e3, unit="m", minimum=0.0, description="remaining ground range from which braking ends away from the site"
+    )
+    slow_speed = Parameter(30.0, unit="m/s", minimum=0.0, description="speed at which braking away from the site ends")
+    ignition_time = State(NEVER, frozen=True, unit="s", description="ignition time of the deorbit; -1: not yet")
+    planned_burn = State(0.0, frozen=True, unit="s", description="planned duration of the deorbit burn at ignition")
+    holding = State(False, description="true: burn of the deorbit held")
     falling_since = State(
-        NEVER, unit="s", description="the estimate has led to the ground before braking_range from then on; -1: no"
+        NEVER, unit="s", description="time from which ground before braking_range has been predicted; -1: not predicted"
     )
-    unsolved_since = State(
-        NEVER, unit="s", description="the braking guidance has had no solution from then on; -1: it has"
-    )
-    flown_divert = State(0, description="divert_count that the site belongs to")
-    elsewhere = State(False, description="braking goes on to an end far from the site")
+    unsolved_since = State(NEVER, unit="s", description="time from which braking has had no solution; -1: has one")
+    flown_divert = State(0, description="divert_count of the site")
+    elsewhere = State(False, description="true: braking to an end away from the site")
 
     def face_back(self, time: float) -> None:
         """Command against the horizontal velocity, without thrust."""

@@ -8,20 +8,25 @@ from ..mathlib.vectors import vector
 
 
 class SiteDivert(Block):
-    """Target of a terminal guidance, moved by an offset at divert_time: divert_count goes from 0 to 1 then.
+    """Target of a terminal guidance that moves by an offset at divert_time, where divert_count changes from 0 to 1.
 
-    The offset is added to x and y of the site below target_position; the new target has the same altitude above the
-    sphere as the first. Assumes a spherical Moon. Frame: landing site. Ours: docs/systems/descent_laws.md.
+    The offset is added to x and y of the site below target_position; the new target has the altitude of the first.
+
+    Frame: landing site.
+
+    Assumes a spherical Moon.
+
+    See docs/systems/descent_laws.md.
     """
 
-    divert_time = Parameter(0.0, unit="s", minimum=0.0, description="0: never")
-    offset = Parameter([0.0, 0.0], unit="m", frame="landing site", description="of the site along x and y")
-    target_position = landing.POSITION.parameter([0.0, 0.0, 100.0], "target before the divert")
+    divert_time = Parameter(0.0, unit="s", minimum=0.0, description="time of the divert; 0: never")
+    offset = Parameter([0.0, 0.0], unit="m", frame="landing site", description="offset of the site along x and y")
+    target_position = landing.POSITION.parameter([0.0, 0.0, 100.0], "target position before the divert")
     moon_radius = landing.MOON_RADIUS.parameter()
-    divert_count = Output(0, description="of diverts so far")
-    divert_position = landing.POSITION.output("target in force")
+    divert_count = Output(0, description="number of diverts so far")
+    divert_position = landing.POSITION.output("target position in force")
     start_time = sampling.START_TIME.state()
-    diverted = State(False, description="the site has been moved")
+    diverted = State(False, description="true: site moved")
 
     def initialize(self) -> None:
         self.divert_position = self.target_position

@@ -7,33 +7,42 @@ from ..units import deg
 
 
 class TouchdownMonitor(Block):
-    """Speeds, tilt, angular rate and distance from the site at the first ground contact, and whether they are allowed.
+    """Speeds, tilt, angular rate and distance from the site at the first ground contact, with their limits.
 
-    All outputs keep their values from then on; before it, within_limits is false. Frame: landing site.
-    Limits are ours: docs/systems/landing_mission.md.
+    All outputs are held from then on; before it, within_limits is false.
+
+    Frame: landing site.
+
+    See docs/systems/landing_mission.md.
     """
 
-    vertical_speed_limit = Parameter(3.0, unit="m/s", minimum=0.0, description="largest vertical speed")
-    horizontal_speed_limit = Parameter(1.0, unit="m/s", minimum=0.0, description="largest horizontal speed")
-    tilt_limit = Parameter(deg(5.0), unit="rad", minimum=0.0, description="largest tilt")
-    rate_limit = Parameter(deg(2.0), unit="rad/s", minimum=0.0, description="largest angular rate")
-    distance_limit = Parameter(10.0, unit="m", minimum=0.0, description="largest distance from the site")
+    vertical_speed_limit = Parameter(
+        3.0, unit="m/s", minimum=0.0, description="largest allowed vertical speed at contact"
+    )
+    horizontal_speed_limit = Parameter(
+        1.0, unit="m/s", minimum=0.0, description="largest allowed horizontal speed at contact"
+    )
+    tilt_limit = Parameter(deg(5.0), unit="rad", minimum=0.0, description="largest allowed tilt at contact")
+    rate_limit = Parameter(deg(2.0), unit="rad/s", minimum=0.0, description="largest allowed angular rate at contact")
+    distance_limit = Parameter(
+        10.0, unit="m", minimum=0.0, description="largest allowed distance from the site at contact"
+    )
     ground_contact = landing.GROUND_CONTACT.input()
-    vertical_speed = landing.VERTICAL_SPEED.input("true velocity along the local vertical, upwards")
-    horizontal_speed = landing.HORIZONTAL_SPEED.input("true velocity across it")
+    vertical_speed = landing.VERTICAL_SPEED.input("true vertical velocity, upwards")
+    horizontal_speed = landing.HORIZONTAL_SPEED.input("true horizontal speed")
     tilt = landing.TILT.input("true angle of the thrust axis from the local vertical")
-    angular_rate = landing.ANGULAR_RATE.input("true angular rate")
+    angular_rate = landing.ANGULAR_RATE.input("true angular rate of the thrust axis")
     position = landing.POSITION.input("true position")
-    site = landing.POSITION.input("where to land")
-    contact = Output(False, direct=True, description="the ground was reached; what follows is kept")
-    contact_time = Output(-1.0, unit="s", direct=True, description="when; -1: not yet")
+    site = landing.POSITION.input("landing site")
+    contact = Output(False, direct=True, description="true: ground contact made, outputs held")
+    contact_time = Output(-1.0, unit="s", direct=True, description="time of the ground contact; -1: not yet")
     contact_vertical_speed = Output(0.0, unit="m/s", direct=True, description="vertical speed at contact, downwards")
     contact_horizontal_speed = Output(0.0, unit="m/s", direct=True, description="horizontal speed at contact")
     contact_tilt = Output(0.0, unit="rad", direct=True, description="tilt at contact")
     contact_rate = Output(0.0, unit="rad/s", direct=True, description="angular rate at contact")
     contact_distance = Output(0.0, unit="m", direct=True, description="distance from the site at contact")
-    within_limits = Output(False, direct=True, description="contact within all limits")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    within_limits = Output(False, direct=True, description="true: contact within all limits")
+    start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def initialize(self) -> None:
         self.watch(self.start_time)

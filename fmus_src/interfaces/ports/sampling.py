@@ -3,20 +3,20 @@
 from ...block import Parameter
 from ...ports import Port
 
-GENERATOR = Port([0.0] * 6, frozen=True, description="random number generator")
+GENERATOR = Port([0.0] * 6, frozen=True, description="state of the random number generator")
 INNOVATION_SQUARE = Port(
     0.0, unit="1", description="normalised innovation squared of the last sample, three components"
 )
-INTERNAL_STEP = Port(0.1, unit="s", minimum=1e-4, description="longest integration step")
+INTERNAL_STEP = Port(0.1, unit="s", minimum=1e-4, description="largest integration step")
 TIME_ROUNDING = 1e-9  # s, by which times of communication points and samples may miss: importers round or add them up
-SAMPLES_TAKEN = Port(0, description="samples taken in")
-SAMPLE_COUNT = Port(0, description="samples taken; tells a new one from a held one")
-SAMPLE_PERIOD = Port(0.2, unit="s", minimum=0.0, description="between samples; 0: every communication point")
-START_TIME = Port(0.0, unit="s", description="start of the flight")
+SAMPLES_TAKEN = Port(0, description="number of samples used so far")
+SAMPLE_COUNT = Port(0, description="number of samples so far; a change signals a new one")
+SAMPLE_PERIOD = Port(0.2, unit="s", minimum=0.0, description="sample period; 0: every communication point")
+START_TIME = Port(0.0, unit="s", description="start time of the simulation")
 
 
 def random_stream() -> tuple[Parameter, Parameter]:
     """Return seed and stream of a block's random numbers."""
-    seed = Parameter(1, minimum=0, description="random numbers: seed")
-    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    seed = Parameter(1, minimum=0, description="seed of the random numbers")
+    stream = Parameter(0, minimum=0, description="stream of the random numbers within the seed")
     return seed, stream

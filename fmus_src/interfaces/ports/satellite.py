@@ -6,11 +6,15 @@ from . import body, robot
 
 DIAGONAL = 0.5773502691896258  # 1/sqrt(3)
 
-BIAS = Port([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="bias of the gyros")
-GYRO_RANDOM_WALK = Port(3.1622776601683795e-7, minimum=0.0, description="angle random walk, rad per square root of s")
-BIAS_RANDOM_WALK = Port(3.1622776601683795e-10, minimum=0.0, description="random walk of the bias, rad/s per root of s")
+BIAS = Port([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="gyro bias")
+GYRO_RANDOM_WALK = Port(
+    3.1622776601683795e-7, minimum=0.0, description="angle random walk of the gyros, rad per square root of s"
+)
+BIAS_RANDOM_WALK = Port(
+    3.1622776601683795e-10, minimum=0.0, description="rate random walk of the gyro bias, rad/s per square root of s"
+)
 MOTOR_TORQUES = Port([0.0] * 4, unit="N.m", description="torque of each motor on its wheel")
-MOTOR_TORQUE_LIMIT = Port(0.2, unit="N.m", minimum=0.0, description="largest torque of a motor, both ways")
+MOTOR_TORQUE_LIMIT = Port(0.2, unit="N.m", minimum=0.0, description="largest motor torque, both signs")
 # the diagonals of a cube's upper half: a pyramid about z, alike for torques about x, y and z
 WHEEL_AXES = Port(
     [*[DIAGONAL] * 3, -DIAGONAL, *[DIAGONAL] * 2, *[-DIAGONAL] * 2, *[DIAGONAL] * 2, -DIAGONAL, DIAGONAL],
@@ -19,22 +23,22 @@ WHEEL_AXES = Port(
     columns=3,
     description="spin axes of the wheels, by row, of any length",
 )
-WHEEL_INERTIA = Port(0.03, unit="kg.m2", minimum=1e-9, description="of a wheel about its spin axis")
-WHEEL_SPEEDS = Port([0.0] * 4, unit="rad/s", description="speeds of the wheels relative to the body")
+WHEEL_INERTIA = Port(0.03, unit="kg.m2", minimum=1e-9, description="spin inertia of a wheel")
+WHEEL_SPEEDS = Port([0.0] * 4, unit="rad/s", description="wheel speeds relative to the body")
 
 
 class AttitudeReference(Bundle):
-    """The attitude to follow."""
+    """Reference attitude with angular velocity and acceleration."""
 
     reference_quaternion = robot.PLANNED_QUATERNION
     reference_angular_velocity = Port(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body of the reference", description="angular velocity to be at now"
+        [0.0, 0.0, 0.0], unit="rad/s", frame="body of the reference", description="reference angular velocity"
     )
     reference_angular_acceleration = Port(
         [0.0, 0.0, 0.0],
         unit="rad/s2",
         frame="body of the reference",
-        description="mean angular acceleration until the next sample",
+        description="reference angular acceleration, mean until the next sample",
     )
 
 
@@ -43,6 +47,6 @@ INERTIA = Port(
     unit="kg.m2",
     frame="body",
     columns=3,
-    description="matrix of inertia of the satellite with its wheels, as if they did not spin",
+    description="inertia matrix of the satellite, wheels included as if not spinning",
 )
 WHEEL_MOMENTUM = body.ANGULAR_MOMENTUM  # of the wheels relative to the body, Js W g summed

@@ -1,0 +1,94 @@
+"""A block's docstring in parts: purpose, model with its equations, assumptions, frames, literature."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Set
+from dataclasses import dataclass
+from itertools import groupby
+
+from .equations import CROSS, display, find_symbols, to_latex
+from .markdown import CODE, escaped, linked
+
+INDENT = "    "
+ASSUMPTIONS, FRAMES, SOURCES = "Assumptions", "Frames", "Sources"
+LABELS = {
+    "Assumes": ASSUMPTIONS,
+    "Limits": ASSUMPTIONS,
+    "Frame": FRAMES,
+    "Frames": FRAMES,
+    "Source": SOURCES,
+    "Sources": SOURCES,
+    "See": SOURCES,
+    "Derivation": SOURCES,
+}
+LABELLED = re.compile(rf"({'|'.join(LABELS)})\b:? (.*)", re.DOTALL)
+ARTICLES = {"a", "A"}  # symbols only where no noun follows
+KEPT = ("See", "Derivation")  # labels that a sentence keeps
+
+
+@dataclass(frozen=True)
+class Description:
+    """Markdown of a docstring: its first line, the paragraphs of the model, and those of each labelled part."""
+
+    summary: str
+    model: list[str]
+    parts: dict[str, list[str]]
+
+
+def describe_class(described: type, root: str) -> Description:
+    """Return the parts of a class's docstring; ``root`` leads from the page to the site's top."""
+    summary, *paragraphs = re.split(r"\n\s*\n", inspect.cleandoc(described.__doc__ or ""))
+    description = Description(_prose(summary, root), [], {ASSUMPTIONS: [], FRAMES: [], SOURCES: []})
+    equations = [line for paragraph in paragraphs for line in paragraph.splitlines() if line.startswith(INDENT)]
+    symbols = find_symbols("\n".join(equations))
+    for paragraph in paragraphs:
+        labelled = LABELLED.fullmatch(paragraph)
+        if labelled is None:
+            description.model.append(_with_equations(paragraph, root, symbols))
+            continue
+        label, text = labelled.groups()
+        text = f"{label} {text}" if label in KEPT else text[:1].upper() + text[1:]
+        description.parts[LABELS[label]].append(_prose(text, root))
+    return description
+
+
+def _with_equations(paragraph: str, root: str, symbols: Set[str]) -> str:
+    """Return a paragraph whose indented lines are equations, with their symbols typeset."""
+    pieces: list[str] = []
+    for are_equations, lines in groupby(paragraph.splitlines(), lambda line: line.startswith(INDENT)):
+        text = "\n".join(lines)
+        pieces.extend(display(text) if are_equations else [_prose(text.replace("\n", " "), root, symbols)])
+    return "\n\n".join(pieces)
+
+
+def _prose(text: str, root: str, symbols: Set[str] = frozenset()) -> str:
+    parts = [part if index % 2 else _with_formulas(part, symbols) for index, part in enumerate(CODE.split(text))]
+    return linked("".join(parts), root)
+
+
+def _with_formulas(text: str, symbols: Set[str]) -> str:
+    """Return text whose symbols, and the expressions that they are part of, are formulas."""
+    if not symbols:
+        return escaped(text)
+    names = "|".join(sorted(map(re.escape, symbols - ARTICLES), key=len, reverse=True))
+    articles = "".join(rf"|{name}(?! (?!and\b|of\b|in\b|is\b)[a-z]{{2,}})" for name in sorted(ARTICLES & symbols))
+    symbol = rf"(?<![\w'])(?<!\w-)(?:{names}{articles})'*(?![\w'-])"
+    operand = rf"(?:{symbol}|\d+(?:\.\d+)?(?!\w)|(?:sqrt|exp|min|max|sin|cos)(?=\())"
+    run = re.compile(rf"((?:\d+ )?\|?{symbol}[|)]*(?:(?:\s*[=+/^·{CROSS}<>]=?\s*-?| - | ?[(|]|\s)*{operand}[|)]*)*)")
+    parts = []
+    for index, part in enumerate(run.split(text)):
+        if index % 2 and _is_balanced(part):
+            parts.append(f"${to_latex(part)}$")
+        elif index % 2:
+            pieces = re.split(f"({symbol})", part)
+            parts += [f"${to_latex(piece)}$" if number % 2 else escaped(piece) for number, piece in enumerate(pieces)]
+        else:
+            parts.append(escaped(part))
+    return "".join(parts)
+
+
+def _is_balanced(text: str) -> bool:
+    """True if parentheses and bars of an expression are in pairs."""
+    return text.count("(") == text.count(")") and not text.count("|") % 2 and not text.startswith(")")
