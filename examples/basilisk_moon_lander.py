@@ -67,34 +67,46 @@ class BasiliskMoonLander(Block):
     python_only = True
     requires = ("Basilisk",)
 
-    initial_position = Parameter([266731.0, 0.0, -2233.0], unit="m", frame=SITE, description="at the start")
-    initial_velocity = Parameter([-1676.0, 0.0, 208.0], unit="m/s", frame=SITE, description="at the start")
-    initial_mass = Parameter(940.0, unit="kg", minimum=1e-3, description="at the start")
-    dry_mass = Parameter(100.0, unit="kg", minimum=1e-3, description="without propellant")
-    specific_impulse = Parameter(319.0, unit="s", minimum=1e-3, description="of the engine")
-    thrust_lag = Parameter(0.1, unit="s", minimum=0.0, description="time constant of thrust; 0: none")
+    initial_position = Parameter([266731.0, 0.0, -2233.0], unit="m", frame=SITE, description="initial position")
+    initial_velocity = Parameter([-1676.0, 0.0, 208.0], unit="m/s", frame=SITE, description="initial velocity")
+    initial_mass = Parameter(940.0, unit="kg", minimum=1e-3, description="initial mass")
+    dry_mass = Parameter(100.0, unit="kg", minimum=1e-3, description="mass without propellant")
+    specific_impulse = Parameter(319.0, unit="s", minimum=1e-3, description="specific impulse of the engine")
+    thrust_lag = Parameter(0.1, unit="s", minimum=0.0, description="time constant of the thrust; 0: none")
     direction_response = Parameter(0.5, unit="s", minimum=1e-3, description="time constant of the attitude")
-    slew_rate_limit = Parameter(deg(10.0), unit="rad/s", minimum=1e-6, description="largest rate of the attitude")
-    moon_radius = Parameter(1.7374e6, unit="m", minimum=1.0, description="of the sphere that the site lies on")
-    gravitational_parameter = Parameter(4.9028e12, unit="m3/s2", minimum=0.0, description="of the Moon")
-    internal_step = Parameter(0.1, unit="s", minimum=1e-3, description="step of Basilisk")
+    slew_rate_limit = Parameter(
+        deg(10.0), unit="rad/s", minimum=1e-6, description="largest angular rate of the attitude"
+    )
+    moon_radius = Parameter(1.7374e6, unit="m", minimum=1.0, description="radius of the sphere through the site")
+    gravitational_parameter = Parameter(
+        4.9028e12, unit="m3/s2", minimum=0.0, description="gravitational parameter of the Moon"
+    )
+    internal_step = Parameter(0.1, unit="s", minimum=1e-3, description="integration step of Basilisk")
     thrust = Input(0.0, unit="N", description="commanded thrust; below 0 counts as 0")
-    thrust_direction = Input([0.0, 0.0, 1.0], unit="1", frame=SITE, description="unit vector at command_time")
-    thrust_direction_rate = Input([0.0, 0.0, 0.0], unit="1/s", frame=SITE, description="its derivative")
-    command_time = Input(0.0, unit="s", description="time that direction and duration count from")
-    burn_duration = Input(0.0, unit="s", description="how long to thrust from command_time on")
+    thrust_direction = Input(
+        [0.0, 0.0, 1.0], unit="1", frame=SITE, description="thrust direction at command_time, unit vector"
+    )
+    thrust_direction_rate = Input(
+        [0.0, 0.0, 0.0], unit="1/s", frame=SITE, description="time derivative of the thrust direction"
+    )
+    command_time = Input(0.0, unit="s", description="reference time of direction and duration")
+    burn_duration = Input(0.0, unit="s", description="burn duration from command_time on")
     position = Output([0.0, 0.0, 0.0], unit="m", frame=SITE, description="position")
     velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame=SITE, description="velocity")
-    speed = Output(0.0, unit="m/s", description="length of velocity")
+    speed = Output(0.0, unit="m/s", description="speed relative to the landing site")
     mass = Output(940.0, unit="kg", description="mass")
-    altitude = Output(0.0, unit="m", description="above the sphere of moon_radius")
-    specific_force = Output([0.0, 0.0, 0.0], unit="m/s2", frame=SITE, description="mean of the last step")
-    sensed_velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame=SITE, description="integral of specific force")
-    delivered_thrust = Output(0.0, unit="N", description="thrust of the engine")
-    attitude = Output([0.0, 0.0, 1.0], unit="1", frame=SITE, description="unit vector of thrust, as flown")
-    coast_time = Output(0.0, unit="s", description="time since the commanded burn ended; 0 while it goes on")
-    ground_contact = Output(False, description="the ground was reached")
-    aligned = State(False, description="the attitude has been put on the first command")
+    altitude = Output(0.0, unit="m", description="altitude above the sphere of moon_radius")
+    specific_force = Output(
+        [0.0, 0.0, 0.0], unit="m/s2", frame=SITE, description="mean thrust over mass in the last step"
+    )
+    sensed_velocity = Output(
+        [0.0, 0.0, 0.0], unit="m/s", frame=SITE, description="time integral of specific force since the start"
+    )
+    delivered_thrust = Output(0.0, unit="N", description="actual thrust of the engine")
+    attitude = Output([0.0, 0.0, 1.0], unit="1", frame=SITE, description="actual thrust axis, unit vector")
+    coast_time = Output(0.0, unit="s", description="time since the commanded burn ended; 0 during a burn")
+    ground_contact = Output(False, description="true: ground contact")
+    aligned = State(False, description="true: attitude aligned with the first command")
     lander = ExternalState("the Basilisk simulation")
 
     def initialize(self) -> None:

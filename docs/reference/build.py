@@ -15,7 +15,9 @@ from typing import Any
 from docs.files import insert_files
 from perilune.common.errors import InputError
 from perilune.common.paths import BUILD, PACKAGE
+from perilune.fmus_src.catalogue import catalogue
 
+from .block_links import link_blocks
 from .diagrams import add_diagrams
 from .formulas import typeset
 from .links import broken_links
@@ -52,7 +54,10 @@ def build_site(output: Path, sources: Path) -> None:
         path.write_text(text, encoding="utf-8")
     add_diagrams(sources / "docs")
     for path in (sources / "docs").rglob("*.md"):
-        path.write_text(typeset(insert_files(path.read_text(encoding="utf-8"))), encoding="utf-8")
+        place = path.relative_to(sources / "docs").as_posix()
+        text = insert_files(path.read_text(encoding="utf-8"))
+        linked = text if place.startswith("reference/") else link_blocks(text, place, catalogue())
+        path.write_text(typeset(linked), encoding="utf-8")
     settings = site_settings()
     written = {path.relative_to(sources / "docs").as_posix() for path in (sources / "docs").rglob("*.md")}
     for name in sorted(written - set(pages_of(settings["nav"]))):

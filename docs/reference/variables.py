@@ -38,18 +38,18 @@ def parameters(block: type[Block]) -> str:
     """Return the table of its parameters: default, bounds, and whether they are tunable."""
     rows = [
         [
-            *_name(variable),
+            f"`{sized_name(variable)}`",
+            _words(variable),
+            variable.fmi_type,
             start_text(variable),
-            escaped(unit_text(variable)),
-            bounds_text(variable),
+            *_range(variable),
             _frame(variable),
             _in_flight(block, variable),
-            _words(variable),
         ]
         for variable in declared(block, Parameter)
     ]
     return _filled(
-        ["parameter", "type", "default", "unit", "bounds", "frame", "during a simulation", "description"], rows
+        ["parameter", "description", "type", "default", "unit", "bounds", "frame", "during a simulation"], rows
     )
 
 
@@ -84,7 +84,7 @@ def enumerations(block: type[Block]) -> str:
             continue
         names, meanings = variable.enumeration.names, variable.enumeration.meanings
         rows = [[str(number), f"`{name}`", escaped(meanings[number])] for number, name in names.items()]
-        parts.append(f"`{variable.name}`:\n\n" + table([variable.causality, "name", "meaning"], rows))
+        parts.append(f"`{variable.name}`:\n\n" + table(["value", "name", "meaning"], rows))
     return "\n\n".join(parts)
 
 

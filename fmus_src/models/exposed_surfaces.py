@@ -22,10 +22,11 @@ class ExposedSurfaces(SpaceModel, interface=True):
     """Up to twelve flat plates and a sphere, subject to drag and solar radiation pressure.
 
     For a plate of area A and outward normal n, with velocity v relative to the air, direction e to the Sun, visible
-    fraction ν of the Sun, specular and diffuse reflectivity s and d:
+    fraction ν of the Sun, specular and diffuse reflectivity s and d, speed of light c and the Sun's distance D:
 
         F = -(ρ/2) C_D A (n · v) v    if n · v > 0
         F = -P ν A (n · e) ((1 - s) e + 2 (d/3 + s (n · e)) n)    if n · e > 0
+        P = (1361/c) (AU/D)^2
 
     The air rotates with the planet.
 

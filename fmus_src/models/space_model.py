@@ -32,7 +32,20 @@ class SpaceModel(Block, interface=True):
     """Orientation of the planet, Sun and Moon, magnetic field, air density and shadow about Earth or Moon.
 
     Directions of the pole, Sun and Moon are those of one instant, set by `locate`; the planet rotates on from there. A
-    subclass may override `flux_density`, `air_density` and `air_velocity`. The Moon has neither field nor air.
+    subclass may override `flux_density`, `air_density` and `air_velocity`. The Moon has neither field nor air. With d
+    the days of UT1 since J2000.0 and spherical harmonics V of reference radius a, the Earth's rotation angle and the
+    field are
+
+        θ = 2 π (frac(d) + 0.7790572732640 + 0.00273781191135448 d)    B = -∇V
+
+    In the half-shadow, with the apparent radii a of the Sun and b of the body and their distance c, the visible
+    fraction is
+
+        ν = 1 - (a^2 α + b^2 β - c y)/(π a^2)    α = atan2(y, x)    β = atan2(y, c - x)
+        x = ((c - b) (c + b) + a^2)/(2 c)    y = sqrt((a - x) (a + x))
+
+    The air density is that of Harris and Priester, between its least and largest value by cos^n of half the angle from
+    the bulge 30 deg behind the Sun, times density_factor, or exponential in height.
 
     Frame: inertial (GCRS axes), with positions relative to the body's centre; t is simulation time.
 

@@ -54,11 +54,14 @@ class EntryCapsule(Block):
     """Rigid capsule in the atmosphere of a rotating spherical Earth, with jets about its axes and constant mass.
 
     With radius r, longitude λ, latitude φ, speed V relative to the Earth, flight path angle θ (up), course χ (from
-    east, counter-clockwise from above), and the sum F of aerodynamic force, gravity and inertia forces in velocity
-    axes:
+    east, counter-clockwise from above), Earth rate Ω, and the sum F of aerodynamic force, gravity F_g, Coriolis force
+    F_c and transport force F_t in velocity axes:
 
         r' = V sin θ    λ' = V cos χ cos θ/(r cos φ)    φ' = (V/r) sin χ cos θ
         V' = F_x/m    θ' = (V/r) cos θ + F_y/(m V)    χ' = -(V/r) cos θ cos χ tan φ - F_z/(m V cos θ)
+        F_g = -(m μ/r^2) (sin θ, cos θ, 0)
+        F_c = 2 m V Ω (0, cos φ cos χ, cos θ sin φ - sin θ cos φ sin χ)
+        F_t = m Ω^2 r cos φ (cos φ sin θ - sin φ cos θ sin χ, cos φ cos θ + sin φ sin θ sin χ, sin φ cos χ)
 
     With bank γ, sideslip β, angle of attack α, and angular velocity n relative to velocity axes:
 

@@ -101,7 +101,7 @@ def test_every_port_is_declared_once_and_used() -> None:
 
 
 class WinchStatus(Enumeration):
-    """Outcome of the last demand."""
+    """Status of the last demand."""
 
     GOOD = member("good")
     LIMITED = member("force limited, torque held")
@@ -135,7 +135,7 @@ def test_members_are_plain_ints_and_describe_their_variable() -> None:
     assert type(WinchStatus.LIMITED) is int
     status = LimitedWinch.variables["status"]
     assert (status.start, status.minimum, status.maximum) == (0, 0, 1)
-    assert status.description == "0 good, 1 force limited, torque held"
+    assert status.description == "status of the last demand: 0 good, 1 force limited, torque held"
     assert status.type_name == "Integer"
     method = LimitedWinch.variables["method"]
     assert (method.start, method.minimum, method.maximum) == (2, 1, 2)

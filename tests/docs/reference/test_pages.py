@@ -12,7 +12,10 @@ import subprocess
 import pytest
 
 import perilune
+from docs.reference.block_links import link_blocks
 from docs.reference.build import pages_of, site_settings
+from docs.reference.docstrings import ASSUMPTIONS, FRAMES, SOURCES, describe_class
+from docs.reference.equations import to_latex
 from docs.reference.formulas import typeset
 from docs.reference.links import broken_links
 from docs.reference.markdown import escaped, prose
@@ -151,3 +154,57 @@ def test_the_page_of_a_function_has_its_keywords(pages, name):
     given = {name: text for name, text in keywords.items() if text not in ("()", "{}", "mappingproxy({})")}
     assert all(rows[name].endswith(f"default {escaped(text)}") for name, text in given.items())
     assert f"perilune.{name}(" in page
+
+
+def test_the_first_mention_of_a_block_is_a_link():
+    page = "# `spacecraft`\n`spacecraft`, `spacecraft`, [`wheel`](w.md), `orbit`\n\n```sh\n`wheel`\n```\n`wheel`"
+    linked = link_blocks(page, "systems/earth_pointing.md", {"spacecraft", "wheel"})
+    assert linked == (
+        "# `spacecraft`\n[`spacecraft`](../reference/blocks/spacecraft.md), `spacecraft`, [`wheel`](w.md), `orbit`\n\n"
+        "```sh\n`wheel`\n```\n[`wheel`](../reference/blocks/wheel.md)"
+    )
+    assert link_blocks("`wheel`", "choosing.md", {"wheel"}) == "[`wheel`](reference/blocks/wheel.md)"
+
+
+@pytest.mark.parametrize(
+    ("plain", "latex"),
+    [
+        ("I ω' = -ω \N{MULTIPLICATION SIGN} (I ω) + u", r"I \, \dot{ω} = - ω \times \left(I \, ω\right) + u"),
+        ("θ_r'' = a/(2 b) c^T", r"\ddot{θ}_{r} = \frac{a}{2 \, b} \, {c}^{\top}"),
+        (
+            "V sin χ cos θ/(r cos φ)",
+            r"\frac{V \, \operatorname{sin}\,χ \, \operatorname{cos}\,θ}{r \, \operatorname{cos}\,φ}",
+        ),
+        ("|q|^-1    sqrt(1 - f^2)", r"{\left|q\right|}^{-1}\qquad \sqrt{1 - {f}^{2}}"),
+        ("R(q)^T G", r"{R\left(q\right)}^{\top} \, G"),
+        ("x = max_rate y    if y >= 0", r"x = \mathrm{max\_rate} \, y\qquad \text{if }y \ge 0"),
+    ],
+)
+def test_equations_of_docstrings(plain, latex):
+    assert to_latex(plain) == latex
+
+
+class Described:
+    """A mass on a spring.
+
+    With the mass m:
+
+        m x'' = -k x
+
+    Frame: inertial.
+
+    Assumes no damping.
+
+    Source: Hooke 1678. See docs/choosing.md.
+    """
+
+
+def test_parts_of_a_docstring():
+    described = describe_class(Described, "../")
+    assert described.summary == "A mass on a spring."
+    assert described.model == ["With the mass $m$:", r"$$m \, \ddot{x} = - k \, x$$"]
+    assert described.parts == {
+        ASSUMPTIONS: ["No damping."],
+        FRAMES: ["Inertial."],
+        SOURCES: ["Hooke 1678. See [choosing](../choosing.md)."],
+    }
