@@ -117,7 +117,7 @@ def test_last_demands_are_those_of_the_flights():
 
 
 def test_every_command_has_its_table():
-    assert len(BENCH.findall(PAGE)) == PAGE.count("--campaign laws_") == 7
+    assert len(BENCH.findall(PAGE)) == PAGE.count("--campaign laws_") == 5
 
 
 def test_what_to_choose_has_the_excess_of_the_tables():
