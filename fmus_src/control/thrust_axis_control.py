@@ -19,7 +19,7 @@ class ThrustAxisStatus(Enumeration):
     """Status of the commanded angular acceleration."""
 
     GOOD = member("good")
-    LIMITED = member("reduced to the limit")
+    LIMITED = member("shortened to the limit")
 
 
 class ThrustAxisControl(Block):

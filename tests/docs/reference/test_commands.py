@@ -118,7 +118,6 @@ PAGE_TAKES_LONG = (
 FAILS = (  # exit status 1
     "--fault 'torquers.dipole[1]=override:5@4000'",  # a fault that is not survived
     "lunar_descent_2d --parameters basic.ssv",  # the basic solution of a search
-    "perilune stability orbital_attitude --use observer=orbital_observer_discrete",  # the derivative fed back
     "attitude_control.lead_time=",  # the thin and the unstable loop
     "--fault 'pulses.pulse_lengths[2]=override:0@60'",  # limits at the end
     "perilune batch rendezvous --campaign dispersed --trials 1000 --set",  # a requirement that is not met
