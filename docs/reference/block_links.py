@@ -25,5 +25,5 @@ def link_blocks(page: str, path: str, blocks: Collection[str]) -> str:
         linked.add(name)
         return f"[`{name}`]({root}/{name}.md)"
 
-    parts = FENCED.split(page)
-    return "".join(part if index % 2 else NAME.sub(link, part) for index, part in enumerate(parts))
+    sections = FENCED.split(page)
+    return "".join(part if index % 2 else NAME.sub(link, part) for index, part in enumerate(sections))

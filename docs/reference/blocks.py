@@ -23,7 +23,7 @@ ROOT = "../../"  # from reference/blocks to the site's top
 def block_page(block: type[Block]) -> str:
     """Return the Markdown of one block, to lie in reference/blocks."""
     described = {each: describe_class(each, ROOT) for each in (block, *bases_of(block))}
-    parts = [
+    sections = [
         f"# {block.fmu_name}",
         described[block].summary,
         table(["", ""], _facts(block)),
@@ -40,7 +40,7 @@ def block_page(block: type[Block]) -> str:
         _section("Interchangeable blocks", _place(block)),
         _section("Systems", _flown(usages().get(block.fmu_name, Usage()))),
     ]
-    return "\n\n".join(part for part in parts if part) + "\n"
+    return "\n\n".join(section for section in sections if section) + "\n"
 
 
 def bases_of(block: type[Block]) -> list[type[Block]]:
@@ -103,17 +103,17 @@ def _feedthrough(block: type[Block]) -> str:
 
 def _model(described: dict[type[Block], Description]) -> str:
     """Return the model of a block, and under headings of their own what its bases add."""
-    parts = []
+    paragraphs = []
     for index, (each, description) in enumerate(described.items()):
         if index and description.model:
-            parts.append(f"### Common to {each.fmu_name}")
-        parts += description.model
-    return "\n\n".join(parts)
+            paragraphs.append(f"### Common to {each.fmu_name}")
+        paragraphs += description.model
+    return "\n\n".join(paragraphs)
 
 
 def _gathered(described: dict[type[Block], Description], part: str) -> str:
     """Return a labelled part of the block and its bases as a list."""
-    entries = dict.fromkeys(entry for description in described.values() for entry in description.parts[part])
+    entries = dict.fromkeys(entry for description in described.values() for entry in description.labelled[part])
     return "\n".join("- " + entry.replace("\n", "\n  ") for entry in entries)
 
 

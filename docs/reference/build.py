@@ -54,9 +54,9 @@ def build_site(output: Path, sources: Path) -> None:
         path.write_text(text, encoding="utf-8")
     add_diagrams(sources / "docs")
     for path in (sources / "docs").rglob("*.md"):
-        place = path.relative_to(sources / "docs").as_posix()
+        page = path.relative_to(sources / "docs").as_posix()
         text = insert_files(path.read_text(encoding="utf-8"))
-        linked = text if place.startswith("reference/") else link_blocks(text, place, catalogue())
+        linked = text if page.startswith("reference/") else link_blocks(text, page, catalogue())
         path.write_text(typeset(linked), encoding="utf-8")
     settings = site_settings()
     written = {path.relative_to(sources / "docs").as_posix() for path in (sources / "docs").rglob("*.md")}

@@ -23,7 +23,7 @@ def check_section(block: type[Block]) -> str:
     check = read_check(block)
     if check is None:
         return ""
-    found = _differences(block, check)
+    differences = _differences(block, check)
     rows: dict[tuple[str, str], list[str]] = defaultdict(list)
     largest: dict[tuple[str, str], float] = defaultdict(float)
     elements = elements_of(block)
@@ -32,18 +32,18 @@ def check_section(block: type[Block]) -> str:
         name = f"`{elements[element].name}`"
         if name not in rows[key]:
             rows[key].append(name)
-        largest[key] = max(largest[key], found.get(element, 0.0))
-    cells = [
+        largest[key] = max(largest[key], differences.get(element, 0.0))
+    lines = [
         [*key, f"{largest[key]:.1e}" if largest[key] else EXACT, ", ".join(names)]
-        if found
+        if differences
         else [*key, ", ".join(names)]
         for key, names in rows.items()
     ]
-    head = ["absolute tolerance", "relative tolerance", *(["largest difference"] if found else []), "outputs"]
+    head = ["absolute tolerance", "relative tolerance", *(["largest difference"] if differences else []), "outputs"]
     return (
         f"Truth: {escaped(check.truth)}. The reference is computed without the block's code: {check.stop_time:g} s in "
         f"steps of {check.step:g} s, with the inputs and parameters of `{check_file(block)}`. "
-        f"`perilune verify {block.fmu_name}` repeats it.\n\n" + table(head, cells)
+        f"`perilune verify {block.fmu_name}` repeats it.\n\n" + table(head, lines)
     )
 
 

@@ -1,4 +1,4 @@
-"""A block's docstring in parts: purpose, model with its equations, assumptions, frames, literature."""
+"""A block's docstring in texts: purpose, model with its equations, assumptions, frames, literature."""
 
 from __future__ import annotations
 
@@ -25,51 +25,53 @@ LABELS = {
 }
 LABELLED = re.compile(rf"({'|'.join(LABELS)})\b:? (.*)", re.DOTALL)
 ARTICLES = {"a", "A"}  # symbols only where no noun follows
-KEPT = ("See", "Derivation")  # labels that a sentence keeps
+OPENING = ("See", "Derivation")  # labels that a sentence keeps
 
 
 @dataclass(frozen=True)
 class Description:
-    """Markdown of a docstring: its first line, the paragraphs of the model, and those of each labelled part."""
+    """Markdown of a docstring: its first line, the paragraphs of the model, and those of each label."""
 
     summary: str
     model: list[str]
-    parts: dict[str, list[str]]
+    labelled: dict[str, list[str]]
 
 
 def describe_class(described: type, root: str) -> Description:
-    """Return the parts of a class's docstring; ``root`` leads from the page to the site's top."""
+    """Return the sections of a class's docstring; ``root`` leads from the page to the site's top."""
     summary, *paragraphs = re.split(r"\n\s*\n", inspect.cleandoc(described.__doc__ or ""))
     description = Description(_prose(summary, root), [], {ASSUMPTIONS: [], FRAMES: [], SOURCES: []})
     equations = [line for paragraph in paragraphs for line in paragraph.splitlines() if line.startswith(INDENT)]
     symbols = find_symbols("\n".join(equations))
     for paragraph in paragraphs:
-        labelled = LABELLED.fullmatch(paragraph)
-        if labelled is None:
+        matched = LABELLED.fullmatch(paragraph)
+        if matched is None:
             description.model.append(_with_equations(paragraph, root, symbols))
             continue
-        label, text = labelled.groups()
-        text = f"{label} {text}" if label in KEPT else text[:1].upper() + text[1:]
-        description.parts[LABELS[label]].append(_prose(text, root))
+        label, text = matched.groups()
+        text = f"{label} {text}" if label in OPENING else text[:1].upper() + text[1:]
+        description.labelled[LABELS[label]].append(_prose(text, root))
     return description
 
 
 def _with_equations(paragraph: str, root: str, symbols: Set[str]) -> str:
     """Return a paragraph whose indented lines are equations, with their symbols typeset."""
-    pieces: list[str] = []
+    sections: list[str] = []
     for are_equations, lines in groupby(paragraph.splitlines(), lambda line: line.startswith(INDENT)):
         text = "\n".join(lines)
-        pieces.extend(display(text) if are_equations else [_prose(text.replace("\n", " "), root, symbols)])
-    return "\n\n".join(pieces)
+        sections.extend(display(text) if are_equations else [_prose(text.replace("\n", " "), root, symbols)])
+    return "\n\n".join(sections)
 
 
 def _prose(text: str, root: str, symbols: Set[str] = frozenset()) -> str:
-    parts = [part if index % 2 else _with_formulas(part, symbols) for index, part in enumerate(CODE.split(text))]
-    return linked("".join(parts), root)
+    texts = [
+        section if index % 2 else _with_formulas(section, symbols) for index, section in enumerate(CODE.split(text))
+    ]
+    return linked("".join(texts), root)
 
 
 def _with_formulas(text: str, symbols: Set[str]) -> str:
-    """Return text whose symbols, and the expressions that they are part of, are formulas."""
+    """Return text whose symbols, and the expressions around them, are formulas."""
     if not symbols:
         return escaped(text)
     names = "|".join(sorted(map(re.escape, symbols - ARTICLES), key=len, reverse=True))
@@ -77,18 +79,18 @@ def _with_formulas(text: str, symbols: Set[str]) -> str:
     symbol = rf"(?<![\w'])(?<!\w-)(?:{names}{articles})'*(?![\w'-])"
     operand = rf"(?:{symbol}|\d+(?:\.\d+)?(?!\w)|(?:sqrt|exp|min|max|sin|cos)(?=\())"
     run = re.compile(rf"((?:\d+ )?\|?{symbol}[|)]*(?:(?:\s*[=+/^·{CROSS}<>]=?\s*-?| - | ?[(|]|\s)*{operand}[|)]*)*)")
-    parts = []
-    for index, part in enumerate(run.split(text)):
-        if index % 2 and _is_balanced(part):
-            parts.append(f"${to_latex(part)}$")
+    texts = []
+    for index, section in enumerate(run.split(text)):
+        if index % 2 and _is_balanced(section):
+            texts.append(f"${to_latex(section)}$")
         elif index % 2:
-            pieces = re.split(f"({symbol})", part)
-            parts += [f"${to_latex(piece)}$" if number % 2 else escaped(piece) for number, piece in enumerate(pieces)]
+            sections = re.split(f"({symbol})", section)
+            texts += [f"${to_latex(token)}$" if number % 2 else escaped(token) for number, token in enumerate(sections)]
         else:
-            parts.append(escaped(part))
-    return "".join(parts)
+            texts.append(escaped(section))
+    return "".join(texts)
 
 
 def _is_balanced(text: str) -> bool:
-    """True if parentheses and bars of an expression are in pairs."""
+    """Return True if parentheses and bars of an expression are in pairs."""
     return text.count("(") == text.count(")") and not text.count("|") % 2 and not text.startswith(")")

@@ -41,11 +41,11 @@ def display(text: str) -> Iterator[str]:
 
 def to_latex(line: str) -> str:
     """Return the LaTeX of a line, its equations a quad apart."""
-    parts: list[str] = []
+    formulas: list[str] = []
     for text in SEVERAL.split(line.strip()):
         condition = CONDITION.fullmatch(text)
-        parts.append(rf"\text{{if }}{_Reader(condition[2]).read()}" if condition else _Reader(text).read())
-    return r"\qquad ".join(parts)
+        formulas.append(rf"\text{{if }}{_Reader(condition[2]).read()}" if condition else _Reader(text).read())
+    return r"\qquad ".join(formulas)
 
 
 def find_symbols(text: str) -> set[str]:
@@ -59,45 +59,45 @@ class _Reader:
 
     def __init__(self, text: str) -> None:
         self.tokens = TOKEN.findall(text)
-        self.place = 0
+        self.position = 0
 
     def read(self) -> str:
         """Return the LaTeX of all tokens."""
-        return " ".join(self._pieces(None))
+        return " ".join(self._factors(None))
 
     def _next(self) -> str:
-        """The token to come; empty at the end."""
-        token: str = self.tokens[self.place][1] if self.place < len(self.tokens) else ""
+        """Return the token to come; empty at the end."""
+        token: str = self.tokens[self.position][1] if self.position < len(self.tokens) else ""
         return token
 
     def _take(self) -> str:
         token = self._next()
-        self.place += 1
+        self.position += 1
         return token
 
     def _is_applied(self) -> bool:
-        """True if a parenthesis follows without a space: the arguments of a function."""
-        return self._next() == "(" and not self.tokens[self.place][0]
+        """Return True if a parenthesis follows without a space: the arguments of a function."""
+        return self._next() == "(" and not self.tokens[self.position][0]
 
-    def _pieces(self, end: str | None) -> list[str]:
+    def _factors(self, end: str | None) -> list[str]:
         """Return what stands before ``end``, which is taken, too."""
-        pieces: list[str] = []
+        factors: list[str] = []
         while token := self._next():
             if token == end:
                 self._take()
                 break
             if token in RELATIONS:
-                pieces.append(NAMED.get(self._take(), token))
+                factors.append(NAMED.get(self._take(), token))
                 continue
             if token == "/":
                 self._take()
-                numerator = _take_product(pieces)
-                pieces.append(rf"\frac{{{_bare(numerator)}}}{{{_bare(self._factor())}}}")
+                numerator = _take_product(factors)
+                factors.append(rf"\frac{{{_bare(numerator)}}}{{{_bare(self._factor())}}}")
                 continue
-            if pieces and pieces[-1] not in TIGHT:
-                pieces.append(SPACE)
-            pieces.append(self._factor())
-        return pieces
+            if factors and factors[-1] not in TIGHT:
+                factors.append(SPACE)
+            factors.append(self._factor())
+        return factors
 
     def _factor(self) -> str:
         """Return an operand with its arguments, primes and exponent."""
@@ -116,15 +116,15 @@ class _Reader:
     def _operand(self) -> str:
         token = self._take()
         if token in CLOSING:
-            pieces = self._pieces(CLOSING[token])
-            if len(pieces) == 1 and pieces[0].startswith(r"\frac") and self._next() != "^":
-                return pieces[0]
-            return rf"\left{token}{' '.join(pieces)}\right{CLOSING[token]}"
+            factors = self._factors(CLOSING[token])
+            if len(factors) == 1 and factors[0].startswith(r"\frac") and self._next() != "^":
+                return factors[0]
+            return rf"\left{token}{' '.join(factors)}\right{CLOSING[token]}"
         if token == "|":
-            return rf"\left|{' '.join(self._pieces('|'))}\right|"
+            return rf"\left|{' '.join(self._factors('|'))}\right|"
         if token == "sqrt":
             self._take()
-            return rf"\sqrt{{{' '.join(self._pieces(')'))}}}"
+            return rf"\sqrt{{{' '.join(self._factors(')'))}}}"
         if token == "-":
             return "-" + self._factor()
         if token in FUNCTIONS:
@@ -133,14 +133,14 @@ class _Reader:
         return _name(token)
 
 
-def _take_product(pieces: list[str]) -> str:
-    """Return the factors at the end of pieces, which are taken off, as far as the last sign or fraction."""
-    start = len(pieces)
-    while start and pieces[start - 1] not in TIGHT and not pieces[start - 1].startswith(r"\frac"):
+def _take_product(factors: list[str]) -> str:
+    """Return the factors at the end of factors, which are taken off, as far as the last sign or fraction."""
+    start = len(factors)
+    while start and factors[start - 1] not in TIGHT and not factors[start - 1].startswith(r"\frac"):
         start -= 1
-    start += start < len(pieces) and pieces[start] == SPACE
-    product = " ".join(pieces[start:])
-    del pieces[start:]
+    start += start < len(factors) and factors[start] == SPACE
+    product = " ".join(factors[start:])
+    del factors[start:]
     return product
 
 
@@ -171,7 +171,7 @@ def _bare(operand: str) -> str:
 
 
 def _is_balanced(text: str) -> bool:
-    """True if each parenthesis of a text is closed within it."""
+    """Return True if each parenthesis of a text is closed within it."""
     depth = 0
     for match in re.finditer(r"\\(left|right)\b", text):
         depth += 1 if match[1] == "left" else -1

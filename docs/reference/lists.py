@@ -56,7 +56,7 @@ def slots_page() -> str:
 def describe_slot(slot: type[Block]) -> list[str]:
     """Return the paragraphs of a slot's docstring."""
     described = describe_class(slot, "../")
-    labelled = [f"{title}: {text}" for title, texts in described.parts.items() for text in texts]
+    labelled = [f"{title}: {text}" for title, texts in described.labelled.items() for text in texts]
     return [described.summary, *described.model, *labelled]
 
 

@@ -78,14 +78,14 @@ def states(block: type[Block]) -> str:
 
 def enumerations(block: type[Block]) -> str:
     """Return the values of its inputs, outputs and parameters that have names."""
-    parts = []
+    tables = []
     for variable in block.variables.values():
         if variable.enumeration is None or isinstance(variable, State):
             continue
         names, meanings = variable.enumeration.names, variable.enumeration.meanings
         rows = [[str(number), f"`{name}`", escaped(meanings[number])] for number, name in names.items()]
-        parts.append(f"`{variable.name}`:\n\n" + table(["value", "name", "meaning"], rows))
-    return "\n\n".join(parts)
+        tables.append(f"`{variable.name}`:\n\n" + table(["value", "name", "meaning"], rows))
+    return "\n\n".join(tables)
 
 
 def _record_fields(record: type[Record], prefix: str) -> list[tuple[str, Field]]:

@@ -203,7 +203,7 @@ def test_parts_of_a_docstring():
     described = describe_class(Described, "../")
     assert described.summary == "A mass on a spring."
     assert described.model == ["With the mass $m$:", r"$$m \, \ddot{x} = - k \, x$$"]
-    assert described.parts == {
+    assert described.labelled == {
         ASSUMPTIONS: ["No damping."],
         FRAMES: ["Inertial."],
         SOURCES: ["Hooke 1678. See [choosing](../choosing.md)."],
