@@ -11,8 +11,8 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.roles import SAMPLE_PERIOD
 
 from .checks import check_section
-from .docstrings import ASSUMPTIONS, FRAMES, SOURCES, Description, describe_class
 from .markdown import table
+from .markup.docstrings import ASSUMPTIONS, FRAMES, SOURCES, Description, describe_class
 from .unread import explain_unread
 from .usage import Usage, usages
 from .variables import declared, enumerations, inputs, outputs, parameters, states
@@ -112,7 +112,7 @@ def _model(described: dict[type[Block], Description]) -> str:
 
 
 def _gathered(described: dict[type[Block], Description], part: str) -> str:
-    """Return a labelled part of the block and its bases as a list."""
+    """Return a labelled section of the block and its bases as a list."""
     entries = dict.fromkeys(entry for description in described.values() for entry in description.labelled[part])
     return "\n".join("- " + entry.replace("\n", "\n  ") for entry in entries)
 

@@ -17,10 +17,10 @@ from perilune.common.errors import InputError
 from perilune.common.paths import BUILD, PACKAGE
 from perilune.fmus_src.catalogue import catalogue
 
-from .block_links import link_blocks
 from .diagrams import add_diagrams
-from .formulas import typeset
 from .links import broken_links
+from .markup.block_links import link_blocks
+from .markup.formulas import typeset
 from .pages import TOP, derived_pages, reference_navigation
 
 DOCS = TOP / "docs"

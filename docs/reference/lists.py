@@ -7,8 +7,8 @@ from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import KINDS, catalogue
 
 from .blocks import slots_of
-from .docstrings import describe_class
 from .markdown import escaped, table
+from .markup.docstrings import describe_class
 from .variables import inputs, outputs, parameters
 
 

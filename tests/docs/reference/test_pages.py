@@ -12,13 +12,13 @@ import subprocess
 import pytest
 
 import perilune
-from docs.reference.block_links import link_blocks
 from docs.reference.build import pages_of, site_settings
-from docs.reference.docstrings import ASSUMPTIONS, FRAMES, SOURCES, describe_class
-from docs.reference.equations import to_latex
-from docs.reference.formulas import typeset
 from docs.reference.links import broken_links
 from docs.reference.markdown import escaped, prose
+from docs.reference.markup.block_links import link_blocks
+from docs.reference.markup.docstrings import ASSUMPTIONS, FRAMES, SOURCES, describe_class
+from docs.reference.markup.equations import to_latex
+from docs.reference.markup.formulas import typeset
 from docs.reference.pages import derived_pages, reference_navigation
 from docs.reference.verbs import verb_parser
 from perilune.analysis.authoring.fits import slots

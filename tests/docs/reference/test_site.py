@@ -53,7 +53,7 @@ def anchors(text: str) -> set[str]:
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
 def test_links_between_pages(page):
-    """As they stand, for those who read the files themselves; to derived pages, as in the site."""
+    """As they stand, for readers of the files themselves; to derived pages, as in the site."""
     text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
     for target, anchor in LINK.findall(text):
         path = page if not target else (page.parent / target).resolve()

@@ -8,8 +8,8 @@ from collections.abc import Set
 from dataclasses import dataclass
 from itertools import groupby
 
+from ..markdown import CODE, escaped, linked
 from .equations import CROSS, display, find_symbols, to_latex
-from .markdown import CODE, escaped, linked
 
 INDENT = "    "
 ASSUMPTIONS, FRAMES, SOURCES = "Assumptions", "Frames", "Sources"

@@ -1,0 +1,1 @@
+"""Markup of the site: equations, docstrings of blocks, links to blocks, formulas."""
