@@ -32,16 +32,17 @@ class Displayed(NamedTuple):
 
 
 class Percentage(NamedTuple):
-    """A fraction, displayed in per cent without the sign, which its column states."""
+    """A fraction, displayed in per cent without the unit, which its column states."""
 
     fraction: float
+    decimals: int = 2
 
 
 class Interval(NamedTuple):
     """The two ends of an interval in one cell."""
 
-    low: Quantity | Percentage
-    high: Quantity | Percentage
+    low: Quantity | Percentage | Displayed
+    high: Quantity | Percentage | Displayed
 
 
 class Track(NamedTuple):
@@ -106,9 +107,10 @@ class Faint(NamedTuple):
 
 
 class Lines(NamedTuple):
-    """Cells below each other in one."""
+    """Cells below each other in one; ``is_line_on_paper``: there next to each other."""
 
     content: Sequence[Cell]
+    is_line_on_paper: bool = False
 
 
 class LegendEntry(NamedTuple):

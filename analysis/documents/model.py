@@ -158,7 +158,7 @@ class Listing:
 
 @dataclass(frozen=True)
 class Figure:
-    """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` describe it to those who do not see.
+    """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` describe it for blind readers.
 
     ``is_wide``: as wide as the page; ``is_narrow``: three in a row of a wide page, not two. ``below`` is a second chart
     over the same abscissa. ``look``: that of what the label names. ``legend`` is that of this figure alone.

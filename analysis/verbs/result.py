@@ -40,14 +40,6 @@ class VerbResult(Protocol):
         """Requirements that are not met and simulations that did not complete: a line each, exit status 1."""
 
 
-class NoProblems:
-    """The result of a verb that requires nothing."""
-
-    def problems(self) -> list[str]:
-        """None."""
-        return []
-
-
 # The method of a result that writes the file of an option, unless the option names another one.
 WRITERS = {"report": "report", "output": "write", "data": "write_data"}
 

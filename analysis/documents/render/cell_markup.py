@@ -55,18 +55,19 @@ def cell_markup(cell: Cell) -> Markup:
             return Markup("<b>{}</b>").format(cell_markup(inner))
         case Faint(inner):
             return Markup('<span class="muted">{}</span>').format(cell_markup(inner))
-        case Lines(content):
-            return Markup("<br>").join(map(cell_markup, content))
+        case Lines(content, is_line_on_paper):
+            end = Markup('<br class="screen"> ') if is_line_on_paper else Markup("<br>")
+            return end.join(map(cell_markup, content))
         case Phrase(content):
             return rich_markup(content)
-        case LegendEntry(_, lines):
-            return legend_swatch(cell) + Markup(", ").join(map(breakable, lines))
+        case LegendEntry():
+            return Markup('<span class="who">{}</span>').format(entry_markup(cell))
         case Interval(low, high):
             return Markup("{} to {}").format(cell_markup(low), cell_markup(high))
         case Displayed(text, exactly):
             return with_exact(repr(exactly).strip("()"), text)
-        case Percentage(fraction):
-            return with_exact(repr(fraction), percent(fraction))
+        case Percentage(fraction, decimals):
+            return with_exact(repr(fraction), percent(fraction, decimals))
         case Track():
             return _track(cell)
         case Bar(fraction):
@@ -108,8 +109,10 @@ def cell_class(cell: Cell, column: str) -> str:
     match cell:
         case Code(_, is_long=True):
             return "long"
-        case Phrase() | LegendEntry():
+        case Phrase():
             return column or "who"
+        case Lines(_, is_line_on_paper=True):
+            return column or "unbroken"
         case Digest():
             return "hash"
         case Judged(_, grade):
@@ -117,6 +120,11 @@ def cell_class(cell: Cell, column: str) -> str:
         case Track():
             return "interval"
     return column
+
+
+def entry_markup(entry: LegendEntry) -> Markup:
+    """Return an entry of a legend: its look and its words."""
+    return legend_swatch(entry) + Markup(", ").join(map(breakable, entry.lines))
 
 
 def legend_swatch(entry: LegendEntry) -> Markup:

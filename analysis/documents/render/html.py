@@ -14,7 +14,7 @@ from ...reports.common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, swatch
 from ...reports.interactive.bundles import MISSING
 from ..cell import Cell, Head, Rich, Row, RowHeading, RowNote
 from ..model import Document, Figure, Medium, Table, select
-from .cell_markup import cell_class, cell_markup, is_number, legend_swatch, rich_markup
+from .cell_markup import cell_class, cell_markup, entry_markup, is_number, legend_swatch, rich_markup
 from .diagram import diagram_svg
 
 TEMPLATE = Path(__file__).with_name("document.html")
@@ -34,7 +34,7 @@ def write_document(document: Document, path: Path) -> None:
         layout=lay_out,
         rows=_rows,
         swatch=swatch,
-        entry_swatch=legend_swatch,
+        entry_of=entry_markup,
         diagram=diagram_svg,
         on_page=lambda node: select(node, Medium.PAGE),
         scripts_missing=MISSING,

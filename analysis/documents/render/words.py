@@ -48,8 +48,8 @@ def cell_text(cell: Cell) -> str:
             return ", ".join(lines)
         case Interval(low, high):
             return f"{cell_text(low)} to {cell_text(high)}"
-        case Percentage(fraction):
-            return short_percent(fraction)
+        case Percentage(fraction, decimals):
+            return short_percent(fraction, decimals)
         case Track() | Bar():
             return ""
         case Quantity(value, unit, digits, is_bare, decimals):

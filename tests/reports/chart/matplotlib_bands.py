@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from perilune.analysis.documents.of.comparison.flights.band_figures import Frame
+from perilune.analysis.documents.of.comparison.flights.bands import Bands
 from perilune.analysis.reports.common.style import FAINT, house_style, new_figure, plain_ticks
-from perilune.analysis.reports.compare.bands import Bands, Frame
 from perilune.analysis.reports.interactive.charts import Chart
 from tests.support.figures.axes import FAILED
 from tests.support.figures.read_figure import read_charts

@@ -11,11 +11,10 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
-from perilune.analysis.campaigns.compare.side_by_side import compare
-from perilune.analysis.reports.compare.page import write_comparison_page
 from tests.support.pages.browser import start
 from tests.support.pages.checks import parse
 from tests.support.pages.driven import driven
+from tests.support.pages.written import write_comparison_page
 
 pytestmark = pytest.mark.usefixtures("fmus")
 
@@ -31,7 +30,7 @@ return [...document.querySelectorAll("main figure")].filter((each) => each.getCl
 @pytest.fixture(scope="module")
 def six_variants(recorded, tmp_path_factory):
     page = tmp_path_factory.mktemp("six") / "page.html"
-    write_comparison_page(compare([recorded / "out"]), page, "perilune compare out")
+    write_comparison_page([recorded / "out"], page)
     return page
 
 

@@ -7,10 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from perilune.analysis.campaigns.compare.side_by_side import compare
-from perilune.analysis.reports.compare.page import write_comparison_page
 from tests.support.pages.comparison_samples import write_sample
 from tests.support.pages.paper import FORMATS, printed, words_of
+from tests.support.pages.written import write_comparison_page
 
 MOST_OF_A_COMPARISON, MOST_OF_A_STUDY = 5, 12
 SIX = ("alpha", "beta", "gamma", "delta", "epsilon", "zeta")
@@ -20,7 +19,7 @@ SIX = ("alpha", "beta", "gamma", "delta", "epsilon", "zeta")
 def test_a_comparison_of_six_variants_is_short(browser, tmp_path):
     page = tmp_path / "page.html"
     write_sample(tmp_path / "out", variants=SIX)
-    write_comparison_page(compare([tmp_path / "out"]), page, "perilune compare out")
+    write_comparison_page([tmp_path / "out"], page)
     for paper in FORMATS:
         sheets = printed(browser, page, tmp_path, paper)
         assert 2 < len(sheets.pages) <= MOST_OF_A_COMPARISON

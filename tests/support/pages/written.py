@@ -4,7 +4,8 @@ import warnings
 from pathlib import Path
 
 from perilune.analysis.campaigns.compare.side_by_side import compare
-from perilune.analysis.reports.compare.page import write_comparison_page
+from perilune.analysis.documents.of.comparison.comparison import comparison_document
+from perilune.analysis.documents.render.html import write_document
 from perilune.analysis.reports.run_report import write_run_report
 from tests.support.loops.studies import Studies
 from tests.support.pages.comparison_samples import write_sample
@@ -20,12 +21,18 @@ def write_studies(studies: Studies, folder: Path) -> None:
         studies.everything.report(folder / "page.html")
 
 
+def write_comparison_page(folders, page, reference=None):
+    """Write the page that compares the batches in some folders, and return its text."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        write_document(comparison_document(compare(folders, reference), COMMAND), page)
+    return page.read_text(encoding="utf-8")
+
+
 def write_comparison(folder: Path) -> None:
     """Write quiet, a batch of three variants, and page.html, which compares them."""
     write_sample(folder / "quiet")
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        write_comparison_page(compare([folder / "quiet"]), folder / "page.html", COMMAND)
+    write_comparison_page([folder / "quiet"], folder / "page.html")
 
 
 def write_mission(folder: Path) -> None:

@@ -8,7 +8,7 @@ from functools import partial
 
 from ....design.transfers.adjoint import AdjointSolution
 from ....design.transfers.hover_study import HoverStudy
-from ...cell import Cell, Inline, LegendEntry, Phrase, Quantity
+from ...cell import Cell, Head, Inline, LegendEntry, Phrase, Quantity
 from ...model import Document, Figures, KeyNumbers, Node, Note, Section, Table, Text
 from .plan_figures import NAMES, Series, curve_figures, path_figure, plan_series, time_figures
 from .programme_sketch import sketch_figure
@@ -115,7 +115,9 @@ def _plans(study: HoverStudy, series: Sequence[Series]) -> Table:
         for name, fraction, duration, intervals, burns in rows
     ]
     grid = ["intervals"] if has_grid else []
-    return Table(["plan", "propellant fraction", "kg", "duration, s", *grid, "full thrust, s"], lines)
+    return Table(
+        [Head("plan", column="names"), "propellant fraction", "kg", "duration, s", *grid, "full thrust, s"], lines
+    )
 
 
 def _limits(study: HoverStudy) -> Note:

@@ -4,7 +4,6 @@ Truth: percentiles, norms and projections computed here with numpy from the trac
 the k-sigma ellipse are k away in Mahalanobis' distance, and hold the share that they should).
 """
 
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -17,11 +16,10 @@ from perilune.analysis.campaigns.compare.comparison import Contender
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.campaigns.trials import TrialTable
-from perilune.analysis.reports.campaign.recorded_names import names_of_record, vectors
-from perilune.analysis.reports.common.style import Look
-from perilune.analysis.reports.compare.bands import LEVELS, band_panels, bands_of
-from perilune.analysis.reports.compare.dispersions import Ends, dispersion, ellipse, ends_of, target_of
-from perilune.analysis.reports.compare.recorded import (
+from perilune.analysis.documents.of.comparison.flights.band_figures import band_figures
+from perilune.analysis.documents.of.comparison.flights.bands import LEVELS, bands_of
+from perilune.analysis.documents.of.comparison.flights.ends import Ends, dispersion, ellipse, ends_of, target_of
+from perilune.analysis.documents.of.comparison.flights.recorded import (
     Flight,
     Quantity,
     doubling,
@@ -29,7 +27,9 @@ from perilune.analysis.reports.compare.recorded import (
     read_flights,
     trials_with_traces,
 )
-from perilune.analysis.reports.compare.trajectories import bundle_of
+from perilune.analysis.documents.of.comparison.flights.trajectories import bundle_of
+from perilune.analysis.reports.campaign.recorded_names import names_of_record, vectors
+from perilune.analysis.reports.common.style import Look
 from tests.support.campaigns.trial_tables import changed
 from tests.support.pages.comparison_samples import DIRECTION, POSITION, SIGNALS, TARGET, VELOCITY, write_sample
 
@@ -279,7 +279,7 @@ def test_ellipses_are_so_many_deviations_away(count, seed, sigma):
 
 def test_ellipses_hold_what_the_page_says_of_normal_errors():
     good = np.random.default_rng(1).normal(size=(200_000, 3)) @ np.array([[2.0, 0.7, 0], [0, 0.5, 0], [0, 0, 1]])
-    for sigma, fraction in ((1, 0.393), (2, 0.865), (3, 0.989)):  # test_comparison_page.py: that the page says so
+    for sigma, fraction in ((1, 0.393), (2, 0.865), (3, 0.989)):  # test_comparison_tables.py: that the page says so
         inside = Path(ellipse(good, sigma).T).contains_points(good[:, :2])
         assert np.mean(inside) == pytest.approx(fraction, abs=0.004)
 
@@ -299,8 +299,7 @@ def test_errors_far_beyond_expectation_leave_the_frame_and_the_panel_says_so():
     wild = bands_of(quantity, [Flight(0, True, np.arange(4.0), {name: values}, False)])
     calm = bands_of(quantity, [Flight(0, True, np.arange(4.0), {name: np.minimum(values, 9.0)}, False)])
     plain = Look("#000000", "-", "o")
-    panels = band_panels(quantity, {"wild": wild, "calm": calm}, {"wild": plain, "calm": plain}, "x")
-    assert "clipped; full range 5 to 1300" in panels[0].figure.svg
-    assert "goes on to" not in panels[1].figure.svg
-    ticks = [float(text) for text in re.findall(r">(\d+)</text>", panels[1].figure.svg)]
-    assert max(ticks) <= 25.0  # chi-square of six: nine tenths lie between 1.6 and 12.6
+    clipped, whole = band_figures(quantity, {"wild": wild, "calm": calm}, {"wild": plain, "calm": plain}, "x")
+    assert [note.text for note in clipped.chart.notes] == ["clipped; full range 5 to 1300"]
+    assert not whole.chart.notes
+    assert whole.chart.y.ends[1] <= 25.0  # chi-square of six: nine tenths lie between 1.6 and 12.6

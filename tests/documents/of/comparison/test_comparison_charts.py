@@ -11,12 +11,19 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from perilune.analysis.documents.of.comparison.flights.band_figures import band_chart, frame_of, overlaid_bands
+from perilune.analysis.documents.of.comparison.flights.bands import LEVELS, bands_of
+from perilune.analysis.documents.of.comparison.flights.end_figures import (
+    dispersion_chart,
+    dispersion_figures,
+    overlaid_ends,
+)
+from perilune.analysis.documents.of.comparison.flights.ends import Ends
+from perilune.analysis.documents.of.comparison.flights.recorded import Flight, Quantity
+from perilune.analysis.documents.of.comparison.flights.trajectories import Bundle, Path
+from perilune.analysis.documents.of.comparison.flights.trajectory_figures import plan_figures, side_figures
 from perilune.analysis.reports.common.panels import PANEL_WIDTH
 from perilune.analysis.reports.common.style import FAINT, INK, look
-from perilune.analysis.reports.compare.bands import LEVELS, band_chart, bands_of, frame_of, overlaid_bands
-from perilune.analysis.reports.compare.dispersions import Ends, dispersion_chart, dispersion_panels, overlaid_ends
-from perilune.analysis.reports.compare.recorded import Flight, Quantity
-from perilune.analysis.reports.compare.trajectories import Bundle, Path, plan_panels, side_panels
 from tests.reports.chart.matplotlib_bands import read_bands
 from tests.reports.chart.test_history_charts import plain
 
@@ -26,9 +33,9 @@ STEPS = np.arange(30.0)
 AXES = ("north", "west", "up")
 
 
-def has_axes(panel, abscissa, ordinate):
-    """Return True if its picture has these words at its axes."""
-    return panel.figure.charts[0].x.label == abscissa and f">{ordinate}<" in str(panel.figure.svg)
+def has_axes(figure, abscissa, ordinate):
+    """Return True if its chart has these words at its axes."""
+    return (figure.chart.x.label, figure.chart.title) == (abscissa, ordinate)
 
 
 def quantity(kind="motion", unit="m", name="a.b", *, is_stepped=False):
@@ -78,13 +85,13 @@ def test_errors_over_sigma_have_the_lines_of_a_consistent_filter():
     bands = bands_of(measured, flights(name))
     chart = band_chart(measured, bands, "#000000", frame_of(measured, {"one": bands}))
     assert [rule.at for rule in chart.rules] == pytest.approx(chi2.ppf([0.05, 0.5, 0.95], 6))
-    assert not overlaid_bands(measured, {"one": bands, "two": bands}, STYLES, "x")[0].figure.charts[0].areas
+    assert not overlaid_bands(measured, {"one": bands, "two": bands}, STYLES, "x")[0].chart.areas
 
 
 def test_overlaid_lines_are_in_the_order_of_the_legend():
     bands = {"one": bands_of(quantity(), flights()), "two": bands_of(quantity(), flights(scale=2.0))}
-    (panel,) = overlaid_bands(quantity(), bands, STYLES, "x")
-    (chart,) = panel.figure.charts
+    (figure,) = overlaid_bands(quantity(), bands, STYLES, "x")
+    chart = figure.chart
     assert [curve.colour for curve in chart.curves] == [STYLES[name].colour.lower() for name in ("one", "two")]
     for curve, band in zip(chart.curves, bands.values(), strict=True):
         np.testing.assert_array_equal(curve.y, band.percentiles[2])
@@ -124,8 +131,7 @@ def test_ends_have_their_ellipses_and_marks():
 def test_one_scale_whatever_lies_outside():
     """Six times the maximum norm below which 90 % of the successful trials of the least dispersed contender are."""
     one, other = (ends(seed, spread=spread) for seed, spread in ((1, 1.0), (2, 40.0)))
-    panels = dispersion_panels({"one": one, "two": other}, STYLES, "m", "x")
-    charts = [panel.figure.charts[0] for panel in panels]
+    charts = [each.chart for each in dispersion_figures({"one": one, "two": other}, STYLES, "x")]
     away = np.sort(np.abs(one.errors[1:-4, :2]).max(axis=1))
     assert 1.08 * 6.0 * away[-8] <= charts[0].y.ends[1] <= 1.08 * 6.0 * away[-4]  # of 55, at least 90 %
     assert charts[0].x.ends == pytest.approx(charts[1].x.ends, rel=0.02)
@@ -138,29 +144,28 @@ def test_one_scale_whatever_lies_outside():
     )
     arrow = charts[1].curves[-2]
     assert (arrow.x[0], arrow.y[0]) == pytest.approx((0.9 * limits[0], 0.0), abs=1e-6)  # to the trial at (1000, 0) m
-    (together,) = overlaid_ends({"one": one, "two": other}, STYLES, "m", "x")
-    (chart,) = together.figure.charts
-    assert chart.notes[0].text.startswith("1 of 2 reach outside, farthest ")
+    (together,) = overlaid_ends({"one": one, "two": other}, STYLES, "x")
+    assert together.chart.notes[0].text.startswith("1 of 2 reach outside, farthest ")
 
 
 def test_a_lone_trial_far_away_does_not_stretch_the_scale():
     near = ends(3)
     stray = replace(near, errors=np.where(np.arange(60)[:, None] == 5, [2e3, -1e3, 0.0], near.errors))
-    (alone,), (with_stray,) = (dispersion_panels({"one": each}, STYLES, "m", "x") for each in (near, stray))
-    chart = with_stray.figure.charts[0]
-    assert chart.x.ends[1] < 4.0 * alone.figure.charts[0].x.ends[1]
+    (alone,), (with_stray,) = (dispersion_figures({"one": each}, STYLES, "x") for each in (near, stray))
+    chart = with_stray.chart
+    assert chart.x.ends[1] < 4.0 * alone.chart.x.ends[1]
     assert chart.notes[0].text.startswith("2 outside (1 failed), farthest 2240 m")  # the root of 5
 
 
 def test_overlaid_ellipses_are_in_the_order_of_the_legend():
     lost = Ends("ship.position", "position", "target", np.full((3, 3), np.nan), np.full(3, True))
-    (panel,) = overlaid_ends({"one": lost, "two": ends(2)}, STYLES, "m", "x")
-    (chart,) = panel.figure.charts
+    (figure,) = overlaid_ends({"one": lost, "two": ends(2)}, STYLES, "x")
+    chart = figure.chart
     assert [curve.colour for curve in chart.curves[:2]] == [STYLES[name].colour.lower() for name in STYLES]
     assert np.isnan(chart.curves[0].x).all()
     assert is_to_scale(chart, PANEL_WIDTH, 3.1)
-    assert has_axes(panel, "x, m", "y, m")
-    (other,) = overlaid_ends({name: replace(ends(2), axes=AXES) for name in STYLES}, STYLES, "m", "x")
+    assert has_axes(figure, "x, m", "y, m")
+    (other,) = overlaid_ends({name: replace(ends(2), axes=AXES) for name in STYLES}, STYLES, "x")
     assert has_axes(other, "north, m", "west, m")
 
 
@@ -168,17 +173,17 @@ def test_paths_are_to_scale_where_their_sides_are_alike():
     path = Path(True, np.linspace(-5e4, 0.0, 9), np.linspace(9e3, 0.0, 9), np.stack([STEPS[:9], 2.0 * STEPS[:9]]))
     failed = Path(False, path.along, 2.0 * path.height, path.plan)
     bundle = Bundle([path, failed], np.array([1.0, 1.0]), "ship.altitude", None)
-    (side,) = side_panels({"one": bundle}, STYLES)
-    (chart,) = side.figure.charts
+    (side,) = side_figures({"one": bundle}, STYLES)
+    chart = side.chart
     assert chart.x.label == "downrange from the target, km"
     np.testing.assert_allclose(chart.curves[0].x, 1e-3 * path.along, rtol=1e-12)
     assert [curve.dashes for curve in chart.curves] == [(), (4.0, 2.0)]
     assert [(rule.at, rule.upright) for rule in chart.rules] == [(0.0, True), (0.0, False)]
     assert (chart.areas[0].y.min(), chart.areas[0].y.max()) == (chart.y.ends[0], 0.0)
-    (plan,) = plan_panels({"one": bundle}, STYLES)
-    (chart,) = plan.figure.charts
+    (plan,) = plan_figures({"one": bundle}, STYLES)
+    chart = plan.chart
     assert is_to_scale(chart, PANEL_WIDTH, 2.5)
     assert has_axes(plan, "x, m", "y, m")
-    (other,) = plan_panels({"one": replace(bundle, axes=AXES)}, STYLES)
+    (other,) = plan_figures({"one": replace(bundle, axes=AXES)}, STYLES)
     assert has_axes(other, "north, m", "west, m")
     assert (chart.curves[-1].x[0], chart.curves[-1].y[0]) == (1.0, 1.0)

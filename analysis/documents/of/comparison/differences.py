@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from markupsafe import Markup
-
-from ...campaigns.compare.comparison import SUCCESS, Comparison
-from ...campaigns.compare.paired import PairedRates, PairedValues, holm_adjusted
-from ..common.page import exact, with_exact
-from ..common.quantities import MINUS, display_unit
-from .tables import PairGroup, PairRow
+from ....campaigns.compare.comparison import SUCCESS, Comparison
+from ....campaigns.compare.paired import PairedRates, PairedValues, holm_adjusted
+from ....reports.common.quantities import display_unit, in_display_unit, number
+from ...cell import Displayed, Inline
+from .pairs import PairGroup, PairRow, points
 
 LEVEL = 0.05
 
@@ -21,7 +19,7 @@ class Difference(NamedTuple):
 
     a: str
     b: str
-    words: Markup
+    words: Sequence[Inline]
     p_value: float
 
 
@@ -30,7 +28,7 @@ class Sentence(NamedTuple):
 
     a: str
     b: str
-    differences: list[Markup]
+    differences: list[Sequence[Inline]]
 
 
 class Sentences(NamedTuple):
@@ -69,23 +67,20 @@ def significant_differences(
 
 def _rate_words(name: str, row: PairRow[PairedRates]) -> Difference:
     estimate = row.estimate
-    words = Markup("{} {} points ({} to {})").format(name, *map(_points, (estimate.difference, *estimate.interval)))
-    return Difference(row.a, row.b, words, estimate.p_value)
-
-
-def _points(rate: float) -> Markup:
-    return with_exact(repr(rate), f"{100 * rate:+.2f}".replace("-", MINUS))
+    rate, low, high = map(points, (estimate.difference, *estimate.interval))
+    return Difference(row.a, row.b, [f"{name} ", rate, " points (", low, " to ", high, ")"], estimate.p_value)
 
 
 def _metric_words(name: str, unit: str, row: PairRow[PairedValues]) -> Difference | None:
-    """The difference of a metric; None where too few trials have it for an interval."""
+    """Return the difference of a metric; None where too few trials have it for an interval."""
     estimate = row.estimate
     if estimate.median is None or estimate.interval is None or estimate.p_value is None:
         return None
-    numbers = [_signed(number, unit) for number in (estimate.median, *estimate.interval)]
-    words = Markup("{} {} {} ({} to {})").format(name, numbers[0], display_unit(unit), *numbers[1:])
+    median, low, high = (_signed(each, unit) for each in (estimate.median, *estimate.interval))
+    words: list[Inline] = [f"{name} ", median, f" {display_unit(unit)} (", low, " to ", high, ")"]
     return Difference(row.a, row.b, words, estimate.p_value)
 
 
-def _signed(number: float, unit: str) -> Markup:
-    return Markup("{}{}").format("+" if number > 0.0 else "", exact(number, unit))
+def _signed(value: float, unit: str) -> Displayed:
+    text = number(in_display_unit(value, unit))
+    return Displayed(f"+{text}" if value > 0.0 else text, value)

@@ -1,4 +1,4 @@
-"""What a stored batch kept over time, sorted into quantities by names and units alone; nothing is of one system."""
+"""Recorded signals of a stored batch, sorted into quantities by names and units alone; nothing is of one system."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...campaigns.compare.comparison import Contender
-from ...campaigns.folder.provenance import Provenance
-from ..campaign.recorded_names import (
+from .....campaigns.compare.comparison import Contender
+from .....campaigns.folder.provenance import Provenance
+from .....reports.campaign.recorded_names import (
     COMMANDS,
     CONSISTENCY,
     DIRECTIONS,
@@ -49,7 +49,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Flight:
-    """One flight's kept signals. ``success`` is the trial's; ``is_whole`` if the last row is the flight's last."""
+    """Recorded signals of a flight. ``success`` is the trial's; ``is_whole`` if the last row is the flight's last."""
 
     trial: int
     success: bool
@@ -59,7 +59,7 @@ class Flight:
 
 
 def quantities(document: Provenance) -> list[Quantity]:
-    """Every quantity over time that can be drawn, in order of their signals."""
+    """Return every quantity over time that can be drawn, in order of their signals."""
     names = names_of_record(document)
     listed: list[Quantity] = []
     selected: set[str] = set()
@@ -106,7 +106,7 @@ def _elevation(names: Sequence[str]) -> Callable[[Signals], np.ndarray]:
 
 
 def trials_with_traces(contenders: Iterable[Contender]) -> dict[str, list[int]]:
-    """Trials of which each contender's traces are shown: those that all have; without such, each its own.
+    """Return the trials of each variant whose traces are displayed: common ones; without such, those of each.
 
     Where signals are sampled, flights that failed and are kept in full beyond them do not count: they
     would stand for more than their share.
@@ -123,7 +123,7 @@ def trials_with_traces(contenders: Iterable[Contender]) -> dict[str, list[int]]:
 
 
 def doubling(ratio: float) -> int:
-    """The least power of two that is not below ``ratio``: rows thinned by such steps stay rows of each other."""
+    """Return the least power of two that is not below ``ratio``: rows thinned by such steps stay rows of each other."""
     step = 1
     while step < ratio:
         step *= 2
@@ -131,7 +131,7 @@ def doubling(ratio: float) -> int:
 
 
 def read_flights(contender: Contender, trials: Iterable[int], names: Sequence[str]) -> list[Flight]:
-    """The traces of some trials with those of ``names`` that they have, rows thinned where they are many."""
+    """Return the traces of some trials with those of ``names`` that they have, thinned where rows are many."""
     number = {int(trial): row for row, trial in enumerate(contender.trials.trial)}
     flights = []
     for trial in trials:

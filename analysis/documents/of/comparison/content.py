@@ -1,0 +1,111 @@
+"""Numbers of a comparison that several sections of its document have, each computed once when a page needs it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ....campaigns.compare.comparison import Comparison
+from ....campaigns.compare.paired import PairedRates, PairedValues
+from ....campaigns.definition.campaign import Metric
+from ....campaigns.judged import MetricLimits, worst_row
+from ....reports.campaign.verdict_table import VerdictTable, verdict_table
+from ....reports.common.colours import Look
+from ..campaign.replays import Replay
+from .distributions import looks_of, metric_distributions, sort_metrics
+from .flights.ends import UNITS, Ends, ends_of
+from .flights.histories import Flights
+from .flights.missing import missing_statements
+from .pairs import PairGroup, metric_pairs, rate_pairs
+from .replays import trials_to_replay
+
+
+@dataclass(frozen=True)
+class Content:
+    """A comparison with its recorded simulations, pairs, verdicts and the looks of its variants."""
+
+    comparison: Comparison
+
+    @cached_property
+    def styles(self) -> Mapping[str, Look]:
+        """Look of each variant's lines."""
+        return looks_of(self.comparison)
+
+    @cached_property
+    def flights(self) -> Flights:
+        """Simulations with recorded signals."""
+        return Flights(self.comparison)
+
+    @cached_property
+    def ends(self) -> dict[str, dict[str, Ends]]:
+        """Errors at the end by variable and variant."""
+        ends = {
+            variable: {label: ends_of(contender, variable) for label, contender in self.comparison.contenders.items()}
+            for variable in UNITS
+        }
+        known = {
+            variable: {label: each for label, each in of_all.items() if each is not None}
+            for variable, of_all in ends.items()
+        }
+        return {variable: of_all for variable, of_all in known.items() if of_all}
+
+    @cached_property
+    def missing(self) -> Mapping[str, str]:
+        """Statements of what the results lack, by section."""
+        return missing_statements(
+            self.comparison,
+            self.flights.by_label,
+            trajectories=bool(self.flights.bundles),
+            kinds={each.quantity.kind for each in self.flights.histories},
+            ends=self.ends,
+        )
+
+    @cached_property
+    def distributions(self) -> Mapping[Metric, Mapping[str, np.ndarray]]:
+        """Metrics of successful trials by variant."""
+        return metric_distributions(self.comparison)
+
+    @cached_property
+    def sorted_metrics(self) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
+        """Metrics that vary, constant ones, those without a finite value."""
+        return sort_metrics(self.distributions)
+
+    @cached_property
+    def paired(self) -> list[Metric]:
+        """Metrics that vary and that pairs are compared in."""
+        return [metric for metric in self.comparison.metrics if metric in self.sorted_metrics[0]]
+
+    @cached_property
+    def rate_groups(self) -> list[PairGroup[PairedRates]]:
+        """Pairs of variants by rate."""
+        return rate_pairs(self.comparison)
+
+    @cached_property
+    def metric_groups(self) -> list[PairGroup[PairedValues]]:
+        """Pairs of variants by metric, over the trials in which both succeed."""
+        return metric_pairs(self.comparison, self.paired, successful=True)
+
+    @cached_property
+    def verdicts(self) -> VerdictTable:
+        """Verdicts on the variants."""
+        compared = self.comparison
+        return verdict_table(compared.summary, self.paired, compared.judged_expressions, self._worst)
+
+    def _worst(self, label: str, metric: Metric, limits: MetricLimits) -> tuple[int, float]:
+        """Return the worst trial of a variant, and the metric there."""
+        values = self.comparison.values(label, metric.name)
+        row, _ = worst_row(values, limits.excess)
+        return int(self.comparison.contenders[label].trials.trial[row]), float(values[row])
+
+    @cached_property
+    def judged(self) -> list[Metric]:
+        """Metrics of success and requirements; all that vary where there are none."""
+        return [each.metric for each in self.verdicts.metrics] or self.sorted_metrics[0]
+
+    @cached_property
+    def replays(self) -> list[Replay]:
+        """Trials worth a second look."""
+        return trials_to_replay(self.comparison, self.verdicts)

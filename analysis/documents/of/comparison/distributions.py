@@ -1,0 +1,121 @@
+"""Metrics of a comparison: distributions, one line per variant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.stats import norm
+
+from ....campaigns.compare.comparison import Comparison
+from ....campaigns.definition.campaign import Metric
+from ....campaigns.definition.expressions import Expression
+from ....reports.campaign.distributions import CUMULATIVE, distribution_chart
+from ....reports.campaign.recorded_names import variable_of
+from ....reports.chart.lines import line
+from ....reports.common.colours import COLOURS, DASHES, INK, MARKERS, Look, look
+from ....reports.common.panels import PANEL_HEIGHT
+from ....reports.interactive.measures import FAILED_DASHES
+from ...cell import LegendEntry
+from ...model import Figure, Figures
+from .sigma import is_over_sigma
+
+MASS = "kg"
+NORMAL_REACH = 3.5  # deviations that are shown at least
+NOT_EVALUATED = Expression("0")
+
+
+def all_values(comparison: Comparison, metric: Metric) -> dict[str, np.ndarray]:
+    """Return a metric in every trial of every variant; of errors over sigma nan for 0, which stands for no sigma."""
+    by_label = {label: comparison.values(label, metric.name) for label in comparison.contenders}
+    if is_over_sigma(metric):
+        return {label: np.where(values == 0.0, np.nan, values) for label, values in by_label.items()}
+    return by_label
+
+
+def metric_distributions(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]:
+    """Return metrics by variant, nan in failed trials; without one in kg also final masses, for the propellant."""
+    contenders = comparison.contenders
+    distributions = {
+        metric: all_values(comparison, metric) for metric in comparison.metrics if not is_over_sigma(metric)
+    } | _final_masses(comparison)
+    return {
+        metric: {
+            label: np.where(contenders[label].trials.success, values, np.nan) for label, values in displayed.items()
+        }
+        for metric, displayed in distributions.items()
+    }
+
+
+def _final_masses(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]:
+    """Return final masses that all variants have, under the names of metrics; none if a metric is in kg."""
+    contenders = comparison.contenders
+    masses: dict[Metric, dict[str, np.ndarray]] = {}
+    if any(metric.unit == MASS for metric in comparison.metrics):
+        return masses
+    common = [
+        name
+        for name in dict.fromkeys(name for contender in contenders.values() for name in contender.trials.final)
+        if all(name in contender.trials.final for contender in contenders.values())
+    ]
+    for name in common:
+        if any(variable_of(contender.stored.document, name) == "mass" for contender in contenders.values()):
+            metric = Metric(f"final {name}", NOT_EVALUATED, "final", unit=MASS)
+            masses[metric] = {label: contender.trials.final[name] for label, contender in contenders.items()}
+    return masses
+
+
+def sort_metrics(
+    distributed: Mapping[Metric, Mapping[str, np.ndarray]],
+) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
+    """Return metrics that vary; constant ones with their value; those without a finite value."""
+    plotted, still, empty = [], [], []
+    for metric, by_label in distributed.items():
+        values = np.concatenate(list(by_label.values()))
+        finite = values[np.isfinite(values)]
+        if not finite.size:
+            empty.append(metric)
+        elif finite.size > 1 and np.ptp(finite) == 0.0:
+            still.append((metric, float(finite[0])))
+        else:
+            plotted.append(metric)
+    return plotted, still, empty
+
+
+def distribution_figure(metric: Metric, values: Mapping[str, np.ndarray], styles: Mapping[str, Look]) -> Figure:
+    """Return the empirical distribution of a metric of every variant; with the normal one for errors over sigma."""
+    half_range = NORMAL_REACH if is_over_sigma(metric) else 0.0
+    chart = distribution_chart(metric, values, [styles[label] for label in values], half_range)
+    if half_range:
+        x = np.linspace(*chart.x.ends, 121)
+        normal = line(x, 100.0 * norm.cdf(x), INK, width=1.0, dashes=FAILED_DASHES, name="normal", unit="%")
+        chart = replace(chart, curves=[*chart.curves, normal])
+    slug = "".join(letter if letter.isalnum() else "-" for letter in metric.name)
+    chart, words = replace(chart, title=CUMULATIVE), f"Distributions of {metric.name}"
+    return Figure(metric.name, f"distribution-{slug}", words, chart, PANEL_HEIGHT, is_narrow=True)
+
+
+def metric_figures(
+    distributions: Mapping[Metric, Mapping[str, np.ndarray]], metrics: Sequence[Metric], styles: Mapping[str, Look]
+) -> list[Figure]:
+    """Return the distributions of ``metrics``, a figure each."""
+    return [distribution_figure(metric, distributions[metric], styles) for metric in metrics]
+
+
+def overlaid_figures(draw: Callable[[], Sequence[Figure]], styles: Mapping[str, Look]) -> Figures:
+    """Return figures of all variants with their legend, in whose order their first lines are."""
+    return Figures(draw, [LegendEntry(style, [label]) for label, style in styles.items()], is_in_order=True)
+
+
+def looks_of(comparison: Comparison) -> dict[str, Look]:
+    """Return one look per variant. Of several batches a variant has one colour, and a batch one kind of dashes."""
+    if len(comparison.batches) == 1:
+        return {label: look(contender.variant) for label, contender in comparison.contenders.items()}
+    several = len({contender.variant for contender in comparison.contenders.values()}) > 1
+    styles = {}
+    for label, contender in comparison.contenders.items():
+        hue = contender.variant if several else contender.batch
+        marker = MARKERS[contender.batch % len(MARKERS)]
+        styles[label] = Look(COLOURS[hue % len(COLOURS)], DASHES[contender.batch % len(DASHES)], marker)
+    return styles

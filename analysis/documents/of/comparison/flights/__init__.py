@@ -1,0 +1,1 @@
+"""Recorded simulations of a comparison: paths, quantities over time, ends."""

@@ -1,0 +1,134 @@
+"""Figures of quantities over time: bands of percentiles over simulations, one for each variant, one scale in all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .....reports.chart.axes import linear_axis
+from .....reports.chart.lines import line
+from .....reports.chart.marks import band_areas, level, note_above
+from .....reports.common.colours import FAINT, INK, Look
+from .....reports.common.panels import far
+from .....reports.common.quantities import display_factor, display_unit, number
+from .....reports.interactive.charts import NO_BOX, Area, Chart, Curve
+from .....reports.interactive.measures import FAILED_DASHES
+from ....model import Figure
+from .bands import Bands, expectation
+from .recorded import ALL, Quantity
+
+REACH = 1.0  # widths of the expected band that are shown on either side of it at most
+HEIGHT = 2.1  # in
+FAINT_BAND = 0.09  # opacity of the 90 % bands where those of all variants overlap
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Scale of all figures of a quantity: factor and unit displayed, limits in SI, percentiles that are expected."""
+
+    factor: float
+    unit: str
+    time: tuple[float, float]
+    low: float
+    high: float
+    expected: tuple[float, ...]
+    held: bool
+
+    def chart(self, curves: Sequence[Curve], areas: Sequence[Area], note: str = "") -> Chart:
+        """Return the chart of ``curves``, and where the errors of a consistent filter would lie."""
+        start, end = self.time
+        margin = 0.06 * (self.high - self.low) or 0.06 * abs(self.high) or 1.0
+        return Chart(
+            NO_BOX,
+            linear_axis((start, end + 0.02 * (end - start)), 5, label="time, s"),
+            linear_axis((self.factor * (self.low - margin), self.factor * (self.high + margin)), 5, integer=self.held),
+            curves=curves,
+            areas=areas,
+            rules=[level(self.factor * at, INK, 0.9, FAILED_DASHES) for at in self.expected],
+            notes=[note_above(note)] if note else [],
+            title=self.unit,
+        )
+
+
+def frame_of(quantity: Quantity, bands: Mapping[str, Bands]) -> Frame:
+    """Return one scale for all, which failed flights may leave, and errors over sigma far beyond expectation."""
+    expected = expectation(quantity)
+    everything = np.concatenate([band.finite_values() for band in bands.values()] + [np.asarray(expected)])
+    factor, unit = display_factor(quantity.unit), display_unit(quantity.unit)
+    if quantity.unit == "m":
+        factor, unit = far(everything)
+    low, high = float(everything.min()), float(everything.max())
+    if expected:
+        room = REACH * (expected[-1] - expected[0])
+        low, high = max(low, expected[0] - room), min(high, expected[-1] + room)
+    start = min(band.time[0] for band in bands.values())
+    end = max(time[-1] for band in bands.values() for time, _ in [(band.time, None), *band.singles])
+    return Frame(factor, unit, (float(start), float(end)), low, high, expected, quantity.held)
+
+
+def band_figures(quantity: Quantity, bands: Mapping[str, Bands], styles: Mapping[str, Look], name: str) -> list[Figure]:
+    """Return a figure for each variant, all to one scale; a note states the range of one that exceeds it."""
+    frame = frame_of(quantity, bands)
+    return [
+        Figure(
+            label,
+            f"{name}-{index}",
+            f"{quantity.label} of {label} over time: percentiles over {band.flights} flights",
+            band_chart(quantity, band, styles[label].colour, frame),
+            HEIGHT,
+            is_narrow=True,
+            look=styles[label],
+        )
+        for index, (label, band) in enumerate(bands.items())
+    ]
+
+
+def band_chart(quantity: Quantity, band: Bands, colour: str, frame: Frame) -> Chart:
+    """Return the median of a contender's flights over time with the bands of 50 and 90 %, and some flights."""
+    rows, steps = frame.factor * band.percentiles, quantity.held
+    areas = [
+        area
+        for low, high, opacity in ((0, 4, 0.18), (1, 3, 0.32))
+        for area in band_areas(band.time, rows[low], rows[high], colour, opacity, steps=steps)
+    ]
+    failed = [
+        line(time, frame.factor * numbers, INK, width=0.6, dashes=FAILED_DASHES, opacity=0.45, steps=steps)
+        for time, numbers in band.failed
+    ]
+    singles = [line(time, frame.factor * numbers, FAINT, width=0.6, steps=steps) for time, numbers in band.singles]
+    median = line(band.time, rows[2], colour, width=1.8, steps=steps, name="median", unit=frame.unit)
+    ends = (float(band.finite_values().min()), float(band.finite_values().max()))
+    is_clipped = not all(frame.low <= end <= frame.high for end in ends)
+    low, high = (number(frame.factor * end, 3) for end in ends)
+    note = f"clipped; full range {low} to {high}" if is_clipped else ""
+    return frame.chart([*failed, *singles, median], areas, note)
+
+
+def overlaid_bands(
+    quantity: Quantity, bands: Mapping[str, Bands], styles: Mapping[str, Look], name: str
+) -> list[Figure]:
+    """Return medians with the bands of nine tenths, to the scale of each variant's figure; nothing of a single one.
+
+    Bands of errors over sigma would hide each other, since all are to be the same.
+    """
+    if len(bands) < 2:
+        return []
+    frame, steps = frame_of(quantity, bands), quantity.held
+    rows = {label: frame.factor * band.percentiles for label, band in bands.items()}
+    areas = [
+        area
+        for label, band in bands.items()
+        if quantity.kind != "consistency"
+        for area in band_areas(
+            band.time, rows[label][0], rows[label][-1], styles[label].colour, FAINT_BAND, steps=steps
+        )
+    ]
+    medians = [
+        line(band.time, rows[label][2], styles[label].colour, dashes=styles[label].lengths, steps=steps)
+        for label, band in bands.items()
+    ]  # without names: at the cursor, those of six variants would take six lines; the legend has them
+    words = f"Medians of {quantity.label} over time, {ALL}"
+    chart = frame.chart(medians, areas)
+    return [Figure(f"{quantity.label}, {ALL}", name, words, chart, HEIGHT, is_narrow=True)]

@@ -1,0 +1,173 @@
+"""Figures of miss distances at the end about the target, with covariance ellipses."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from .....campaigns.verdicts.order_statistics import quantiles
+from .....reports.chart.axes import linear_axis
+from .....reports.chart.equal import Ends as Pair
+from .....reports.chart.equal import to_scale
+from .....reports.chart.lines import line
+from .....reports.chart.marks import note_above
+from .....reports.chart.panel import POINTS
+from .....reports.chart.symbols import arrow, mark, marker, marks
+from .....reports.common.colours import FAINT, INK, Look
+from .....reports.common.panels import PANEL_WIDTH, far
+from .....reports.common.quantities import number
+from .....reports.interactive.charts import NO_BOX, Chart, Curve
+from ....model import Figure
+from .ends import UNITS, Ends, ellipse, select_ends
+from .recorded import ALL
+
+TARGET = marker("o", 6.0, INK, fill="#ffffff", width=1.3)
+SIGMAS = (1.0, 2.0, 3.0)
+BULK, UNEVEN = 0.9, 6.0  # of the trials of the least dispersed variant; of their extent, the largest scale
+EDGE, ARROW = 0.9, 10.0  # of the way to the edge, from which on an arrow points out; its length, pt
+HEIGHT = 3.1  # in
+
+
+def dispersion_figures(ends: Mapping[str, Ends], styles: Mapping[str, Look], name: str) -> list[Figure]:
+    """Return a figure for each variant, all to one scale."""
+    extent = common_extent(ends)
+    return [
+        _figure(label, points, styles[label], extent, f"{name}-{index}")
+        for index, (label, points) in enumerate(ends.items())
+    ]
+
+
+def common_extent(ends: Mapping[str, Ends]) -> float:
+    """Return how far from the target all figures reach: as the farthest successful trial or 3-sigma ellipse, at most
+    `UNEVEN` times the distance within which `BULK` of the successful trials of the least dispersed one end.
+    """
+    extents = [extent_of(each) for each in ends.values()]
+    limit = UNEVEN * min(bulk for _, bulk in extents)
+    return 1.08 * min([max(extent for extent, _ in extents), *([limit] if limit else [])]) or 1.0
+
+
+def extent_of(ends: Ends) -> tuple[float, float]:
+    """Return the reach of successful trials and the 3-sigma ellipse from the target, and that of `BULK` of trials."""
+    good, bad = select_ends(ends)
+    away = np.max(np.abs((good if good.size else bad)[:, :2]), axis=1)
+    if not away.size:
+        return 0.0, 0.0
+    around = np.abs(ellipse(good, SIGMAS[-1])).max() if len(good) > 1 else 0.0
+    (bulk,) = quantiles(away, (BULK,)).tolist()
+    return float(max(away.max(), around)), bulk
+
+
+def _figure(label: str, ends: Ends, style: Look, extent: float, name: str) -> Figure:
+    factor, unit = _scale(ends.variable, extent)
+    words = f"Final {ends.variable} of {label} about the target, with covariance ellipses"
+    chart_of = partial(dispersion_chart, ends, style.colour, factor, unit)
+    chart = _about_target(chart_of, factor * extent, f"{ends.axes[1]}, {unit}")
+    return Figure(label, name, words, chart, HEIGHT, is_narrow=True, look=style)
+
+
+def _scale(variable: str, extent: float) -> tuple[float, str]:
+    """Return factor and unit in which ends up to ``extent`` are displayed."""
+    unit = UNITS[variable]
+    return far(np.array([extent])) if unit == "m" else (1.0, unit)
+
+
+def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: Pair, y_ends: Pair) -> Chart:
+    """Return where a variant's trials end about the target, with the ellipses of the successful ones.
+
+    ``factor`` from SI to the displayed ``unit``, in which the ends of the axes are.
+    """
+    good, bad = (factor * errors for errors in select_ends(ends))
+    size = max(1.6, min(4.0, 40.0 / max(1, len(bad)) ** 0.5))
+    curves = [marks(bad[:, 0], bad[:, 1], marker("x", size, FAINT, width=0.2 * size), opacity=0.6)]
+    size = max(0.8, min(2.6, 40.0 / max(1, len(good)) ** 0.5))
+    curves.append(marks(good[:, 0], good[:, 1], marker("o", size, colour, width=0.0), opacity=0.65))
+    if len(good) > 1:
+        for sigma in SIGMAS:
+            x, y = ellipse(good, sigma)
+            curves.append(line(x, y, INK, width=0.9))
+        curves.append(_mean(good, INK))
+    failed, successful = (_outside(points[:, :2], x_ends, y_ends) for points in (bad, good))
+    outside, notes = np.concatenate([failed, successful]), []
+    if outside.size:
+        which = f" ({len(failed)} failed)" if successful.size and failed.size else " (failed)" if failed.size else ""
+        farthest = number(float(np.hypot(*outside.T).max()), 3)
+        notes.append(f"{len(outside)} outside{which}, farthest {farthest} {unit}")
+        curves.append(_arrow_out(outside, colour if successful.size else FAINT, x_ends, y_ends))
+    missing = len(ends.errors) - len(good) - len(bad)
+    notes += [f"{missing} without an end"] if missing else []
+    return _chart(curves, f"{ends.axes[0]}, {unit}", x_ends, y_ends, "; ".join(notes))
+
+
+def _outside(points: np.ndarray, x_ends: Pair, y_ends: Pair) -> np.ndarray:
+    """Return the points, [n, 2], beyond the ends of axes about the target."""
+    return points[np.any(np.abs(points) > [x_ends[1], y_ends[1]], axis=1)]
+
+
+def _arrow_out(outside: np.ndarray, colour: str, x_ends: Pair, y_ends: Pair) -> Curve:
+    """Return an arrow at the edge of the axes in the direction of the farthest point outside."""
+    x, y = outside[np.argmax(np.hypot(*outside.T))].tolist()
+    inward = EDGE / max(abs(x) / x_ends[1], abs(y) / y_ends[1])
+    return arrow((inward * x, inward * y), math.atan2(y, x), ARROW, colour)
+
+
+def _mean(good: np.ndarray, colour: str) -> Curve:
+    x, y = good[:, :2].mean(axis=0)
+    return mark(x, y, marker("+", 8.0, colour, width=1.4))
+
+
+def _chart(curves: Sequence[Curve], label: str, x_ends: Pair, y_ends: Pair, note: str = "") -> Chart:
+    return Chart(
+        NO_BOX,
+        linear_axis(x_ends, 4, label=label),
+        linear_axis(y_ends, 4),
+        curves=[*curves, mark(0.0, 0.0, TARGET)],
+        notes=[note_above(note)] if note else [],
+    )
+
+
+def _about_target(chart_of: Callable[[Pair, Pair], Chart], extent: float, title: str) -> Chart:
+    """Return a chart to scale that contains a square about the target, ``extent`` as displayed; ``title`` above it."""
+    square = (-extent, extent)
+    return replace(to_scale(chart_of, square, square, POINTS * PANEL_WIDTH, POINTS * HEIGHT, title=title), title=title)
+
+
+def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], name: str) -> list[Figure]:
+    """Return mean and 3-sigma ellipse of each variant about the target; nothing of a single one."""
+    if len(ends) < 2:
+        return []
+    with_ellipse = [(label, each) for label, each in ends.items() if len(select_ends(each)[0]) > 1] or ends.items()
+    extent = common_extent(dict(with_ellipse))
+    first = next(iter(ends.values()))
+    factor, unit = _scale(first.variable, extent)
+    ellipses, means = [], []
+    for label, each in ends.items():
+        good, style = factor * select_ends(each)[0], styles[label]
+        x, y = ellipse(good, SIGMAS[-1]) if len(good) > 1 else np.full((2, 1), np.nan)
+        ellipses.append(line(x, y, style.colour, dashes=style.lengths))  # by index, as the legend hides them
+        if len(good) > 1:
+            means.append(_mean(good, style.colour))
+    across, title = (f"{axis}, {unit}" for axis in first.axes[:2])
+    chart = _about_target(partial(_overlaid_chart, ellipses, means, unit, across), factor * extent, title)
+    words = f"Final {first.variable} about the target: 3-sigma ellipses, {ALL}"
+    return [Figure(f"final {first.variable}, {ALL}", name, words, chart, HEIGHT, is_narrow=True)]
+
+
+def _overlaid_chart(
+    ellipses: Sequence[Curve], means: Sequence[Curve], unit: str, across: str, x_ends: Pair, y_ends: Pair
+) -> Chart:
+    """Return ellipses about the target, with an arrow to each that leaves the frame."""
+    outside = [
+        (curve.colour, points)
+        for curve in ellipses
+        if (points := _outside(np.stack([curve.x, curve.displayed], axis=1), x_ends, y_ends)).size
+    ]
+    note = ""
+    if outside:
+        farthest = number(max(float(np.hypot(*points.T).max()) for _, points in outside), 3)
+        note = f"{len(outside)} of {len(ellipses)} reach outside, farthest {farthest} {unit}"
+    arrows = [_arrow_out(points, colour, x_ends, y_ends) for colour, points in outside]
+    return _chart([*ellipses, *means, *arrows], across, x_ends, y_ends, note)

@@ -1,0 +1,55 @@
+"""Nodes of quantities over time: all variants in a figure, each variant, constant ones."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+from .....reports.common.colours import Look
+from ....cell import Quantity
+from ....model import Figure, Figures, Group, Node, Note
+from ..distributions import overlaid_figures
+from .band_figures import band_figures, overlaid_bands
+from .histories import History
+
+Styles = Mapping[str, Look]
+
+
+def overlaid_histories(histories: Sequence[History], styles: Styles) -> list[Node]:
+    """Return a figure for each quantity with all variants; nothing where no quantity has several."""
+    several = [each for each in histories if each.constant is None and len(each.bands) > 1]
+
+    def draw() -> list[Figure]:
+        return [
+            figure
+            for each in several
+            for figure in overlaid_bands(each.quantity, each.bands, styles, f"{each.name}-all")
+        ]
+
+    return [overlaid_figures(draw, styles)] if several else []
+
+
+def histories_by_variant(histories: Sequence[History], styles: Styles) -> list[Node]:
+    """Return a group for each quantity with a figure for each variant."""
+    return [
+        Group(
+            each.quantity.label,
+            [Figures(partial(band_figures, each.quantity, each.bands, styles, each.name))],
+            level=4,
+        )
+        for each in histories
+        if each.constant is None
+    ]
+
+
+def constant_notes(histories: Sequence[History]) -> list[Node]:
+    """Return the quantities that are the same throughout."""
+    return [
+        Note([
+            f"{each.quantity.label} is ",
+            Quantity(each.constant, each.quantity.unit),
+            " throughout all these flights.",
+        ])
+        for each in histories
+        if each.constant is not None
+    ]  # fmt: skip

@@ -1,0 +1,67 @@
+"""Data that results lack, and a bias of those over time: what a reader of a comparison has to know of its record."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+from .....campaigns.compare.comparison import Comparison
+from .....reports.campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, variable_of
+from ..distributions import MASS
+from ..sigma import is_over_sigma
+from .ends import UNITS
+from .recorded import Flight
+
+PATH = frozenset(KNOWN) - {*DIRECTIONS, *CONSISTENCY}  # variables of what moves
+
+
+def missing_statements(
+    comparison: Comparison,
+    flights: Mapping[str, list[Flight]],
+    *,
+    trajectories: bool,
+    kinds: Collection[str],
+    ends: Collection[str],
+) -> dict[str, str]:
+    """Return, by section, the data that the results lack, and the record of a campaign that has them.
+
+    ``kinds`` are those of the quantities over time, ``ends`` the variables with final values. Nothing is missing of a
+    system without a path, such as one of attitude alone: no trajectory, thrust, end or propellant.
+    """
+    reasons = {}
+    retained = {
+        variable_of(batch.document, name) for batch in comparison.batches.values() for name in batch.document["signals"]
+    }
+    moves = not retained or bool(retained & PATH)  # without any signal it may move
+    has_mass = any(metric.unit == MASS for metric in comparison.metrics) or any(
+        variable_of(contender.stored.document, name) == "mass"
+        for contender in comparison.contenders.values()
+        for name in contender.trials.final
+    )
+    if not any(flights.values()):
+        remedy = "give the campaign's [record] the keys every, signals and trials"
+        reasons["trajectories"] = f"No trajectories and no commands over time: no flight has a trace; {remedy}"
+    else:
+        if moves and not trajectories:
+            reasons["trajectories"] = "No trajectories: no position[1], [2] and [3] in m is among the recorded signals"
+        if moves and "commands" not in kinds:
+            words = "thrust_acceleration, thrust or thrust_direction"
+            reasons["commands"] = f"No commands: no {words} is among the recorded signals"
+        without = [label for label, traced in flights.items() if not traced]
+        if without:
+            reasons["traces"] = f"No flight has a trace: {', '.join(without)}"
+    lacking = [variable for variable in UNITS if variable not in ends]
+    if moves and lacking:
+        words = " and ".join(lacking)
+        reasons["ends"] = f"No dispersion of the final {words}: [record] final does not keep its three elements"
+    if moves and not has_mass:
+        reasons["propellant"] = "No propellant: no metric is in kg, and [record] final does not keep a mass"
+    if "consistency" not in kinds and not any(is_over_sigma(metric) for metric in comparison.metrics):
+        reasons["consistency"] = "No normalised estimation errors: no metric's name ends in _over_sigma"
+    return reasons
+
+
+def is_biased(comparison: Comparison, flights: Mapping[str, list[Flight]]) -> bool:
+    """True if what is displayed over time is not the same trials of every variant, or failed ones only."""
+    trials = {tuple(flight.trial for flight in retained) for retained in flights.values() if retained}
+    records = [batch.document["record"] for batch in comparison.batches.values()]
+    return len(trials) > 1 or any(record["every"] is None and record["traces"] == "failures" for record in records)

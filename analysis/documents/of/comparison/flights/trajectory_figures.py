@@ -1,0 +1,112 @@
+"""Figures of trajectories: side and plan view of many simulations, one for each variant, one scale in all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from .....reports.chart.axes import linear_axis
+from .....reports.chart.equal import Ends, to_scale
+from .....reports.chart.lines import line
+from .....reports.chart.marks import across, instant, level, note_above
+from .....reports.chart.panel import POINTS
+from .....reports.chart.symbols import mark
+from .....reports.common.colours import GRID, INK, Look
+from .....reports.common.panels import PANEL_HEIGHT, PANEL_WIDTH, far
+from .....reports.interactive.charts import NO_BOX, Axis, Chart, Curve
+from .....reports.interactive.measures import FAILED_DASHES
+from ....model import Figure
+from .end_figures import TARGET
+from .trajectories import Bundle, Path
+
+STRETCH = 4.0  # a plan whose sides differ by less is drawn to one scale both ways
+Polyline = tuple[np.ndarray, np.ndarray, bool]  # abscissas and ordinates of a path as displayed, True if it succeeded
+ROOM = 0.12  # of the successful flights' extent, around them; failed flights may leave it
+
+
+def side_figures(bundles: Mapping[str, Bundle], styles: Mapping[str, Look]) -> list[Figure]:
+    """Return height over downrange distance, one scale in all, with the surface below altitudes; not to scale."""
+    framed = _frame(bundles)
+    has_ground = all(bundle.over_ground for bundle in bundles.values())
+    along = np.concatenate([path.along for path in framed] + [np.zeros(1)])
+    height = np.concatenate([path.height for path in framed] + ([np.zeros(1)] if has_ground else []))
+    x_scale, x_unit = far(along)
+    y_scale, y_unit = far(height)
+    x_axis = linear_axis(_limits(x_scale * along), 5, label=f"downrange from the target, {x_unit}")
+    y_axis = linear_axis(_limits(y_scale * height), 5)
+    figures = []
+    for index, (label, bundle) in enumerate(bundles.items()):
+        paths = [(x_scale * path.along, y_scale * path.height, path.success) for path in bundle.paths]
+        chart = side_chart(paths, styles[label].colour, x_axis, y_axis, has_ground=has_ground)
+        words = f"Side view of {len(bundle.paths)} flights of {label}"
+        figures.append(_figure(label, f"side-{index}", words, chart, f"{bundle.height}, {y_unit}", styles))
+    return figures
+
+
+def _figure(label: str, name: str, words: str, chart: Chart, title: str, styles: Mapping[str, Look]) -> Figure:
+    titled = replace(chart, title=title)
+    return Figure(label, name, words, titled, PANEL_HEIGHT, is_narrow=True, look=styles[label])
+
+
+def side_chart(paths: Sequence[Polyline], colour: str, x: Axis, y: Axis, *, has_ground: bool) -> Chart:
+    """Return paths from the side, with the place of the target and the surface at height 0."""
+    return Chart(
+        NO_BOX,
+        x,
+        y,
+        curves=[_line(path, colour) for path in paths],
+        areas=[across(min(y.ends[0], 0.0), 0.0, GRID, 1.0)] if has_ground else [],
+        rules=[instant(0.0, INK, 0.8, (1.0, 2.0)), *([level(0.0, INK, 0.8)] if has_ground else [])],
+    )
+
+
+def plan_figures(bundles: Mapping[str, Bundle], styles: Mapping[str, Look]) -> list[Figure]:
+    """Return paths from above with the target, one scale in all."""
+    plans = [path.plan for path in _frame(bundles)]
+    x, y = np.concatenate(plans + [bundle.target[:, np.newaxis] for bundle in bundles.values()], axis=1)
+    is_to_scale = 1.0 / STRETCH <= (np.ptp(x) or 1e-9) / (np.ptp(y) or 1e-9) <= STRETCH
+    x_scale, x_unit = far(np.concatenate([x, y]) if is_to_scale else x)
+    y_scale, y_unit = (x_scale, x_unit) if is_to_scale else far(y)
+    x_ends, y_ends = _limits(x_scale * x), _limits(y_scale * y)
+    axes = next(iter(bundles.values())).axes
+    title = f"{axes[1]}, {y_unit}"
+    figures = []
+    for index, (label, bundle) in enumerate(bundles.items()):
+        paths = [(x_scale * path.plan[0], y_scale * path.plan[1], path.success) for path in bundle.paths]
+        target = mark(x_scale * bundle.target[0], y_scale * bundle.target[1], TARGET)
+        curves = [*(_line(path, styles[label].colour) for path in paths), target]
+        chart_of = partial(_plan_chart, curves, f"{axes[0]}, {x_unit}")
+        if is_to_scale:
+            chart = to_scale(chart_of, x_ends, y_ends, POINTS * PANEL_WIDTH, POINTS * PANEL_HEIGHT, title=title)
+        else:
+            chart = replace(chart_of(x_ends, y_ends), notes=[note_above("not to scale")])
+        words = f"Plan view of {len(bundle.paths)} flights of {label}"
+        figures.append(_figure(label, f"plan-{index}", words, chart, title, styles))
+    return figures
+
+
+def _plan_chart(curves: Sequence[Curve], label: str, x_ends: Ends, y_ends: Ends) -> Chart:
+    return Chart(NO_BOX, linear_axis(x_ends, 5, label=label), linear_axis(y_ends, 5), curves=curves)
+
+
+def _line(path: Polyline, colour: str) -> Curve:
+    """Return a flight; one that failed is dark and dashed."""
+    x, y, success = path
+    if success:
+        return line(x, y, colour, width=0.7, opacity=0.6)
+    return line(x, y, INK, width=0.8, dashes=FAILED_DASHES, opacity=0.8)
+
+
+def _frame(bundles: Mapping[str, Bundle]) -> list[Path]:
+    """Return the paths that decide the scale: of successful flights, or all where none succeeded."""
+    paths = [path for bundle in bundles.values() for path in bundle.paths]
+    return [path for path in paths if path.success] or paths
+
+
+def _limits(values: np.ndarray) -> tuple[float, float]:
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    margin = ROOM * (high - low) or 1.0
+    return low - margin, high + margin

@@ -1,0 +1,180 @@
+"""Sections on metrics: their distributions, rates, statistics, by group, in pairs of variants."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+
+from ....campaigns.compare.comparison import Comparison, name_of
+from ....campaigns.definition.campaign import Metric
+from ....campaigns.summary import SummaryRow
+from ....reports.campaign.verdict_table import axis_start
+from ....reports.common.colours import Look
+from ....reports.common.quantities import MINUS
+from ...cell import Cell, Code, Head, Percentage, Phrase, Quantity, Row, RowHeading, Strong, Track
+from ...model import Figures, Fold, Group, Missing, Node, Note, Section, Table, Text
+from ..campaign.metrics import metric_table
+from ..campaign.variants import group_rows, interval_cell, variant_cells, variant_heads, variant_rows
+from .content import Content
+from .distributions import metric_figures, overlaid_figures
+from .flights.sections import missing_nodes
+from .pairs import metric_pair_table, metric_pairs, rate_pair_table
+
+
+def distribution_section(content: Content) -> Section:
+    """Return the distributions of the metrics that success and requirements judge."""
+    nodes = missing_nodes(content, "propellant")
+    if content.judged:
+        nodes += [
+            _distributions(content, content.judged),
+            Note(
+                "Cumulative over all trials: the fraction that succeeds with at most this value. A curve ends at its "
+                "variant's success rate, or below it where the value is not finite. On logarithmic axes, values below "
+                "the 1st percentile are drawn at the left edge."
+            ),
+        ]
+    return Section("Distributions", nodes)
+
+
+def other_distribution_section(content: Content) -> list[Section]:
+    """Return the distributions of other metrics; constant ones and those without a finite value in words."""
+    varying, constant, empty = content.sorted_metrics
+    others = [metric for metric in varying if metric not in content.judged]
+    nodes: list[Node] = [
+        *([_distributions(content, others)] if others else []),
+        *(
+            Note([f"{metric.name} is ", Quantity(value, metric.unit), " in every successful trial of every variant."])
+            for metric, value in constant
+        ),
+        *(Missing(["", f"{metric.name} has no finite value in any successful trial"]) for metric in empty),
+    ]
+    return [Section("Other distributions", nodes, is_folded=True)] if nodes else []
+
+
+def _distributions(content: Content, metrics: Sequence[Metric]) -> Figures:
+    draw = partial(metric_figures, content.distributions, metrics, content.styles)
+    return overlaid_figures(draw, content.styles)
+
+
+def rate_section(content: Content) -> Section:
+    """Return the rates of success and of metrics that are true or false."""
+    rows = variant_rows(content.comparison.summary)
+    note = (
+        "Clopper-Pearson exact 95 % confidence intervals. A metric that is true or false in every trial is a rate; a "
+        "trial in which it is not finite counts as false."
+    )
+    nodes: list[Node] = [rate_table(content.comparison, rows, content.styles), Note(note)]
+    return Section("Success probabilities", nodes, is_folded=True)
+
+
+def metric_section(content: Content) -> Section:
+    """Return the statistics of metrics."""
+    nodes: list[Node] = [Missing("the campaign declares no metrics but rates")]
+    if content.comparison.metrics:
+        note = (
+            "Percentiles are order statistics, infinite values included. The other columns, and the number of trials, "
+            "are of finite values."
+        )
+        nodes = [*_metric_tables(content, variant_rows(content.comparison.summary)), Note(note)]
+    return Section("Metrics of the successful trials", nodes, is_folded=True)
+
+
+def _metric_tables(content: Content, rows: Sequence[SummaryRow], by: str | None = None) -> list[Node]:
+    metrics, styles = content.comparison.metrics, content.styles
+    return [
+        metric_table(rows, metrics, "metrics", styles, by),
+        Fold("The same over all trials", [metric_table(rows, metrics, "metrics_all", styles, by)]),
+    ]
+
+
+def group_section(content: Content) -> list[Section]:
+    """Return rates and metrics of the groups of trials, if there are."""
+    compared = content.comparison
+    if compared.group is None:
+        return []
+    rows = group_rows(compared.summary)
+    nodes: list[Node] = [
+        Text(["the same trials by the value of ", Code(compared.group), ", which is in the campaign's own unit"]),
+        rate_table(compared, rows, content.styles, compared.group),
+    ]
+    if compared.metrics:
+        nodes.append(Group("Metrics of the successful trials", _metric_tables(content, rows, compared.group)))
+    return [Section(f"By {compared.group}", nodes, is_folded=True)]
+
+
+def pair_section(content: Content) -> Section:
+    """Return differences of rates and metrics of pairs of variants, trial by trial."""
+    heading = "Paired comparison"
+    if not content.comparison.pairs:
+        return Section(heading, [Missing("there is one variant only: nothing to pair")], is_folded=True)
+    nodes: list[Node] = [_reference_text(content), Group("Rates", _rate_nodes(content))]
+    if content.metric_groups:
+        nodes.append(Group("Metrics, trials in which both succeed", _metric_nodes(content)))
+    return Section(heading, nodes, is_folded=True)
+
+
+def _reference_text(content: Content) -> Text:
+    reference = content.comparison.reference
+    has_folders = len(content.comparison.batches) > 1
+    others = " within a folder, and the first folder between folders; " if has_folders else "; "
+    return Text([
+        "each trial has the same samples and random streams in A and B; differences are taken trial by trial. An "
+        f"interval in bold does not contain 0. B is {reference}{others}",
+        Code("--reference"),
+        " names another variant" if has_folders else " names another",
+    ])  # fmt: skip
+
+
+def _rate_nodes(content: Content) -> list[Node]:
+    groups, styles = content.rate_groups, content.styles
+    others = [Fold("The other pairs", [rate_pair_table(groups, "others", styles)])] if groups[0].others else []
+    note = (
+        "p: McNemar's exact test, on the trials in which only one of the two is true. Interval of the difference: "
+        "Bonett and Price's. Neither is corrected for the number of comparisons on this page."
+    )
+    return [rate_pair_table(groups, "first", styles), *others, Note(note)]
+
+
+def _metric_nodes(content: Content) -> list[Node]:
+    groups, styles = content.metric_groups, content.styles
+    over_all = metric_pairs(content.comparison, content.paired, successful=False)
+    has_others = bool(groups[0].others)
+    note = (
+        f"Median: of the differences A {MINUS} B; of an even number the lower of the two in the middle, as all "
+        "quantiles here are values of trials. Its interval lies between order statistics of the differences and "
+        "assumes nothing about their distribution; it needs six trials. p: the sign test, ties left out."
+    )
+    return [
+        metric_pair_table(groups, "first", styles),
+        *([Fold("The other pairs", [metric_pair_table(groups, "others", styles)])] if has_others else []),
+        Fold(
+            "The same over all trials in which both have a finite value",
+            [
+                metric_pair_table(over_all, "first", styles),
+                *([metric_pair_table(over_all, "others", styles)] if has_others else []),
+            ],
+        ),
+        Note(note),
+    ]
+
+
+def rate_table(
+    comparison: Comparison, rows: Sequence[SummaryRow], styles: Mapping[str, Look], by: str | None = None
+) -> Table:
+    """Return a block of rows for each rate, which are those of groups ``by`` a draw, if there are."""
+    body: list[Sequence[Cell] | Row | RowHeading] = []
+    for rate in comparison.rates:
+        name = name_of(rate)
+        start = axis_start(row.entry.rates[name].interval for row in rows)
+        body.append(RowHeading([Strong(name)], "" if rate is None else rate.description))
+        for row in rows:
+            estimate = row.entry.rates[name]
+            body.append((
+                *variant_cells(row, by, styles),
+                Percentage(estimate.rate),
+                interval_cell(estimate.interval),
+                Track(estimate.rate, *estimate.interval, start, has_ends=row is rows[-1]),
+                Phrase([Quantity(estimate.count), " of ", Quantity(estimate.trials)]),
+            ))  # fmt: skip
+    heads = (*variant_heads(by), "rate, %", "95 % interval", "", Head("trials", column="numbers"))
+    return Table(heads, body, style="tight", is_grouped=by is not None)
