@@ -31,6 +31,15 @@ class Displayed(NamedTuple):
     exact: float | complex
 
 
+class Vector(NamedTuple):
+    """Numbers of a vector in SI, displayed like a `Quantity` each; ``is_bare``: without the unit."""
+
+    values: Sequence[float]
+    unit: str | None = None
+    digits: int = 6
+    is_bare: bool = True
+
+
 class Percentage(NamedTuple):
     """A fraction, displayed in per cent without the unit, which its column states."""
 
@@ -39,10 +48,10 @@ class Percentage(NamedTuple):
 
 
 class Interval(NamedTuple):
-    """The two ends of an interval in one cell."""
+    """The two ends of an interval in one cell; at most one is None."""
 
-    low: Quantity | Percentage | Displayed
-    high: Quantity | Percentage | Displayed
+    low: Quantity | Percentage | Displayed | None
+    high: Quantity | Percentage | Displayed | None
 
 
 class Track(NamedTuple):
@@ -87,11 +96,14 @@ class Link(NamedTuple):
     anchor: str
 
 
+Grade = Literal["pass", "fail", "withheld", "not-applicable"]
+
+
 class Judged(NamedTuple):
     """A verdict as a word, coloured by its grade."""
 
     verdict: str
-    grade: Literal["pass", "fail", "withheld", "not-applicable"]
+    grade: Grade
 
 
 class Strong(NamedTuple):
@@ -120,17 +132,31 @@ class LegendEntry(NamedTuple):
     lines: Sequence[str]
 
 
-Inline = str | Quantity | Displayed | Percentage | Code | CommandLine | Link | Judged | Strong | Faint | LegendEntry
+Inline = (
+    str
+    | Quantity
+    | Displayed
+    | Percentage
+    | Interval
+    | Code
+    | CommandLine
+    | Link
+    | Judged
+    | Strong
+    | Faint
+    | LegendEntry
+)
 Rich = str | Sequence[Inline]  # a sentence; its numbers keep their exact values in a page
 
 
 class Phrase(NamedTuple):
-    """Several numbers and words in a cell."""
+    """Several numbers and words in a cell, which stays in one line if ``is_unbroken``."""
 
     content: Sequence[Inline]
+    is_unbroken: bool = True
 
 
-Cell = Inline | Interval | Track | Bar | Digest | Lines | float | bool | Phrase | None
+Cell = Inline | Vector | Track | Bar | Digest | Lines | float | bool | Phrase | None
 
 
 class Head(NamedTuple):

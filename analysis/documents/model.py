@@ -13,6 +13,7 @@ A renderer decides how a node is shown; which nodes a medium has follows from th
 | `Fold` | its summary; its nodes if ``is_listed`` | no | opens |
 | `Only` | in its medium | in its medium | in its medium |
 | `Printed` | yes | no | no |
+| `Plot` | no | yes | no |
 | all others | no | no | yes |
 | heading of a `Section` | where it has lines | no | yes |
 """
@@ -26,13 +27,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 if TYPE_CHECKING:  # figures take as long to import as a verb without any takes to answer
     from markupsafe import Markup
+    from matplotlib.figure import Figure as Drawing
 
     from ..reports.chart.write_svg import TrialPositions
     from ..reports.common.colours import Look
     from ..reports.diagram.diagram import Diagram as BlockDiagram
-    from ..reports.figures.section import Section as SystemFigure
     from ..reports.interactive.charts import Chart
-    from ..reports.time_histories import ComponentHistory
     from .cell import Cell, Head, LegendEntry, Rich, Row, RowHeading, RowNote
 
 
@@ -207,6 +207,14 @@ class Diagram:
 
 
 @dataclass(frozen=True)
+class Plot:
+    """A figure that matplotlib draws, for a notebook in the place of the charts."""
+
+    kind: ClassVar[str] = "plot"
+    draw: Callable[[], Drawing | None]
+
+
+@dataclass(frozen=True)
 class Blocks:
     """The block diagram of a system."""
 
@@ -296,23 +304,6 @@ class Only:
     compose: Callable[[], Sequence[Node]]
 
 
-@dataclass(frozen=True)
-class SystemFigures:
-    """Figures of a simulation, each with its heading, and ``findings`` on several of them."""
-
-    kind: ClassVar[str] = "system_figures"
-    figures: Sequence[SystemFigure]
-    findings: Sequence[Markup] = ()
-
-
-@dataclass(frozen=True)
-class History:
-    """Signals of one component of a simulation over time."""
-
-    kind: ClassVar[str] = "history"
-    history: ComponentHistory
-
-
 Node = (
     Text
     | Printed
@@ -327,6 +318,7 @@ Node = (
     | Listing
     | Figures
     | Diagram
+    | Plot
     | Blocks
     | Scene
     | ForScript
@@ -334,8 +326,6 @@ Node = (
     | Fold
     | Tiles
     | Only
-    | SystemFigures
-    | History
 )
 
 
@@ -351,7 +341,7 @@ class Section:
     nodes: Sequence[Node]
     given: str = ""
     is_folded: bool = False
-    style: Literal["", "screen", "whole", "sheet whole"] = ""
+    style: Literal["", "screen", "whole", "whole sheet"] = ""
 
 
 @dataclass(frozen=True)

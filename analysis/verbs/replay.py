@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import chdir
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -12,6 +12,7 @@ from ...common.errors import InputError
 from ..campaigns.execute.replay import ReplayedTrial, replay_plan, replay_trial
 from ..campaigns.plain_text import faults_line
 from ..commands.campaigns import replay_command, replay_of_folder
+from ..documents.of.simulation.run import RunContext
 from ..options.command import record_options
 from ..options.declared.campaigns import REPLAY, ReplayOptions
 from ..options.option import FilePath
@@ -77,12 +78,11 @@ class ReplayResult(Result):
         """How the simulation differs from the stored trial."""
         return self.replayed.differences
 
-    def report(self, path: FilePath) -> None:
-        """Write the page of `perilune replay --report`: one HTML file."""
-        from ..reports.run_report import write_run_report  # with plots, which take as long as the rest
-
+    def context(self) -> RunContext:
+        """Return the campaign's trial behind the document."""
+        context = super().context()
         title = f"{self.system}, {self.configuration}, trial {self.trial}"
-        write_run_report(self, Path(path), title, self.figures, command=self.command)
+        return replace(context, title=title, draw_diagram=None, lines=[*context.lines, *self._lines()])
 
     def to_json(self) -> dict[str, object]:
         """As of `Result`, with the campaign, the trial's success and metrics, and differences from the stored one."""
@@ -102,10 +102,10 @@ class ReplayResult(Result):
             }
         )
 
-    def lines(self) -> list[str]:
-        """What `perilune replay` prints."""
+    def _lines(self) -> list[str]:
+        """Return what a terminal has of the trial, after the lines of its simulation."""
         metrics = self.replayed.plan.campaign.metrics
-        lines = super().lines() + outcome_lines(self.configuration, self.trial, self.replayed.outcome, metrics)
+        lines = outcome_lines(self.configuration, self.trial, self.replayed.outcome, metrics)
         lines += [faults_line(self.replayed.faults)] if self.replayed.faults else []
         if self.stored and not self.differences:
             lines.append("identical to the stored trial, bit for bit")

@@ -12,13 +12,15 @@ from ...common.errors import InputError
 from ...common.visible import on_one_line
 from ..campaigns.definition.expressions import Expression
 from ..campaigns.plain_text import faults_line
+from ..documents.model import Document
+from ..documents.of.simulation.figures.limits import limit_document
+from ..documents.of.simulation.run import RunContext, run_document
 from ..options.command import write_command
 from ..options.declared.campaigns import RUN, RunOptions
 from ..options.fault import Fault, faults_of
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..reports.figures.declared import Band, Figure, Limits
-from ..reports.figures.limits import limit_document, limit_rows
+from ..reports.figures.declared import Figure
 from ..reports.figures.reading import read_figures
 from ..runtime.flight import results
 from ..runtime.flight.interruptible import StuckError, fly
@@ -30,17 +32,19 @@ from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
 from ..runtime.system.series import read_series
 from .common.arguments import read_requirements, requirement_problems
+from .common.documented import Documented
 from .common.flight_text import flight_lines, flight_problems, note_lines
 
 if TYPE_CHECKING:  # plots and pages are imported where they are made: half of what a run without them would take
     from matplotlib.figure import Figure as Plot
 
-MOST_PLOTTED = 3  # signals of a flight without a path, in a notebook
+    from ..reports.diagram.diagram import Diagram
+
 STUCK = "nothing is written; see its messages with `log` all, or give a longer `timeout`"
 
 
 @dataclass(repr=False, kw_only=True)
-class Result(results.Result):
+class Result(Documented, results.Result):
     """A simulation. ``result["plant.position"]`` is a signal over ``time``, [n] or [n, k]; see `Flight` for the rest.
 
     ``prepared`` is the system as it was simulated, ``figures`` those that its SSD declares, which `report` plots;
@@ -59,20 +63,34 @@ class Result(results.Result):
         """The system's name."""
         return self.prepared.archive.name
 
-    def report(self, path: FilePath) -> None:
-        """Write the page of `perilune run --report`: one HTML file."""
-        from ..reports.diagram.diagram import make_diagram
-        from ..reports.run_report import write_run_report
+    def document(self) -> Document:
+        """Return the simulation as a document."""
+        return run_document(self, self.context(), self.to_json())
 
-        diagram = make_diagram(self.prepared, faults_of(self.faults))
-        write_run_report(self, Path(path), self.system, self.figures, diagram, self.command)
+    def context(self) -> RunContext:
+        """Return the system and the command behind the document."""
+        faults = [faults_line(self.faults)] if self.faults else []
+        notes = [*note_lines(self.prepared), *([] if self.signals else missing_outputs(self.prepared.network))]
+        lines = [*flight_lines(self.prepared, self.figures, self), *notes, *faults]
+        return RunContext(
+            title=self.system,
+            figures=self.figures,
+            draw_diagram=self._diagram,
+            command=self.command,
+            lines=[on_one_line(line) for line in lines],
+        )
+
+    def _diagram(self) -> Diagram:
+        from ..reports.diagram.diagram import make_diagram
+
+        return make_diagram(self.prepared, faults_of(self.faults))
 
     def plot(self, *names: str) -> Plot:
         """Plot signals over time, a panel for each name; a vector's elements share one.
 
         Raises KeyError for an unknown name, InputError without any.
         """
-        from ..reports.time_histories import signal_plot
+        from ..documents.of.simulation.histories import signal_plot
 
         if not names:
             displayed = ", ".join(list(self.signals)[:3])
@@ -82,7 +100,7 @@ class Result(results.Result):
 
     def plot_trajectory(self) -> Plot:
         """The path of whatever has a position: ground track and side view. Raises ValueError where nothing has one."""
-        from ..reports.trajectory import trajectory_plot
+        from ..documents.of.simulation.trajectory import trajectory_plot
 
         plot = trajectory_plot(self)
         if plot is None:
@@ -102,13 +120,6 @@ class Result(results.Result):
         final = {name: value if abs(value) < float("inf") else None for name, value in self.final().items()}
         return self.summary() | {"limits": self.limits, "final": final}
 
-    def lines(self) -> list[str]:
-        """What `perilune run` prints."""
-        faults = [faults_line(self.faults)] if self.faults else []
-        notes = [*note_lines(self.prepared), *([] if self.signals else missing_outputs(self.prepared.network))]
-        lines = [*flight_lines(self.prepared, self.figures, self), *notes, *faults]
-        return [on_one_line(line) for line in lines]
-
     def problems(self) -> list[str]:
         """Why the simulation did not complete, limits that it violates, requirements that are not met."""
         problems = flight_problems(self.prepared, self.figures, self)
@@ -119,33 +130,6 @@ class Result(results.Result):
         if not self.time.size:
             return {}
         return {"time": float(self.time[-1]), **{name: float(value) for name, value in self.final().items()}}
-
-    def _repr_html_(self) -> str:
-        from ..reports.common.notebook import Grid, notebook_view, value_text
-        from ..reports.run_report import key_values
-
-        text = f"{self.ending}, {len(self.signals)} signals"
-        grids = [
-            Grid((figure.title, "value", "limit", "unit", ""), limit_rows(figure, self))
-            for figure in self.figures
-            if isinstance(figure, Limits)
-        ]
-        if not grids:
-            rows = [(row.label, row.note, value_text(row.values, row.unit)) for row in key_values(self)]
-            grids = [Grid(("", "", "at the end"), rows)]
-        return notebook_view(self.system, [text, self.message], grids, self._main_plot())
-
-    def _main_plot(self) -> Plot | None:
-        from ..reports.run_report import key_values
-        from ..reports.time_histories import signal_plot
-        from ..reports.trajectory import trajectory_plot
-
-        if not self.time.size:
-            return None
-        signals = [figure.signal for figure in self.figures if isinstance(figure, Band)]
-        bands = [signal.names[0] if len(signal.names) == 1 else signal.label for signal in signals]
-        vectors = [row.label for row in key_values(self) if len(row.values) > 1]
-        return trajectory_plot(self) or signal_plot(self, (bands or vectors or list(self.signals))[:MOST_PLOTTED])
 
 
 @verb(RUN)

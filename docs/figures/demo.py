@@ -12,8 +12,8 @@ from perilune.analysis.campaigns.definition.plan import BatchPlan, read_plan
 from perilune.analysis.campaigns.execute.results import BatchResult
 from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.documents.of.batch.batch import batch_document
+from perilune.analysis.documents.of.simulation.run import RunContext, run_document
 from perilune.analysis.documents.render.html import write_document
-from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.shipped import main as build
@@ -77,7 +77,8 @@ def write_files(landing: Result, sample: list[Result], batch: BatchResult, outpu
     """Write the raw landing, the two full reports and the page; those of the batch are there already."""
     print("Writing pages ...", flush=True)
     landing.write(output / "landing.csv")
-    write_run_report(landing, output / "landing.html", f"Lunar landing: trial {LANDING} of campaign {CAMPAIGN}")
+    title = f"Lunar landing: trial {LANDING} of campaign {CAMPAIGN}"
+    write_document(run_document(landing, RunContext(title=title)), output / "landing.html")
     compared = replace(batch_document(batch), title="Lunar terminal guidance: three methods compared")
     write_document(compared, output / "comparison.html")
     page = output / "index.html"

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from perilune.analysis.campaigns.definition.campaign import Variant
 from perilune.analysis.campaigns.definition.checks import variant_names
 from perilune.analysis.campaigns.definition.plan import BatchPlan
+from perilune.analysis.documents.of.simulation.trajectory_chart import View, view_chart
 from perilune.analysis.reports.chart.axes import linear_axis
 from perilune.analysis.reports.chart.equal import Ends, to_scale
 from perilune.analysis.reports.chart.layout import BROAD
@@ -22,7 +23,6 @@ from perilune.analysis.reports.chart.ticks import axis_ends
 from perilune.analysis.reports.common.colours import BLUE, INK, VERMILION
 from perilune.analysis.reports.common.panels import HALF_WIDTH, PANEL_HEIGHT, Panel
 from perilune.analysis.reports.interactive.charts import NO_BOX, Chart, Drawing
-from perilune.analysis.reports.trajectory_chart import View, view_chart
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.flight.simulation import Simulation
 

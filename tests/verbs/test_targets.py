@@ -178,7 +178,7 @@ def test_one_file_that_cannot_be_written_keeps_no_other(tmp_path, capsys, monkey
     def full(*_, **__):
         raise OSError(errno.ENOSPC, "No space left on device", str(tmp_path / "page.html"))
 
-    monkeypatch.setattr("perilune.analysis.reports.run_report.write_run_report", full)
+    monkeypatch.setattr("perilune.analysis.documents.render.html.write_document", full)
     table, page = tmp_path / "flight.csv", tmp_path / "page.html"
     assert main([*RUN, "--output", str(table), "--report", str(page)]) == 2
     captured = capsys.readouterr()

@@ -31,6 +31,7 @@ from ..cell import (
     Rich,
     Strong,
     Track,
+    Vector,
 )
 
 BAR = 220.0  # px, of all
@@ -62,10 +63,17 @@ def cell_markup(cell: Cell) -> Markup:
             return rich_markup(content)
         case LegendEntry():
             return Markup('<span class="who">{}</span>').format(entry_markup(cell))
+        case Interval(low, None):
+            return Markup("at least {}").format(cell_markup(low))
+        case Interval(None, high):
+            return Markup("at most {}").format(cell_markup(high))
         case Interval(low, high):
             return Markup("{} to {}").format(cell_markup(low), cell_markup(high))
         case Displayed(text, exactly):
             return with_exact(repr(exactly).strip("()"), text)
+        case Vector(values, unit, digits, is_bare):
+            numbers = Markup(", ").join(exact(value, unit, digits) for value in values)
+            return numbers if is_bare else Markup("{} {}").format(numbers, display_unit(unit))
         case Percentage(fraction, decimals):
             return with_exact(repr(fraction), percent(fraction, decimals))
         case Track():
@@ -109,7 +117,7 @@ def cell_class(cell: Cell, column: str) -> str:
     match cell:
         case Code(_, is_long=True):
             return "long"
-        case Phrase():
+        case Phrase(_, True):
             return column or "who"
         case Lines(_, is_line_on_paper=True):
             return column or "unbroken"

@@ -20,6 +20,7 @@ from ..model import (
     Listing,
     Medium,
     Node,
+    Plot,
     Table,
     Text,
     Verdict,
@@ -29,7 +30,7 @@ from .html import cell_markup
 from .words import cell_text, heads_of, number_line, rich_text, rows_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure as Plot
+    from matplotlib.figure import Figure as Drawing
 
 ROWS = 2  # of figures
 
@@ -43,8 +44,10 @@ def document_view(document: Document) -> str:
         if isinstance(node, Table | Listing)
     ]
     figures, key = figures_of(document), _key(nodes)
+    plot = next((node.draw() for node in nodes if isinstance(node, Plot)), None)
+    plot = plot or (plot_figures(figures, key) if figures else _plot_diagram(nodes))
     words = [text for node in nodes for text in _words(node)]
-    return notebook_view(document.title, words, grids, plot_figures(figures, key) if figures else _plot_diagram(nodes))
+    return notebook_view(document.title, words, grids, plot)
 
 
 def figures_of(document: Document) -> list[Figure]:
@@ -68,7 +71,7 @@ def _key(nodes: Sequence[Node]) -> list[str]:
     return [", ".join(entry.lines) for entry in first.legend]
 
 
-def plot_figures(figures: Sequence[Figure], key: Sequence[str] = ()) -> Plot:
+def plot_figures(figures: Sequence[Figure], key: Sequence[str] = ()) -> Drawing:
     """Return figures next to each other as one of matplotlib's, with their legends; ``key`` is that of all."""
     from ...reports.chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
 
@@ -88,7 +91,7 @@ def plot_figures(figures: Sequence[Figure], key: Sequence[str] = ()) -> Plot:
     )
 
 
-def _plot_diagram(nodes: Sequence[Node]) -> Plot | None:
+def _plot_diagram(nodes: Sequence[Node]) -> Drawing | None:
     diagram = next((node for node in nodes if isinstance(node, Diagram)), None)
     if diagram is None:
         return None

@@ -29,6 +29,7 @@ from ..cell import (
     RowNote,
     Strong,
     Track,
+    Vector,
 )
 from ..model import Document, KeyNumbers, Table, Verdict
 
@@ -38,7 +39,7 @@ def cell_text(cell: Cell) -> str:
     match cell:
         case Code(text) | CommandLine(text) | Digest(text) | Displayed(text) | Link(text) | Judged(text):
             return text
-        case Phrase(content):
+        case Phrase(content, _):
             return rich_text(content)
         case Strong(inner) | Faint(inner):
             return cell_text(inner)
@@ -46,8 +47,15 @@ def cell_text(cell: Cell) -> str:
             return ", ".join(map(cell_text, content))
         case LegendEntry(_, lines):
             return ", ".join(lines)
+        case Interval(low, None):
+            return f"at least {cell_text(low)}"
+        case Interval(None, high):
+            return f"at most {cell_text(high)}"
         case Interval(low, high):
             return f"{cell_text(low)} to {cell_text(high)}"
+        case Vector(values, unit, _, is_bare):
+            text = ", ".join(cell_text(Quantity(value, unit, cell.digits, is_bare=True)) for value in values)
+            return text if is_bare or not display_unit(unit) else f"{text} {display_unit(unit)}"
         case Percentage(fraction, decimals):
             return short_percent(fraction, decimals)
         case Track() | Bar():

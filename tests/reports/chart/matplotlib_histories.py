@@ -7,6 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
+from perilune.analysis.documents.of.simulation.figures import band_figure, history_figures
+from perilune.analysis.documents.of.simulation.figures.section import HEIGHT, select_rows
 from perilune.analysis.reports.common.panels import HALF_WIDTH
 from perilune.analysis.reports.common.quantities import display_factor, display_unit
 from perilune.analysis.reports.common.style import (
@@ -19,9 +21,7 @@ from perilune.analysis.reports.common.style import (
     new_figure,
     plain_ticks,
 )
-from perilune.analysis.reports.figures import band_figure, history_figures
 from perilune.analysis.reports.figures.declared import Band, Curve, Error
-from perilune.analysis.reports.figures.section import HEIGHT, select_rows
 from perilune.analysis.reports.interactive.charts import Chart
 from perilune.analysis.runtime.flight.results import Result
 from tests.support.figures.lines import plot_quantity

@@ -7,11 +7,11 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
+from perilune.analysis.documents.of.simulation.figures.section import select_rows
 from perilune.analysis.reports.common.panels import far
 from perilune.analysis.reports.common.quantities import display_factor, label_with_unit
 from perilune.analysis.reports.common.style import BLUE, FAINT, GREEN, house_style, look, new_figure, plain_ticks
 from perilune.analysis.reports.figures.declared import Band, Path, Signal
-from perilune.analysis.reports.figures.section import select_rows
 from perilune.analysis.reports.interactive.charts import Chart
 from perilune.analysis.runtime.flight.results import Result
 from tests.support.figures.lines import plot_path, plot_quantity

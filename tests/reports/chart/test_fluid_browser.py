@@ -13,7 +13,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 
 from perilune.analysis.reports.figures.declared import Curve
-from perilune.analysis.reports.run_report import write_run_report
+from tests.support.documents.run_page import write_run_report
 from tests.support.pages.driven import driven, scroll_to_plot
 from tests.support.pages.own_samples import TIME, flown, scalar
 

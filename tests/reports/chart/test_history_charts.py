@@ -15,6 +15,7 @@ from lxml import etree
 
 import perilune
 from perilune.analysis.campaigns.verdicts.order_statistics import quantiles
+from perilune.analysis.documents.of.simulation.histories import HEIGHT, SPIKE, _is_constant, history_chart
 from perilune.analysis.reports.chart.panel import chart_panel
 from perilune.analysis.reports.chart.svg.polyline import path_of
 from perilune.analysis.reports.common.panels import PANEL_WIDTH
@@ -22,7 +23,6 @@ from perilune.analysis.reports.common.quantities import display_factor, number
 from perilune.analysis.reports.common.signals import signal_groups
 from perilune.analysis.reports.common.style import FAINT, house_style, new_figure, plain_ticks
 from perilune.analysis.reports.interactive.columns import Coarse
-from perilune.analysis.reports.time_histories import HEIGHT, SPIKE, _is_constant, history_chart
 from tests.support.figures.lines import plot_quantity
 from tests.support.figures.read_figure import read_charts
 

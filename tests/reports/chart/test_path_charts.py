@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from perilune.analysis.documents.of.simulation.figures.band_figure import against_chart
+from perilune.analysis.documents.of.simulation.figures.path_figure import HEIGHT, WIDE_INTERVALS
+from perilune.analysis.documents.of.simulation.figures.section import HEIGHT as PANEL_HEIGHT
 from perilune.analysis.reports.common.panels import HALF_WIDTH
-from perilune.analysis.reports.figures.band_figure import against_chart
-from perilune.analysis.reports.figures.figure_sections import figure_sections
-from perilune.analysis.reports.figures.path_figure import HEIGHT, WIDE_INTERVALS
-from perilune.analysis.reports.figures.section import HEIGHT as PANEL_HEIGHT
 from perilune.analysis.reports.interactive.measures import WIDTH
 from tests.reports.chart import matplotlib_paths
 from tests.reports.chart.test_history_charts import plain
+from tests.support.documents.subsections import figure_sections
 from tests.support.pages.mission_samples import PATH, mission
 from tests.support.pages.own_samples import ANGLES, TIME, angles, flown, scalar
 
@@ -32,7 +32,7 @@ def test_a_path(rows, factor):
     assert [curve.name for curve in chart.curves] == ["ship.y", "", "site", "site"]
     unnamed = [chart.curves[0], *(replace(curve, name="") for curve in chart.curves[1:])]
     expected = matplotlib_paths.path_chart(path, run, HEIGHT, WIDTH, WIDE_INTERVALS)
-    assert plain(replace(chart, curves=unnamed)) == plain(expected)
+    assert plain(replace(chart, curves=unnamed, title="")) == plain(expected)
 
 
 def test_a_band_over_another_signal():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from perilune.analysis.reports.run_report import write_run_report
+from tests.support.documents.run_page import write_run_report
 from tests.support.pages.browser import start
 from tests.support.pages.samples import mixed_batch, run_result, write_batch_page
 

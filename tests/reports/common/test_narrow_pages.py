@@ -9,7 +9,7 @@ from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_
 from perilune.analysis.design.transfers.hover_study import hover_study
 from perilune.analysis.documents.of.design.transfer import transfer_document
 from perilune.analysis.documents.render.html import write_document
-from perilune.analysis.reports.run_report import write_run_report
+from tests.support.documents.run_page import write_run_report
 from tests.support.lengths import either
 from tests.support.pages.narrow import assert_legible
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses

@@ -23,9 +23,9 @@ from perilune.analysis.documents.of.design.landing_bound import landing_bound_do
 from perilune.analysis.documents.of.design.transfer import transfer_document
 from perilune.analysis.documents.of.differences import differences_document
 from perilune.analysis.documents.render.html import write_document
-from perilune.analysis.reports.run_report import write_run_report
 from perilune.common.paths import ROOT
 from tests.documents.of.test_plan_pages import LANDER, LANDING
+from tests.support.documents.run_page import write_run_report
 from tests.support.lengths import either
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses
 from tests.support.pages.pictures.reading import read_page, reading

@@ -15,8 +15,8 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
-from perilune.analysis.reports.run_report import write_run_report
 from perilune.common.paths import BUILD
+from tests.support.documents.run_page import write_run_report
 from tests.support.pages.driven import driven
 from tests.support.scenes.descent import descent
 from tests.support.scenes.embedded import require_bundle

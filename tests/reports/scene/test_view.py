@@ -15,11 +15,11 @@ from scipy.spatial.transform import Rotation
 
 import perilune
 from perilune.analysis.reports.figures.scene.declared import Cartesian, Scene
-from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.reports.scene.notes import scene_notes
 from perilune.analysis.reports.scene.view import remaining_pulses, scene_view
 from perilune.fmus_src.mathlib.actuators.jets import jet_strength, jet_wrench
 from perilune.fmus_src.mathlib.vectors import vector as kernel_vector
+from tests.support.documents.run_page import write_run_report
 from tests.support.pages.checks import assert_self_contained, parse, text_of
 from tests.support.scenes.descent import descent
 from tests.support.scenes.embedded import column, document_of, embed, require_bundle

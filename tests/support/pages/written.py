@@ -6,7 +6,7 @@ from pathlib import Path
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.documents.of.comparison.comparison import comparison_document
 from perilune.analysis.documents.render.html import write_document
-from perilune.analysis.reports.run_report import write_run_report
+from tests.support.documents.run_page import write_run_report
 from tests.support.loops.studies import Studies
 from tests.support.pages.comparison_samples import write_sample
 from tests.support.pages.mission_samples import FIGURES, mission

@@ -20,7 +20,7 @@ from ....runtime.flight.results import Result
 from ....studies.worst.outcome import WorstResult
 from ...cell import Cell, Code, Quantity, Rich
 from ...model import Document, Figures, Medium, Node, Note, Only, Section, Table, Text, Verdict
-from ..simulation import simulation_nodes
+from ..simulation.nodes import simulation_nodes
 from .conditions import closing_sections, condition_nodes, condition_of
 from .worst_figures import box_figures, random_figures, search_figures
 from .worst_points import box_lanes, objective_of

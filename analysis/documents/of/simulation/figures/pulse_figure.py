@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import numpy as np
-from markupsafe import Markup
 
-from ...runtime.flight.results import Result
-from ..chart.marks import level
-from ..chart.panel import chart_panel
-from ..chart.quantity import quantity_curve
-from ..chart.ticks import axis_ends
-from ..common.colours import BLUE, FAINT, VERMILION
-from ..common.page import exact
-from ..common.panels import HALF_WIDTH
-from ..common.quantities import label_with_unit, number
-from ..interactive.charts import Area, Chart
-from .declared import Pulses
-from .section import Section, displayed, time_chart
-from .words import sentence
+from .....reports.chart.marks import level
+from .....reports.chart.quantity import quantity_curve
+from .....reports.chart.ticks import axis_ends
+from .....reports.common.colours import BLUE, FAINT, VERMILION
+from .....reports.common.quantities import label_with_unit, number
+from .....reports.figures.declared import Pulses
+from .....reports.interactive.charts import Area, Chart
+from .....runtime.flight.results import Result
+from ....cell import Inline, Quantity
+from ....model import Figure, Group
+from .section import displayed, figure_group, time_chart
+from .words import join, sentence
 
 HEIGHT = 1.6  # in
 BAR = 1.1  # pt; the duration of a pulse would not be visible
@@ -25,7 +23,7 @@ THIN = 0.6  # pt, the line at 0 and that of the remainder
 
 
 def pulse_lengths(pulses: Pulses, result: Result) -> np.ndarray:
-    """Signed lengths (s) of the pulses that start at each sample, [axes, samples]; 0 where none starts.
+    """Return the signed lengths (s) of the pulses that start at each sample, [axes, samples]; 0 where none starts.
 
     Pulses of the last sample are left out: a command acts over the step after its sample.
     """
@@ -37,19 +35,19 @@ def pulse_lengths(pulses: Pulses, result: Result) -> np.ndarray:
     return lengths
 
 
-def pulse_section(pulses: Pulses, result: Result, name: str) -> Section:
-    """The section of pulses; ``name`` must differ between the figures of a page."""
+def pulse_section(pulses: Pulses, result: Result, name: str) -> Group:
+    """Return the section of pulses; ``name`` must differ between the figures of a page."""
     lengths = pulse_lengths(pulses, result)
     if not np.any(lengths):
-        return Section(title=pulses.title, findings=[Markup("No pulse was fired.")], notes=pulses.notes)
+        return figure_group(pulses.title, findings=["no pulse was fired"], notes=pulses.notes)
     description = f"{pulses.title}: a bar for each pulse of {', '.join(pulses.lengths.names)}"
-    panels = [
-        chart_panel(label, f"{name}-{index}", f"{description}; {label}", chart, HEIGHT, HALF_WIDTH)
+    figures = [
+        Figure(label, f"{name}-{index}", f"{description}; {label}", chart, HEIGHT)
         for index, (label, chart) in enumerate(pulse_charts(pulses, result, lengths))
     ]
-    return Section(
-        title=pulses.title,
-        panels=panels,
+    return figure_group(
+        pulses.title,
+        figures=figures,
         findings=[_findings(pulses, lengths)],
         notes=[_caption(pulses, result), *pulses.notes],
     )
@@ -80,38 +78,38 @@ def pulse_charts(pulses: Pulses, result: Result, lengths: np.ndarray) -> list[tu
 
 
 def _line(time: np.ndarray, numbers: np.ndarray) -> Area:
-    """Strokes from sample to sample, which bars may cover as they could not cover a curve; none where one is nan."""
+    """Return strokes from sample to sample, which bars, unlike a curve, may cover; none where one is nan."""
     begins = np.flatnonzero(np.isfinite(numbers[:-1]) & np.isfinite(numbers[1:]))
     rows = np.stack([begins, begins + 1], axis=1).ravel()
     return Area(time[rows], numbers[rows], (False, False), FAINT, 1.0, THIN)
 
 
 def _bars(time: np.ndarray, lengths: np.ndarray, sign: float, colour: str) -> Area:
-    """Strokes from 0 to the lengths of one sign."""
+    """Return strokes from 0 to the lengths of one sign."""
     rows = np.flatnonzero(sign * lengths > 0.0)
     heads = np.stack([np.zeros(rows.size), lengths[rows]], axis=1)
     return Area(np.repeat(time[rows], 2), heads.ravel(), (False, False), colour.lower(), 1.0, BAR)
 
 
-def _findings(pulses: Pulses, lengths: np.ndarray) -> Markup:
+def _findings(pulses: Pulses, lengths: np.ndarray) -> list[Inline]:
     text = _amount(lengths)
-    if len(lengths) > 1:
-        axes = (Markup("{} {}").format(label, _amount(row)) for label, row in zip(pulses.labels, lengths, strict=True))
-        text = Markup("total {} ({})").format(text, Markup("; ").join(axes))
-    return sentence(text)
+    if len(lengths) == 1:
+        return text
+    axes: list[list[Inline]] = [[f"{label} ", *_amount(row)] for label, row in zip(pulses.labels, lengths, strict=True)]
+    return ["total ", *text, " (", *join(axes, "; "), ")"]
 
 
-def _amount(lengths: np.ndarray) -> Markup:
-    """The number of pulses and their total duration."""
+def _amount(lengths: np.ndarray) -> list[Inline]:
+    """Return the number of pulses and their total duration."""
     count = int(np.count_nonzero(lengths))
-    duration = exact(float(np.abs(lengths).sum()), digits=3)
-    return Markup("{} {}, {} s").format(number(count), "pulse" if count == 1 else "pulses", duration)
+    duration = Quantity(float(np.abs(lengths).sum()), "s", 3)
+    return [f"{number(count)} {'pulse' if count == 1 else 'pulses'}, ", duration]
 
 
-def _caption(pulses: Pulses, result: Result) -> Markup:
-    text = Markup("bars: {}, at the start of each pulse, height: its duration").format(pulses.lengths.label)
+def _caption(pulses: Pulses, result: Result) -> list[Inline]:
+    text = f"bars: {pulses.lengths.label}, at the start of each pulse, height: its duration"
     if pulses.remainder is not None:
         is_zero = not np.any(pulses.remainder.values(result))
-        line = Markup("{} is 0 throughout") if is_zero else Markup("thin line: {}")
-        text = Markup("{}; {}").format(text, line.format(pulses.remainder.label))
+        label = pulses.remainder.label
+        text += f"; {label} is 0 throughout" if is_zero else f"; thin line: {label}"
     return sentence(text)

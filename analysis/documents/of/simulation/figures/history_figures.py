@@ -5,22 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from markupsafe import Markup
 from scipy.special import ndtr
 
-from ....common.percent import short_percent
-from ...runtime.flight.results import Result
-from ..chart.marks import band_areas, level
-from ..chart.quantity import quantity_curve
-from ..chart.ticks import axis_ends
-from ..common.colours import FAINT, ORANGE
-from ..common.page import exact, with_exact
-from ..common.panels import Panel
-from ..common.quantities import display_factor, display_unit
-from ..interactive.charts import Chart
-from .declared import Curve, Error
-from .section import Section, displayed, history_panel, legend_of, select_rows, time_chart, wide_history
-from .words import capital, condition_text, seconds, sentence
+from ......common.percent import short_percent
+from .....reports.chart.marks import band_areas, level
+from .....reports.chart.quantity import quantity_curve
+from .....reports.chart.ticks import axis_ends
+from .....reports.common.colours import FAINT, ORANGE
+from .....reports.common.quantities import display_factor, display_unit
+from .....reports.figures.declared import Curve, Error
+from .....reports.interactive.charts import Chart
+from .....runtime.flight.results import Result
+from ....cell import Displayed, Inline, Quantity, Rich
+from ....model import Figure, Group
+from .section import displayed, figure_group, history_figure, legend_of, select_rows, time_chart
+from .words import capital, condition_text, join, seconds, sentence
 
 SIGMAS = (3.0, 1.0)
 MOST_ROWS = 500  # of the shaded areas, which matplotlib does not simplify
@@ -28,8 +27,8 @@ ROUNDING = 1e-12  # of times, which are start + n h
 WIDE = 4.0  # range of the errors over that of the last quarter from which a zoom is plotted
 
 
-def error_section(error: Error, result: Result, name: str) -> Section:
-    """The section of an error; ``name`` must differ between the figures of a page."""
+def error_section(error: Error, result: Result, name: str) -> Group:
+    """Return the section of an error; ``name`` must differ between the figures of a page."""
     chosen, rows = select_rows(error.rows, result)
     time = result.time[rows]
     estimate = error.estimate.values(result)
@@ -37,22 +36,22 @@ def error_section(error: Error, result: Result, name: str) -> Section:
     changed = np.append(True, np.any(estimate[:, 1:] != estimate[:, :-1], axis=0))[rows]
     stated = np.zeros_like(values) if error.sigma is None else error.sigma.values(result)[:, rows]
     sigma = np.where(stated > 0.0, stated, np.nan)
-    panels: list[Panel] = []
-    findings: list[Markup] = []
+    figures: list[Figure] = []
+    findings: list[Rich] = []
     for index, label in enumerate(error.labels):
-        panels += _panels(error, label, time, values[index], sigma[index], f"{name}-{index}")
+        figures += _figures(error, label, time, values[index], sigma[index], f"{name}-{index}")
         findings += _findings(error, label, time, values[index], sigma[index], changed)
-    return Section(
-        title=error.title,
-        panels=panels,
+    return figure_group(
+        error.title,
+        figures=figures,
         findings=findings,
         notes=[_caption(error, sigma), *error.notes],
     )
 
 
-def _panels(
+def _figures(
     error: Error, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, name: str
-) -> list[Panel]:
+) -> list[Figure]:
     unit_name = error.estimate.unit_name
     unit, factor = display_unit(unit_name), display_factor(unit_name)
     description = f"{error.title}: {label or error.estimate.label} over time"
@@ -72,16 +71,18 @@ def _panels(
 
     everything = np.concatenate([displayed([line]), [0.0], *halves, *(-half for half in halves)])
     whole = chart(axis_ends(everything))
-    panels = [history_panel(capital(f"{head}time history"), f"{name}-whole", description, unit, whole)]
+    figures = [history_figure(capital(f"{head}time history"), f"{name}-whole", description, unit, whole)]
     reach = _final_range(values, sigma)
     if reach is not None:
         label, description = capital(f"{head}scaled to the last quarter"), f"{description}, scaled to the last quarter"
-        panels.append(history_panel(label, f"{name}-end", description, unit, chart((-factor * reach, factor * reach))))
-    return panels
+        figures.append(
+            history_figure(label, f"{name}-end", description, unit, chart((-factor * reach, factor * reach)))
+        )
+    return figures
 
 
 def _final_range(values: np.ndarray, sigma: np.ndarray) -> float | None:
-    """Largest magnitude of error and sigma in the last quarter; None where the full range shows it well."""
+    """Return the largest magnitude of error and sigma in the last quarter; None where the full range shows it well."""
     sizes = np.fmax(np.abs(values), np.fmax(SIGMAS[0] * sigma, 0.0))
     later = sizes[3 * values.size // 4 :]
     if not np.any(later > 0.0) or np.nanmax(sizes) <= WIDE * np.nanmax(later):
@@ -91,8 +92,8 @@ def _final_range(values: np.ndarray, sigma: np.ndarray) -> float | None:
 
 def _findings(
     error: Error, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, changed: np.ndarray
-) -> list[Markup]:
-    """Fractions of the samples within 1 and 3 sigma, those at which the estimate ``changed``; none without a sigma."""
+) -> list[Rich]:
+    """Return the fractions of samples within 1 and 3 sigma where the estimate ``changed``; none without a sigma."""
     start = time[0] if error.after is None else error.after
     counted = np.isfinite(sigma) & np.isfinite(values) & (time >= start - ROUNDING * abs(start))
     repeats = bool(np.any(counted & ~changed))
@@ -102,40 +103,46 @@ def _findings(
     fractions = [float(np.mean(np.abs(values[counted]) <= times * sigma[counted])) for times in SIGMAS]
     number = int(np.count_nonzero(counted))
     noun = "sample" if number == 1 else "samples"
-    samples = Markup("{} {} at which the estimate changed").format(exact(number), noun) if repeats else noun
-    text = Markup("{}from {}, {} of the {} within 1 sigma (normal distribution: {}), {} within 3 sigma").format(
-        f"{label}: " if label else "",
-        seconds(start),
-        _percent(fractions[1]),
-        samples,
-        _percent(_normal(1.0)),
-        _percent(fractions[0]),
-    )
-    return [sentence(text)]
+    samples: list[Inline] = [Quantity(number), f" {noun} at which the estimate changed"] if repeats else [noun]
+    return [
+        [
+            f"{label}: from " if label else "from ",
+            seconds(start),
+            ", ",
+            _percent(fractions[1]),
+            " % of the ",
+            *samples,
+            " within 1 sigma (normal distribution: ",
+            _percent(_normal(1.0)),
+            " %), ",
+            _percent(fractions[0]),
+            " % within 3 sigma",
+        ]
+    ]
+
+
+def _percent(fraction: float) -> Displayed:
+    return Displayed(short_percent(fraction, 1), fraction)
 
 
 def _normal(times: float) -> float:
     return float(2.0 * ndtr(times) - 1.0)
 
 
-def _percent(fraction: float) -> Markup:
-    return Markup("{} %").format(with_exact(repr(fraction), short_percent(fraction, 1)))
-
-
-def _caption(error: Error, sigma: np.ndarray) -> Markup:
-    text = Markup("line: {} minus {}").format(error.estimate.label, error.truth.label)
+def _caption(error: Error, sigma: np.ndarray) -> list[Inline]:
+    text: list[Inline] = [f"line: {error.estimate.label} minus {error.truth.label}"]
     if error.sigma is not None and not np.any(np.isfinite(sigma)):
-        text = Markup("{}; {} is 0 throughout, no standard deviation").format(text, error.sigma.label)
+        text.append(f"; {error.sigma.label} is 0 throughout, no standard deviation")
     elif error.sigma is not None:
         gaps = " where it is not 0" if not np.all(np.isfinite(sigma)) else ""
-        text = Markup("{}; shaded: ±1 and ±3 {}{}").format(text, error.sigma.label, gaps)
+        text.append(f"; shaded: ±1 and ±3 {error.sigma.label}{gaps}")
     if error.rows is not None:
-        text = Markup("{}; samples where {}").format(text, condition_text(error.rows))
+        text += ["; samples where ", *condition_text(error.rows)]
     return sentence(text)
 
 
-def curve_section(curve: Curve, result: Result, name: str) -> Section:
-    """The section of curves; ``name`` must differ between the figures of a page."""
+def curve_section(curve: Curve, result: Result, name: str) -> Group:
+    """Return the section of curves; ``name`` must differ between the figures of a page."""
     chosen, rows = select_rows(curve.rows, result)
     time = result.time[rows]
     values = [np.where(chosen, signal.values(result)[0], np.nan)[rows] for signal in curve.signals]
@@ -155,21 +162,23 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
     notes = [_curve_caption(curve, unit), *curve.notes]
     if len(values) == 1 or curve.together:
         names = ", ".join(signal.label for signal in curve.signals)
-        plot = wide_history(name, f"{curve.title}: {names} over time", unit, chart(range(len(values)), 12))
-        return Section(title=curve.title, plot=plot, legend=legend_of(curve.labels), notes=notes)
-    panels = []
+        whole = chart(range(len(values)), 12)
+        figure = history_figure("", name, f"{curve.title}: {names} over time", unit, whole, is_wide=True)
+        return figure_group(curve.title, figures=[figure], legend=legend_of(curve.labels), notes=notes)
+    figures = []
     for index, (label, signal) in enumerate(zip(curve.labels, curve.signals, strict=True)):
         description = f"{curve.title}: {signal.label} over time"
-        panels.append(history_panel(label, f"{name}-{index}", description, unit, chart([index])))
-    return Section(title=curve.title, panels=panels, notes=notes)
+        figures.append(history_figure(label, f"{name}-{index}", description, unit, chart([index])))
+    return figure_group(curve.title, figures=figures, notes=notes)
 
 
-def _curve_caption(curve: Curve, unit: str) -> Markup:
-    text = Markup("line: {}").format(", ".join(signal.label for signal in curve.signals))
+def _curve_caption(curve: Curve, unit: str) -> list[Inline]:
+    text: list[Inline] = [f"line: {', '.join(signal.label for signal in curve.signals)}"]
     limits = [limit for limit in (curve.low, curve.high) if limit is not None]
     if limits:
-        numbers = Markup(" and ").join(exact(limit, curve.signals[0].unit_name) for limit in limits)
-        text = Markup("{}; dashed: limits {} {}").format(text, numbers, unit)
+        name = curve.signals[0].unit_name
+        numbers: list[list[Inline]] = [[Quantity(limit, name, is_bare=True)] for limit in limits]
+        text += ["; dashed: limits ", *join(numbers, " and "), f" {unit}"]
     if curve.rows is not None:
-        text = Markup("{}; samples where {}").format(text, condition_text(curve.rows))
+        text += ["; samples where ", *condition_text(curve.rows)]
     return sentence(text)

@@ -8,7 +8,7 @@ import pytest
 from matplotlib import image
 from selenium.webdriver.common.by import By
 
-from perilune.analysis.reports.run_report import write_run_report
+from tests.support.documents.run_page import write_run_report
 from tests.support.lengths import either
 from tests.support.pages.browser import start
 from tests.support.pages.driven import driven, scroll_to_plot

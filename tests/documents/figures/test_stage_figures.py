@@ -11,14 +11,15 @@ import numpy as np
 import pytest
 from lxml import etree, html
 
+from perilune.analysis.documents.of.simulation.figures.limits import limit_entries, limit_lines
+from perilune.analysis.documents.of.simulation.figures.phase_figure import spans_of, statuses_of
+from perilune.analysis.documents.of.simulation.figures.section import align
+from perilune.analysis.documents.render.cell_markup import cell_markup
 from perilune.analysis.reports.figures.declared import Arc, BoundValues, Rows
-from perilune.analysis.reports.figures.figure_sections import figure_sections
-from perilune.analysis.reports.figures.limits import limit_entries, limit_lines
-from perilune.analysis.reports.figures.phase_figure import spans_of, statuses_of
-from perilune.analysis.reports.figures.section import align
-from perilune.analysis.reports.run_report import write_run_report
+from tests.support.documents.run_page import write_run_report
+from tests.support.documents.subsections import figure_sections
 from tests.support.pages.checks import assert_self_contained, parse, section_of
-from tests.support.pages.mission_samples import (  # fmt: skip
+from tests.support.pages.mission_samples import (
     BUDGET,
     CURVE,
     FIGURES,
@@ -54,6 +55,10 @@ def findings(section):
 
 def cells(section):
     return [[plain(cell) for cell in row] for row in section.table.rows]
+
+
+def aligned(values, unit):
+    return [plain(cell_markup(cell)) for cell in align(values, unit)]
 
 
 def texts(figure):
@@ -317,9 +322,9 @@ def test_short_runs(rows):
 
 
 def test_columns_have_the_decimals_of_their_largest():
-    assert [plain(cell) for cell in align([400.821, 0.00234, -7.5, None, 0.0], "kg")] == [
+    assert aligned([400.821, 0.00234, -7.5, None, 0.0], "kg") == [
         "400.82", "0.00", f"{MINUS}7.50", "\N{EN DASH}", "0.00"
     ]  # fmt: skip
-    assert [plain(cell) for cell in align([123456.7, 1.0, math.inf], "kg")] == ["123457", "1", "\N{INFINITY}"]
-    assert [plain(cell) for cell in align([math.pi], "rad")] == ["180.00"]
-    assert str(align([math.pi], "rad")[0]).startswith(f'<data value="{math.pi!r}">')
+    assert aligned([123456.7, 1.0, math.inf], "kg") == ["123457", "1", "\N{INFINITY}"]
+    assert aligned([math.pi], "rad") == ["180.00"]
+    assert cell_markup(align([math.pi], "rad")[0]).startswith(f'<data value="{math.pi!r}">')

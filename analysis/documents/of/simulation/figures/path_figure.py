@@ -7,22 +7,23 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from markupsafe import Markup
 
-from ...runtime.flight.results import Result
-from ..chart.axes import linear_axis
-from ..chart.equal import Ends, to_scale
-from ..chart.marks import level
-from ..chart.panel import POINTS, chart_panel, wide_figure
-from ..chart.quantity import quantity_curve
-from ..chart.symbols import marker, marks
-from ..chart.ticks import axis_ends
-from ..common.colours import BLUE, INK, look
-from ..common.panels import HALF_WIDTH, far, mark_swatch
-from ..common.quantities import display_unit, label_with_unit
-from ..interactive.charts import NO_BOX, Chart, Curve, Marker
-from .declared import Arc, Path, Signal
-from .section import Section, select_rows
+from .....reports.chart.axes import linear_axis
+from .....reports.chart.equal import Ends, to_scale
+from .....reports.chart.marks import level
+from .....reports.chart.panel import POINTS
+from .....reports.chart.quantity import quantity_curve
+from .....reports.chart.symbols import marker, marks
+from .....reports.chart.ticks import axis_ends
+from .....reports.common.colours import BLUE, INK, look
+from .....reports.common.panels import HALF_WIDTH, far
+from .....reports.common.quantities import display_unit, label_with_unit
+from .....reports.figures.declared import Arc, Path, Signal
+from .....reports.interactive.charts import NO_BOX, Chart, Curve, Marker
+from .....runtime.flight.results import Result
+from ....cell import Inline, LegendEntry
+from ....model import Figure, Group
+from .section import figure_group, select_rows
 from .words import condition_text, sentence
 
 HEIGHT = 3.6  # in
@@ -32,8 +33,8 @@ WIDE_INTERVALS, Y_INTERVALS = 10, 6  # between ticks, at most
 WHITE = "#ffffff"
 
 
-def path_section(path: Path, result: Result, name: str) -> Section:
-    """The section of a path; ``name`` must differ between the figures of a page."""
+def path_section(path: Path, result: Result, name: str) -> Group:
+    """Return the section of a path; ``name`` must differ between the figures of a page."""
     chosen, rows = select_rows(path.rows, result)
 
     def plotted(signal: Signal | Arc) -> np.ndarray:
@@ -47,18 +48,16 @@ def path_section(path: Path, result: Result, name: str) -> Section:
     ends = path_ends(path, position, others)
     chart_of = partial(path_chart, path, result.time[rows], position, others, _axis(path.x, scales[0]))
     description = f"{path.title}: {path.y.label} over {path.x.label}"
-    panels, plot = [], None
     if path.equal:
         chart = to_scale(chart_of, *ends, POINTS * HALF_WIDTH, POINTS * EQUAL_HEIGHT)
-        panels = [chart_panel(title, name, description, chart, EQUAL_HEIGHT, HALF_WIDTH)]
+        figure = Figure(title, name, description, chart, EQUAL_HEIGHT)
     else:
-        chart = chart_of(*ends, WIDE_INTERVALS)
-        plot = wide_figure(name, description, chart, HEIGHT, title=title)
-    return Section(
-        title=path.title,
-        panels=panels,
-        plot=plot,
-        legend=[(mark_swatch(_final_mark(index)), each.name) for index, each in enumerate(path.points, 1)],
+        chart = replace(chart_of(*ends, WIDE_INTERVALS), title=title)
+        figure = Figure("", name, description, chart, HEIGHT, is_wide=True)
+    return figure_group(
+        path.title,
+        figures=[figure],
+        legend=[LegendEntry(_final_mark(index), [each.name]) for index, each in enumerate(path.points, 1)],
         notes=[_caption(path), *path.notes],
     )
 
@@ -116,7 +115,7 @@ def _final_mark(index: int) -> Marker:
 
 
 def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
-    """Factors of both axes: km where lengths in m are long; the same with equal scales."""
+    """Return the factors of both axes: km where lengths in m are long; the same with equal scales."""
     metres = [signal.unit_name == "m" for signal in (path.x, path.y)]
     if path.equal and all(metres):
         factor, _ = far(np.concatenate([x, y]))
@@ -126,7 +125,7 @@ def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
 
 
 def _over_ground(path: Path) -> bool:
-    """Whether the ordinate is the altitude over the sphere of the abscissa."""
+    """Return True if the ordinate is the altitude over the sphere of the abscissa."""
     return isinstance(path.x, Arc) and path.y.label.rpartition(".")[2] == "altitude"
 
 
@@ -134,18 +133,17 @@ def _axis(signal: Signal | Arc, scale: float) -> str:
     return label_with_unit(signal.label, "km" if scale != 1.0 else display_unit(signal.unit_name))
 
 
-def _caption(path: Path) -> Markup:
-    text = Markup("circle: end")
+def _caption(path: Path) -> list[Inline]:
+    text: list[Inline] = ["circle: end"]
     if path.points:
         names = ", ".join(f"{point.name} ({point.x.label}, {point.y.label})" for point in path.points)
-        text = Markup("{}; marks: {}, large: final").format(text, names)
+        text.append(f"; marks: {names}, large: final")
     if path.rows is not None:
-        text = Markup("{}; samples where {}").format(text, condition_text(path.rows))
-    scale = Markup("equal scales") if path.equal else Markup("not to scale")
-    text = Markup("{}; {}").format(text, scale)
+        text += ["; samples where ", *condition_text(path.rows)]
+    text.append("; equal scales" if path.equal else "; not to scale")
     if isinstance(path.x, Arc):
-        words = "{}; downrange: way of {} along the great circle of its track, 0 at the origin, growing in flight"
-        text = Markup(words).format(text, path.x.position.label)
+        origin = "great circle of its track, 0 at the origin, growing in flight"
+        text.append(f"; downrange: way of {path.x.position.label} along the {origin}")
     if _over_ground(path):
-        text = Markup("{}; black line: surface").format(text)
+        text.append("; black line: surface")
     return sentence(text)

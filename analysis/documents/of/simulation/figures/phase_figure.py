@@ -7,21 +7,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from markupsafe import Markup
 
-from ...runtime.flight.results import Flight, Result
-from ..chart.axes import lane_axis, linear_axis
-from ..chart.marks import SQUARE, instant
-from ..chart.panel import chart_panel, wide_figure
-from ..common.colours import BLUE, INK, VERMILION
-from ..common.page import Table, exact
-from ..common.panels import HALF_WIDTH, Panel
-from ..common.quantities import display_unit, label_with_unit, number
-from ..interactive.charts import NO_BOX, Area, Chart, Drawing, Note
-from ..interactive.measures import TICK_SIZE
-from .declared import BoundValues, Budget, Item, Phase, Phases
-from .section import Section, align
-from .words import seconds, sentence
+from .....reports.chart.axes import lane_axis, linear_axis
+from .....reports.chart.marks import SQUARE, instant
+from .....reports.common.colours import BLUE, INK, VERMILION
+from .....reports.common.quantities import display_unit, label_with_unit, number
+from .....reports.figures.declared import BoundValues, Budget, Item, Phase, Phases
+from .....reports.interactive.charts import NO_BOX, Area, Chart, Note
+from .....reports.interactive.measures import TICK_SIZE
+from .....runtime.flight.results import Flight, Result
+from ....cell import Cell, Inline, Quantity, Rich
+from ....model import Figure, Group, Table
+from .section import align, figure_group
+from .words import seconds
 
 
 @dataclass(frozen=True)
@@ -35,7 +33,7 @@ class Span:
 
 
 def spans_of(phases: Phases, flight: Flight) -> list[Span]:
-    """The phases in the order of the flight; a value without a name is its own name.
+    """Return the phases in the order of the flight; a value without a name is its own name.
 
     A phase lasts from its first sample to the first sample of the next one, the last phase to the end.
     """
@@ -60,7 +58,7 @@ def spans_of(phases: Phases, flight: Flight) -> list[Span]:
 
 
 def _subphases(named: Sequence[Phase], flight: Flight, begin: int, end: int) -> list[tuple[int, str]]:
-    """First row and name of the phases with the same value, between two rows; a phase without a row is left out."""
+    """Return the first row and name of the phases with one value between two rows, without phases that have no row."""
     starts: list[tuple[int, str]] = []
     for phase in named:
         over = end
@@ -73,7 +71,7 @@ def _subphases(named: Sequence[Phase], flight: Flight, begin: int, end: int) -> 
 
 
 def statuses_of(phases: Phases, flight: Flight) -> list[tuple[int, float]] | None:
-    """Each status and the time (s) of its first occurrence, in order of time; None where no status is declared."""
+    """Return each status with the time (s) of its first occurrence, in order; None where no status is declared."""
     if phases.status_times is not None:
         times = phases.status_times.values(flight)[:, -1]
         occurred = [(index, float(time)) for index, time in enumerate(times, 1) if time >= 0.0]
@@ -95,29 +93,26 @@ NEAR_THE_EDGE = 0.88  # of a window, from which the duration is written on the l
 Window = tuple[float, float]
 
 
-def phase_section(phases: Phases, result: Result, name: str) -> Section:
-    """The section of the phases; ``name`` must differ between the figures of a page."""
+def phase_section(phases: Phases, result: Result, name: str) -> Group:
+    """Return the section of the phases; ``name`` must differ between the figures of a page."""
     spans, statuses = spans_of(phases, result), statuses_of(phases, result)
     windows = _windows(spans, statuses or [])
-    notes = [Markup("Bars: phases with their duration, s.")]
+    caption: list[Inline] = ["Bars: phases with their duration, s."]
     if statuses:
-        notes[0] = Markup("{} Dashed lines: status.").format(notes[0])
+        caption.append(" Dashed lines: status.")
     if len(windows) > 1:
-        left_out = windows[1][0] - windows[0][1]
-        notes[0] = Markup("{} Between the panels {} are omitted.").format(notes[0], seconds(left_out))
-    panels, plot = _panels(phases, spans, statuses or [], windows, name)
-    return Section(
-        title=phases.title,
-        panels=panels,
-        plot=plot,
+        caption += [" Between the panels ", seconds(windows[1][0] - windows[0][1]), " are omitted."]
+    return figure_group(
+        phases.title,
+        figures=_figures(phases, spans, statuses or [], windows, name),
         table=_table(phases, spans),
         findings=[] if statuses is None else _findings(phases, statuses),
-        notes=[*notes, *phases.notes],
+        notes=[caption, *phases.notes],
     )
 
 
 def _windows(spans: Sequence[Span], statuses: Sequence[tuple[int, float]]) -> list[Window]:
-    """The time windows of the plot: the flight, or what is before and after a long interval without an event."""
+    """Return the time windows of the plot: the flight, or what is before and after a long interval without an event."""
     begin, end = spans[0].begin, spans[-1].end
     events = sorted({begin, end, *(span.begin for span in spans), *(time for _, time in statuses)})
     length, left, right = max(
@@ -163,34 +158,34 @@ def phase_chart(spans: Sequence[Span], statuses: Sequence[tuple[int, float]], wi
 
 
 def _duration(span: Span, at: float, lane: int, *, before: bool) -> Note:
-    """The duration of a phase, after its bar or ``before`` it."""
+    """Return the duration of a phase, after its bar or ``before`` it."""
     offset, side = (-GAP, "right") if before else (GAP, "left")
     text = number(span.end - span.begin, 4)
     return Note(text, (at, float(lane)), (False, False), (offset, 0.0), (side, "center"), INK, TICK_SIZE)
 
 
 def _status(time: float, numbers: str) -> Note:
-    """The numbers of statuses above the axes."""
+    """Return the numbers of statuses above the axes."""
     return Note(
         numbers, (time, 1.0), (False, True), (0.0, 3.0), ("center", "baseline"), VERMILION.lower(), TICK_SIZE, bold=True
     )
 
 
-def _panels(
+def _figures(
     phases: Phases, spans: Sequence[Span], statuses: Sequence[tuple[int, float]], windows: Sequence[Window], name: str
-) -> tuple[list[Panel], Drawing | None]:
-    """Return a panel for each of several windows, or one figure as wide as the page."""
+) -> list[Figure]:
+    """Return a figure for each of several windows, or one as wide as the page."""
     lanes = dict.fromkeys(span.name for span in spans)
     height, description = 0.75 + LANE * len(lanes), f"{phases.title}: {', '.join(lanes)} over time"
     if len(windows) == 1:
-        return [], wide_figure(name, description, phase_chart(spans, statuses, windows[0], 10), height)
-    panels = []
+        return [Figure("", name, description, phase_chart(spans, statuses, windows[0], 10), height, is_wide=True)]
+    figures = []
     for index, window in enumerate(windows):
         begin, end = (number(each, 5) for each in window)
         label = f"{begin} to {end} s"
         timeline = phase_chart(spans, statuses, window, 5)
-        panels.append(chart_panel(label, f"{name}-{index}", f"{description}; {label}", timeline, height, HALF_WIDTH))
-    return panels, None
+        figures.append(Figure(label, f"{name}-{index}", f"{description}; {label}", timeline, height))
+    return figures
 
 
 def _table(phases: Phases, spans: Sequence[Span]) -> Table:
@@ -201,29 +196,31 @@ def _table(phases: Phases, spans: Sequence[Span]) -> Table:
         heads.append(label_with_unit("propellant" if is_mass else "consumption", unit))
     spent = [span.spent for span in spans if span.spent is not None]
     rows = [*spans, Span("total", spans[0].begin, spans[-1].end, sum(spent) if spent else None)]
-    columns = [
+    columns: list[Sequence[Cell]] = [
         [span.name for span in rows],
-        [exact(span.begin, digits=6) for span in rows],
-        [exact(span.end - span.begin, digits=6) for span in rows],
+        [Quantity(span.begin, digits=6) for span in rows],
+        [Quantity(span.end - span.begin, digits=6) for span in rows],
         *([align([span.spent for span in rows], unit)] if phases.spent is not None else []),
     ]
-    return Table(tuple(heads), list(zip(*columns, strict=True)), numbers=(1, 2, 3))
+    return Table(heads, list(zip(*columns, strict=True)))
 
 
-def _findings(phases: Phases, statuses: Sequence[tuple[int, float]]) -> list[Markup]:
-    """Each status with the time of its first occurrence and its meaning."""
+def _findings(phases: Phases, statuses: Sequence[tuple[int, float]]) -> list[Rich]:
+    """Return each status with the time of its first occurrence and its meaning."""
     if not statuses:
-        return [Markup("Status 0 throughout.")]
+        return ["status 0 throughout"]
     return [
-        sentence(Markup("status {} at {}: {}").format(number(status), seconds(time), phases.meanings[status]))
-        if status in phases.meanings
-        else sentence(Markup("status {} at {}").format(number(status), seconds(time)))
+        [
+            f"status {number(status)} at ",
+            seconds(time),
+            f": {phases.meanings[status]}" if status in phases.meanings else "",
+        ]
         for status, time in statuses
     ]
 
 
 def consumption_by_phase(budget: Budget, result: Result) -> dict[str, float]:
-    """The consumption of each phase that occurred, summed over its occurrences."""
+    """Return the consumption of each phase that occurred, summed over its occurrences."""
     spent: dict[str, float] = {}
     for span in spans_of(budget.of, result):
         assert span.spent is not None  # the reader of a budget demands it
@@ -232,7 +229,7 @@ def consumption_by_phase(budget: Budget, result: Result) -> dict[str, float]:
 
 
 def amount(item: Item, spent: Mapping[str, float], bound: BoundValues | None) -> float | None:
-    """The amount of an item; None where one of its phases did not occur or the bound is missing."""
+    """Return the amount of an item; None where one of its phases did not occur or the bound is missing."""
     values = {} if bound is None else bound.values
     if any(name not in spent for name in item.phases) or any(name not in values for name in (*item.plus, *item.minus)):
         return None
@@ -240,8 +237,8 @@ def amount(item: Item, spent: Mapping[str, float], bound: BoundValues | None) ->
     return math.fsum((*used, *(values[name] for name in item.plus), *(-values[name] for name in item.minus)))
 
 
-def budget_section(budget: Budget, result: Result) -> Section:
-    """The table of a budget."""
+def budget_section(budget: Budget, result: Result) -> Group:
+    """Return the table of a budget."""
     spent = consumption_by_phase(budget, result)
     unit = budget.of.spent.unit_name if budget.of.spent is not None else None
     amounts = [amount(item, spent, budget.bound) for item in budget.items]
@@ -252,22 +249,15 @@ def budget_section(budget: Budget, result: Result) -> Section:
     names = [*(item.name for item in budget.items), "total", "consumption in these phases"]
     sources = [*map(_sum_text, budget.items), "", ", ".join(named)]
     numbers = align([*amounts, total, used], unit)
-    notes = [Markup("Phase did not occur: {}.").format(name) for name in named if name not in spent]
+    notes = [f"Phase did not occur: {name}." for name in named if name not in spent]
     if budget.bound is not None and budget.bound.missing:
-        notes.append(Markup("Bound not available: {}.").format(budget.bound.missing))
-    return Section(
-        title=budget.title,
-        table=Table(
-            heads=("item", display_unit(unit), "sum of"),
-            rows=list(zip(names, numbers, sources, strict=True)),
-            numbers=(1,),
-        ),
-        notes=notes,
-    )
+        notes.append(f"Bound not available: {budget.bound.missing}.")
+    table = Table(("item", display_unit(unit), "sum of"), list(zip(names, numbers, sources, strict=True)))
+    return figure_group(budget.title, table=table, notes=notes)
 
 
 def _sum_text(item: Item) -> str:
-    """The terms of an item."""
+    """Return the terms of an item."""
     parts = []
     if item.phases:
         parts.append(" + ".join(item.phases))

@@ -1,11 +1,12 @@
-"""perilune.analysis.reports.run_report"""
+"""perilune.analysis.documents.of.simulation.run"""
 
 import numpy as np
 import pytest
 
-from perilune.analysis.reports.run_report import ENDINGS, write_run_report
-from perilune.analysis.reports.trajectory import trajectory_panels
+from perilune.analysis.documents.of.simulation.run import ENDINGS
 from perilune.analysis.runtime.flight.results import LOST
+from tests.support.documents.run_page import write_run_report
+from tests.support.documents.subsections import trajectory_panels
 from tests.support.pages.checks import assert_self_contained, data_values, parse, section_of, text_of
 from tests.support.pages.samples import DIGEST, run_result
 

@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 from selenium.webdriver.common.by import By
 
-from perilune.analysis.reports.run_report import key_values, signal_table, write_run_report
-from perilune.analysis.reports.time_histories import signal_plot, time_histories
-from perilune.analysis.reports.trajectory import trajectory_panels, trajectory_reading
+from perilune.analysis.documents.of.simulation.final_values import key_values, signal_table
+from perilune.analysis.documents.of.simulation.histories import signal_plot
+from perilune.analysis.documents.of.simulation.trajectory import trajectory_reading
+from perilune.analysis.documents.render.words import cell_text
+from tests.support.documents.run_page import write_run_report
+from tests.support.documents.subsections import first_histories, trajectory_panels
 from tests.support.pages.checks import parse
 from tests.support.pages.driven import driven, scroll_to_plot
 from tests.support.pages.samples import run_result
@@ -38,19 +41,19 @@ def page(tmp_path):
 
 
 def test_a_legend_has_axes_and_the_indices_of_what_has_none():
-    histories = time_histories(named_run()).first
+    histories = first_histories(named_run())
     assert [label for _, label in histories[0].legend] == [*AXES, "[1]", "[2]", "[3]", "[4]"]
     (panel,) = (each for each in histories[0].panels if each.label.startswith("position"))
     assert [curve.name for curve in panel.figure.charts[0].curves] == list(AXES)
-    assert [label for _, label in time_histories(run_result()).first[0].legend] == ["[1]", "[2]", "[3]"]
+    assert [label for _, label in first_histories(run_result())[0].legend] == ["[1]", "[2]", "[3]"]
 
 
 def test_tables_have_the_axis_next_to_the_name():
     run = named_run()
     (row,) = (row for row in key_values(run) if row.label == "ship.position" and len(row.values) == 3)
     assert row.note == "north, west, up"
-    axes = {row.name: row.axis for row in signal_table(run)}
-    assert axes == {name: run.provenance["axes"].get(name, "") for name in run.signals}
+    expected = [" ".join([name, *run.provenance["axes"].get(name, "").split()]) for name in run.signals]
+    assert [cell_text(label) for label, *_ in signal_table(run).rows] == expected
 
 
 def test_views_of_a_trajectory_are_called_by_axes_that_all_paths_have():

@@ -5,20 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from markupsafe import Markup
 
-from ...runtime.flight.results import Result
-from ..chart.axes import linear_axis, logarithmic_axis
-from ..chart.marks import across, during, instant, level
-from ..chart.quantity import quantity_curve
-from ..chart.ticks import axis_ends
-from ..common.colours import FAINT, GREEN, INK
-from ..common.page import exact
-from ..common.quantities import display_factor, display_unit
-from ..interactive.charts import NO_BOX, Chart
-from .declared import Band, Signal
-from .section import Section, displayed, history_panel, legend_of, time_chart
-from .words import range_text, seconds, sentence
+from .....reports.chart.axes import linear_axis, logarithmic_axis
+from .....reports.chart.marks import across, during, instant, level
+from .....reports.chart.quantity import quantity_curve
+from .....reports.chart.ticks import axis_ends
+from .....reports.common.colours import FAINT, GREEN, INK
+from .....reports.common.quantities import display_factor, display_unit
+from .....reports.figures.declared import Band, Signal
+from .....reports.interactive.charts import NO_BOX, Chart
+from .....runtime.flight.results import Result
+from ....cell import Inline, Quantity
+from ....model import Group
+from .section import displayed, figure_group, history_figure, legend_of, time_chart
+from .words import join, seconds, sentence, value_range
 
 SETTLED = "settled"  # a band's name that a settling time needs not repeat
 ZOOM = 3.0  # widths of the band that the zoom shows
@@ -28,32 +28,32 @@ WIDE = 4.0  # range of the signal over the width of the band from which a zoom i
 
 
 def inside(band: Band, result: Result) -> np.ndarray:
-    """Whether each sample of each element is within the band, limits included; nan is not."""
+    """Return whether each sample of each element is within the band, limits included; nan is not."""
     values = band.values(result)
     low, high = (-np.inf if band.low is None else band.low), (np.inf if band.high is None else band.high)
     return (values >= low) & (values <= high) & np.isfinite(values)
 
 
 def settling_row(condition: np.ndarray) -> int | None:
-    """The first sample from which a condition holds to the last one; None if it does not hold at the last."""
+    """Return the first sample from which a condition holds to the last one; None if it does not hold at the last."""
     failing = np.flatnonzero(~condition)
     row = int(failing[-1]) + 1 if failing.size else 0
     return None if row == condition.size else row
 
 
-def settling_text(name: str, time: np.ndarray, condition: np.ndarray) -> Markup:
-    """The settling time of a condition called ``name``: from then on it holds to the end."""
+def settling_text(name: str, time: np.ndarray, condition: np.ndarray) -> list[Inline]:
+    """Return the settling time of a condition called ``name``: from then on it holds to the end."""
     row = settling_row(condition)
     if row is None:
-        return Markup("not {} at the end").format(name)
+        return [f"not {name} at the end"]
     if row == 0:
-        return Markup("{} throughout").format(name)
-    text = Markup("settling time {}").format(seconds(time[row]))
-    return text if name == SETTLED else Markup("{} ({})").format(text, name)
+        return [f"{name} throughout"]
+    text: list[Inline] = ["settling time ", seconds(time[row])]
+    return text if name == SETTLED else [*text, f" ({name})"]
 
 
-def band_section(band: Band, result: Result, name: str) -> Section:
-    """The section of a band; ``name`` must differ between the figures of a page."""
+def band_section(band: Band, result: Result, name: str) -> Group:
+    """Return the section of a band; ``name`` must differ between the figures of a page."""
     within, values, time = inside(band, result), band.plot_values(result), result.time
     row = settling_row(np.logical_and.reduce(within))
     factor, unit = display_factor(band.signal.unit_name), display_unit(band.signal.unit_name)
@@ -75,18 +75,18 @@ def band_section(band: Band, result: Result, name: str) -> Section:
         return time_chart(time, lines, ends, areas=[green, *grey], rules=rules)
 
     description = f"{band.title}: {', '.join(band.signal.names)} over time with the tolerance band"
-    panels = [history_panel("Time history", f"{name}-whole", description, unit, chart(whole))]
+    figures = [history_figure("Time history", f"{name}-whole", description, unit, chart(whole))]
     if zoom is not None:
         label = "Zoom on tolerance band"
-        panels.append(history_panel(label, f"{name}-zoom", f"{description}, zoom", unit, chart(zoom)))
+        figures.append(history_figure(label, f"{name}-zoom", f"{description}, zoom", unit, chart(zoom)))
     for number, other in enumerate(band.against):
         label = f"Versus {other.label.rpartition('.')[2].replace('_', ' ')}"
         description = f"{band.title} versus {other.label}, with the tolerance band"
         chart_over = against_chart(band, result, other)
-        panels.append(history_panel(label, f"{name}-against{number}", description, unit, chart_over))
-    return Section(
-        title=band.title,
-        panels=panels,
+        figures.append(history_figure(label, f"{name}-against{number}", description, unit, chart_over))
+    return figure_group(
+        band.title,
+        figures=figures,
         legend=legend_of(band.labels),
         findings=[_findings(band, time, within)],
         notes=[_caption(band, unit, row), *band.notes],
@@ -94,7 +94,7 @@ def band_section(band: Band, result: Result, name: str) -> Section:
 
 
 def _ends(values: np.ndarray, limits: list[float]) -> tuple[float, float]:
-    """The ends of the ordinate: those of the values, or of both where a limit is beyond them."""
+    """Return the ends of the ordinate: those of the values, or of both where a limit is beyond them."""
     ends = axis_ends(values)
     for count, limit in enumerate(limits, 1):
         if not ends[0] <= limit <= ends[1]:
@@ -103,7 +103,7 @@ def _ends(values: np.ndarray, limits: list[float]) -> tuple[float, float]:
 
 
 def _spans(band: Band, result: Result) -> list[tuple[float, float]]:
-    """Begin and end (s) of the shaded intervals."""
+    """Return begin and end (s) of the shaded intervals."""
     if band.shade is None:
         return []
     below = np.append(band.shade.values(result)[0] < band.shade_below, False).astype(int)
@@ -141,7 +141,7 @@ def against_chart(band: Band, result: Result, other: Signal) -> Chart:
 
 
 def _zoom_limits(values: np.ndarray, low: float, high: float) -> tuple[float, float] | None:
-    """Limits of the ordinate; None where the full range shows the band well, or no value is near it."""
+    """Return the limits of the ordinate; None where the full range shows the band well, or no value is near it."""
     finite = values[np.isfinite(values)]
     width = high - low
     margin = 0.5 * (ZOOM - 1.0) * width
@@ -151,29 +151,29 @@ def _zoom_limits(values: np.ndarray, low: float, high: float) -> tuple[float, fl
     return low - margin, high + margin
 
 
-def _findings(band: Band, time: np.ndarray, within: np.ndarray) -> Markup:
+def _findings(band: Band, time: np.ndarray, within: np.ndarray) -> list[Inline]:
     text = settling_text(band.name, time, np.logical_and.reduce(within))
     if len(within) == 1:
-        return sentence(text)
-    elements = []
+        return text
+    elements: list[list[Inline]] = []
     for label, condition in zip(band.labels, within, strict=True):
         row = settling_row(condition)
         when = "not at the end" if row is None else "throughout" if row == 0 else seconds(time[row])
-        elements.append(Markup("{} {}").format(label, when))
-    return sentence(Markup("{}: {}").format(text, Markup(", ").join(elements)))
+        elements.append([f"{label} ", when])
+    return [*text, ": ", *join(elements, ", ")]
 
 
-def _caption(band: Band, unit: str, row: int | None) -> Markup:
-    """The caption: band, subtracted values, marks."""
+def _caption(band: Band, unit: str, row: int | None) -> list[Inline]:
+    """Return the caption: band, subtracted values, marks."""
     name = band.signal.unit_name
-    text = Markup("green: {} {} for {}").format(range_text(band.low, band.high, name), unit, band.signal.label)
+    text: list[Inline] = ["green: ", value_range(band.low, band.high, name), f" {unit} for {band.signal.label}"]
     if band.less is not None:
-        text = Markup("{} minus {}").format(text, band.less.label)
+        text.append(f" minus {band.less.label}")
     if band.shade is not None:
-        text = Markup("{}; grey: {} below {}").format(text, band.shade.label, exact(band.shade_below))
+        text += [f"; grey: {band.shade.label} below ", Quantity(band.shade_below)]
     if band.about:
-        values = Markup(", ").join(exact(value, name) for value in band.about)
-        text = Markup("{} minus ({}) {}").format(text, values, unit)
+        about: list[list[Inline]] = [[Quantity(value, name, is_bare=True)] for value in band.about]
+        text += [" minus (", *join(about, ", "), f") {unit}"]
     if row:
-        text = Markup("{}; dotted line: settling time").format(text)
+        text.append("; dotted line: settling time")
     return sentence(text)

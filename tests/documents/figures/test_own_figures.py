@@ -13,12 +13,12 @@ from lxml import etree, html
 
 import perilune
 from perilune.analysis.reports.figures.declared import Pulses, Signal, Unavailable
-from perilune.analysis.reports.figures.figure_sections import figure_sections, joint_findings
 from perilune.analysis.reports.figures.reading import read_figures
-from perilune.analysis.reports.run_report import write_run_report
 from perilune.analysis.runtime.system.prepared import prepare_system
+from tests.support.documents.run_page import write_run_report
+from tests.support.documents.subsections import figure_sections, joint_findings
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
-from tests.support.pages.own_samples import (  # fmt: skip
+from tests.support.pages.own_samples import (
     ANGLES,
     DEG,
     DEGREE,

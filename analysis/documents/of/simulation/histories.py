@@ -7,19 +7,14 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from markupsafe import Markup
 
-from ..campaigns.verdicts.order_statistics import quantiles
-from ..runtime.flight.results import Result
-from ..runtime.ssp.names import elements
-from .chart.axes import bare_axis, linear_axis, named_axis
-from .chart.panel import chart_panel
-from .chart.quantity import quantity_curve
-from .chart.ticks import axis_ends
-from .common.colours import FAINT, look
-from .common.panels import Panel, swatch
-from .common.quantities import display_factor, label_with_unit, number
-from .common.signals import (
+from ....campaigns.verdicts.order_statistics import quantiles
+from ....reports.chart.axes import bare_axis, linear_axis, named_axis
+from ....reports.chart.quantity import quantity_curve
+from ....reports.chart.ticks import axis_ends
+from ....reports.common.colours import FAINT, look
+from ....reports.common.quantities import display_factor, display_unit, label_with_unit, number
+from ....reports.common.signals import (
     SignalGroup,
     axes_of,
     displayed_name,
@@ -28,10 +23,16 @@ from .common.signals import (
     signal_groups,
     states_and_commands,
 )
-from .interactive.charts import NO_BOX, Chart, Note
+from ....reports.interactive.charts import NO_BOX, Chart
+from ....reports.interactive.charts import Note as Annotation
+from ....runtime.flight.results import Result
+from ....runtime.ssp.names import elements
+from ...cell import Inline, LegendEntry, Quantity, Rich
+from ...model import Figure, Figures, Group, Items, Node, Note
+from .figures.words import join
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure as Drawing
 
 HEIGHT = 1.9  # in, of a panel on the page
 PLOT_HEIGHT, PLOT_WIDTH = 2.0, 6.8  # in, of a panel in a figure of its own
@@ -41,27 +42,46 @@ SPIKE = 8.0  # a range so many times that of the middle 98 % of the values is cl
 
 @dataclass(frozen=True)
 class ComponentHistory:
-    """One component's section: its panels, and the signals without a panel.
+    """One component's signals over time: its figures, and the signals without a figure.
 
-    ``legend`` are (swatch, element) where one of them is a vector, for all ways in which its vectors name elements.
-    ``constant`` are (label, values, unit) of constant groups; ``copies`` are (label, label of the group with the same
-    values).
+    ``legend`` is that of its vectors' elements, for all ways in which they are named. ``constant`` are (label, values,
+    unit) of constant groups; ``copies`` are (label, label of the group with the same values).
     """
 
     component: str
-    panels: list[Panel]
-    legend: list[tuple[Markup, str]]
+    figures: list[Figure]
+    legend: list[LegendEntry]
     constant: list[tuple[str, list[float | int | bool], str | None]]
     copies: list[tuple[str, str]]
 
     @property
-    def is_named(self) -> bool:
-        """True if some of its elements are along named axes: an entry of its legend is then for lines of its name."""
-        return any(not label.startswith("[") for _, label in self.legend)
+    def is_in_order(self) -> bool:
+        """True if no element is along a named axis: entries of the legend are then for the lines in their order."""
+        return all(name.startswith("[") for entry in self.legend for name in entry.lines)
 
     @property
     def is_empty(self) -> bool:
-        return not (self.panels or self.constant or self.copies)
+        """True if there is nothing to show."""
+        return not (self.figures or self.constant or self.copies)
+
+    def subsection(self) -> Group:
+        """Return the figures below the component's name, then constant and duplicate signals."""
+        nodes: list[Node] = (
+            [Figures(lambda: self.figures, self.legend, is_in_order=self.is_in_order)] if self.figures else []
+        )
+        if self.constant:
+            nodes += [Note("Constant:"), Items([_constant(*entry) for entry in self.constant], "pairs")]
+        if self.copies:
+            nodes += [
+                Note("Identical to:"),
+                Items([f"{label} = {original}" for label, original in self.copies], "pairs"),
+            ]
+        return Group(self.component or "System connectors", nodes)
+
+
+def _constant(label: str, values: Sequence[float | int | bool], unit: str | None) -> Rich:
+    numbers: list[list[Inline]] = [[Quantity(value, unit, 6, is_bare=True)] for value in values]
+    return [f"{label} = ", *join(numbers, ", "), f" {display_unit(unit)}"]
 
 
 @dataclass(frozen=True)
@@ -77,12 +97,12 @@ class Histories:
 
     @property
     def folded(self) -> int:
-        """Number of panels that the page folds."""
-        return sum(len(history.panels) for history in self.rest)
+        """Number of figures that the page folds."""
+        return sum(len(history.figures) for history in self.rest)
 
 
 def time_histories(result: Result) -> Histories:
-    """The sections of all components in the order of the record; a run without rows has none."""
+    """Return the sections of all components in the order of the record; a run without rows has none."""
     if not result.time.size:
         return Histories([], [], False)
     groups = signal_groups(result)
@@ -97,8 +117,8 @@ def time_histories(result: Result) -> Histories:
         selected = [group for group in unfolded if group.component == component]
         if selected:
             name = f"history{position}-first"
-            panels = _panels(selected, result, name, reduced=False)
-            first.append(ComponentHistory(component, panels, _legend(selected), [], []))
+            plotted = _figures(selected, result, name, is_reduced=False)
+            first.append(ComponentHistory(component, plotted, _legend(selected), [], []))
         others = [group for group in members if group not in unfolded]
         remainder.append(_fold_history(component, others, originals, result, position))
     return Histories(first, [history for history in remainder if not history.is_empty], bool(named))
@@ -111,14 +131,14 @@ def _fold_history(
     result: Result,
     position: int,
 ) -> ComponentHistory:
-    """The section of a component's other signals: with a panel, constant, or copies of others."""
+    """Return the section of a component's other signals: with a panel, constant, or copies of others."""
     constant = [group for group in groups if _is_constant(group, result)]
     copies = [(group, originals[group]) for group in groups if originals[group] != group and group not in constant]
     varying = [group for group in groups if group not in constant and originals[group] == group]
     final = result.final()
     return ComponentHistory(
         component=component,
-        panels=_panels(varying, result, f"history{position}", reduced=True),
+        figures=_figures(varying, result, f"history{position}", is_reduced=True),
         legend=_legend(varying),
         constant=[(group.heading, [final[name] for name in group.names], group.unit) for group in constant],
         copies=[(group.label, original.label) for group, original in copies],
@@ -130,31 +150,32 @@ def _is_constant(group: SignalGroup, result: Result) -> bool:
     return bool(np.all(values == values[:, :1]))
 
 
-def _panels(groups: list[SignalGroup], result: Result, name: str, *, reduced: bool) -> list[Panel]:
-    """A panel for each: Real signals first, grouped by unit, units in order of appearance; ``reduced`` to envelopes."""
+def _figures(groups: list[SignalGroup], result: Result, name: str, *, is_reduced: bool) -> list[Figure]:
+    """Return a figure for each: Real signals first, grouped by unit, units in order of appearance."""
     kinds = [(not group.is_real, group.unit) for group in groups]
     first = {kind: index for index, kind in reversed(list(enumerate(kinds)))}
     ranked = sorted(groups, key=lambda group: (not group.is_real, first[not group.is_real, group.unit]))
     return [
-        chart_panel(
+        Figure(
             label_with_unit(group.variable, group.unit),
             f"{name}-{index}",
             f"{group.label} over time",
             history_chart(group, result),
             HEIGHT,
-            reduced=reduced,
+            is_narrow=True,
+            is_reduced=is_reduced,
         )
         for index, group in enumerate(ranked)
     ]
 
 
-def _legend(groups: list[SignalGroup]) -> list[tuple[Markup, str]]:
-    """The line styles of elements along named axes, and those of the elements of the longest of the other vectors."""
+def _legend(groups: list[SignalGroup]) -> list[LegendEntry]:
+    """Return the line styles of elements along named axes, and those of the longest of the other vectors."""
     vectors = [group for group in groups if group.indices]
     unnamed = max((group.labels for group in vectors if not group.is_named), key=len, default=())
     series = [*(group.labels for group in vectors if group.is_named), unnamed]
     entries = dict.fromkeys(entry for labels in series for entry in enumerate(labels))
-    return [(swatch(look(position)), label) for position, label in entries]
+    return [LegendEntry(look(position), [label]) for position, label in entries]
 
 
 def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, int] = (5, 4)) -> Chart:
@@ -182,11 +203,11 @@ def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, i
     return Chart(NO_BOX, abscissa, ordinate, curves=curves, notes=notes)
 
 
-def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[Note]]:
-    """Ends of the ordinate, clipped where a few extreme values would flatten the others; a note has the full range."""
+def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[Annotation]]:
+    """Return the ends of the ordinate, clipped where a few extreme values would flatten the rest, and a note on it."""
     finite = values[np.isfinite(values)]
     if not finite.size:
-        return axis_ends(finite), [_note("no finite value", (0.5, 0.5), ("center", "center"), 9.0)]
+        return axis_ends(finite), [_annotation("no finite value", (0.5, 0.5), ("center", "center"), 9.0)]
     low, high = quantiles(finite, [0.01, 0.99])
     minimum, maximum = float(finite.min()), float(finite.max())
     if not (high > low and maximum - minimum > SPIKE * (high - low)):
@@ -196,19 +217,19 @@ def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[Note]]:
     outside = np.flatnonzero(np.any((values < ends[0]) | (values > ends[1]), axis=0))
     early = float(np.mean(outside)) < values.shape[1] / 2
     text = f"clipped; full range {number(minimum, 3)} to {number(maximum, 3)}"
-    return ends, [_note(text, (0.98 if early else 0.02, 0.98), ("right" if early else "left", "top"), 8.0)]
+    return ends, [_annotation(text, (0.98 if early else 0.02, 0.98), ("right" if early else "left", "top"), 8.0)]
 
 
-def _note(text: str, at: tuple[float, float], align: tuple[str, str], size: float) -> Note:
-    return Note(text, at, (True, True), (0.0, 0.0), align, FAINT, size)
+def _annotation(text: str, at: tuple[float, float], align: tuple[str, str], size: float) -> Annotation:
+    return Annotation(text, at, (True, True), (0.0, 0.0), align, FAINT, size)
 
 
-def signal_plot(result: Result, names: Sequence[str]) -> Figure:
+def signal_plot(result: Result, names: Sequence[str]) -> Drawing:
     """Return a panel for each signal or vector, below each other over the same time.
 
     Raises KeyError for an unknown name.
     """
-    from .chart.plot import plot_charts  # which imports matplotlib
+    from ....reports.chart.plot import plot_charts  # which imports matplotlib
 
     charts, titles, legends = [], [], []
     for name in names:
@@ -223,7 +244,7 @@ def signal_plot(result: Result, names: Sequence[str]) -> Figure:
 
 
 def _group_of(name: str, run: Result) -> SignalGroup:
-    """The signal of this name, or the elements of the vector."""
+    """Return the signal of this name, or the elements of the vector."""
     run[name]  # raises KeyError
     names, axes = elements(name, run.signals), axes_of(run)
     labels = names_of_elements(names, axes) or tuple(each.removeprefix(name) for each in names)

@@ -7,13 +7,12 @@ from enum import StrEnum
 from math import isfinite
 from typing import Any
 
-from markupsafe import Markup
-
-from ...runtime.flight.results import Flight
-from ..common.page import exact
-from ..common.quantities import NONE, display_unit
-from .declared import Figure, Limit, Limits, Unavailable
-from .words import range_text
+from .....reports.common.quantities import NONE, display_unit
+from .....reports.figures.declared import Figure, Limit, Limits, Unavailable
+from .....runtime.flight.results import Flight
+from ....cell import Cell, Grade, Judged, Quantity
+from ....render.words import cell_text
+from .words import value_range
 
 
 class Verdict(StrEnum):
@@ -25,18 +24,18 @@ class Verdict(StrEnum):
 
 
 LABELS = {Verdict.MET: "PASS", Verdict.VIOLATED: "FAIL", Verdict.NOT_EVALUATED: "not evaluated"}
-CLASSES = {Verdict.MET: "pass", Verdict.VIOLATED: "fail", Verdict.NOT_EVALUATED: "not-applicable"}
+GRADES: dict[Verdict, Grade] = {Verdict.MET: "pass", Verdict.VIOLATED: "fail", Verdict.NOT_EVALUATED: "not-applicable"}
 
 
 def evaluate(limits: Limits, result: Flight) -> list[tuple[Limit, Verdict]]:
-    """The limits in their order, each with its verdict."""
+    """Return the limits in their order, each with its verdict."""
     if limits.obstacle(result):
         return [(limit, Verdict.NOT_EVALUATED) for limit in limits.limits]
     return [(limit, Verdict.MET if is_met(limit, result) else Verdict.VIOLATED) for limit in limits.limits]
 
 
 def is_met(limit: Limit, result: Flight) -> bool:
-    """Whether the final value is finite and within a limit, the limit included."""
+    """Return True if the final value is finite and within a limit, the limit included."""
     value = limit.value(result)
     above = limit.least is None or value >= limit.least
     below = limit.most is None or value <= limit.most
@@ -44,20 +43,20 @@ def is_met(limit: Limit, result: Flight) -> bool:
 
 
 def limit_lines(limits: Limits, result: Flight) -> list[str]:
-    """A line for each limit, for a terminal; angles in deg."""
+    """Return a line for each limit, for a terminal; angles in deg."""
     obstacle = limits.obstacle(result)
-    form = Markup("{0} ({2} {3}): {4}, {5}" if obstacle else "{0} {1} {3} ({2} {3}): {4}")
-    lines = (form.format(*row, obstacle).striptags() for row in limit_rows(limits, result))
+    form = "{0} ({2} {3}): {4}, {5}" if obstacle else "{0} {1} {3} ({2} {3}): {4}"
+    lines = (form.format(*map(cell_text, row), obstacle) for row in limit_rows(limits, result))
     return [" ".join(line.replace(" )", ")").split()) for line in lines]
 
 
-def limit_rows(limits: Limits, result: Flight) -> list[tuple[Markup | str, ...]]:
-    """A row for each limit: its name, the final value, the limit, their unit, the verdict."""
+def limit_rows(limits: Limits, result: Flight) -> list[tuple[Cell, ...]]:
+    """Return a row for each limit: its name, the final value, the limit, their unit, the verdict."""
     return [_row(limit, verdict, result) for limit, verdict in evaluate(limits, result)]
 
 
 def limit_document(figures: Sequence[Figure], result: Flight) -> list[dict[str, Any]]:
-    """All limits that a system declares as JSON, an object each."""
+    """Return all limits that a system declares as JSON, an object each."""
     document: list[dict[str, Any]] = []
     for figure in figures:
         if isinstance(figure, Limits):
@@ -70,7 +69,7 @@ def limit_document(figures: Sequence[Figure], result: Flight) -> list[dict[str, 
 
 
 def limit_entries(limits: Limits, result: Flight) -> list[dict[str, Any]]:
-    """Limits as JSON: values in ``unit``, None where there is none, and the reason where one is not evaluated."""
+    """Return limits as JSON: values in ``unit``, None where there is none; the reason where one is not evaluated."""
     obstacle = limits.obstacle(result)
     return [
         {
@@ -86,12 +85,12 @@ def limit_entries(limits: Limits, result: Flight) -> list[dict[str, Any]]:
     ]
 
 
-def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Markup | str, ...]:
+def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Cell, ...]:
     unit = limit.signal.unit_name
     return (
         limit.name,
-        NONE if verdict is Verdict.NOT_EVALUATED else exact(limit.value(result), unit),
-        range_text(limit.least, limit.most, unit),
+        NONE if verdict is Verdict.NOT_EVALUATED else Quantity(limit.value(result), unit, is_bare=True),
+        value_range(limit.least, limit.most, unit),
         display_unit(unit),
-        Markup('<span class="verdict {}">{}</span>').format(CLASSES[verdict], LABELS[verdict]),
+        Judged(LABELS[verdict], GRADES[verdict]),
     )

@@ -9,12 +9,17 @@ import numpy as np
 import pytest
 
 import perilune
+from perilune.analysis.documents.of.simulation.figures.limits import is_met
+from perilune.analysis.documents.of.simulation.figures.phase_figure import (
+    amount,
+    consumption_by_phase,
+    spans_of,
+    statuses_of,
+)
 from perilune.analysis.reports.figures.declared import Budget, Limits, Phases
-from perilune.analysis.reports.figures.figure_sections import figure_sections
-from perilune.analysis.reports.figures.limits import is_met
-from perilune.analysis.reports.figures.phase_figure import amount, consumption_by_phase, spans_of, statuses_of
 from perilune.analysis.reports.figures.reading import read_figures
 from perilune.analysis.runtime.system.prepared import prepare_system
+from tests.support.documents.subsections import figure_sections
 
 pytestmark = pytest.mark.usefixtures("fmus")
 

@@ -7,22 +7,23 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from markupsafe import Markup
 
-from ..runtime.flight.results import Result
-from .chart.panel import POINTS, chart_panel
-from .common.colours import FAINT
-from .common.panels import HALF_WIDTH, Panel
-from .common.quantities import number
-from .common.round_body import altitude_over, radius_of, track_angles
-from .common.signals import SignalGroup, position_groups
+from ....reports.chart.panel import POINTS
+from ....reports.common.colours import FAINT
+from ....reports.common.panels import HALF_WIDTH
+from ....reports.common.quantities import number
+from ....reports.common.round_body import altitude_over, radius_of, track_angles
+from ....reports.common.signals import SignalGroup, position_groups
+from ....reports.interactive.charts import Note
+from ....reports.interactive.measures import TICK_SIZE
+from ....runtime.flight.results import Result
+from ...cell import LegendEntry
+from ...model import Figure
 from .figures.section import legend_of
-from .interactive.charts import Note
-from .interactive.measures import TICK_SIZE
 from .trajectory_chart import View, view_chart
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure as Drawing
 
 HEIGHT = 3.2  # in
 PLOT_WIDTH = 6.8  # in, of a view in a figure of its own
@@ -30,25 +31,25 @@ INDICES = ("position[1]", "position[2]", "position[3]")
 FAR = 0.35  # rad along the ground, beyond which the ground track replaces the plan view on the tangent plane
 
 
-def trajectory_panels(result: Result) -> list[Panel]:
-    """The views for the page; none where no component has a position."""
+def trajectory_figures(result: Result) -> list[Figure]:
+    """Return the views for the page; none where no component has a position."""
     components = ", ".join(group.component for group in position_groups(result))
-    panels = []
+    figures = []
     for view in _views(result):
         name, description = f"trajectory-{view.name}", f"{view.title} of {components}"
         chart, ordinate, scales = view_chart(view, POINTS * HALF_WIDTH, POINTS * HEIGHT)
         note = Note(scales, (1.0, 1.0), (True, True), (0.0, 4.0), ("right", "baseline"), FAINT, TICK_SIZE)
-        chart = replace(chart, notes=[*chart.notes, note])
-        panels.append(chart_panel(view.title, name, description, chart, HEIGHT, HALF_WIDTH, title=ordinate))
-    return panels
+        chart = replace(chart, notes=[*chart.notes, note], title=ordinate)
+        figures.append(Figure(view.title, name, description, chart, HEIGHT))
+    return figures
 
 
-def trajectory_plot(result: Result) -> Figure | None:
-    """All views in one figure, below each other; None where no component has a position."""
+def trajectory_plot(result: Result) -> Drawing | None:
+    """Return all views in one figure, below each other; None where no component has a position."""
     views = _views(result)
     if not views:
         return None
-    from .chart.plot import plot_charts  # which imports matplotlib
+    from ....reports.chart.plot import plot_charts  # which imports matplotlib
 
     charts, titles = [], []
     for view in views:
@@ -59,13 +60,13 @@ def trajectory_plot(result: Result) -> Figure | None:
     return plot_charts(charts, HEIGHT, PLOT_WIDTH, titles=titles, legends=[legend] * len(views))
 
 
-def trajectory_legend(result: Result) -> list[tuple[Markup, str]]:
-    """The components' lines with their names; none for a single one."""
+def trajectory_legend(result: Result) -> list[LegendEntry]:
+    """Return the components' lines with their names; none for a single one."""
     return legend_of(tuple(group.label for group in position_groups(result)))
 
 
 def trajectory_reading(result: Result) -> str:
-    """The caption of the panels."""
+    """Return the caption of the panels."""
     caption = "Dots: elapsed time; circle: end of the flight."
     groups = position_groups(result)
     radius = _radius(groups, [group.values(result) for group in groups], result) if result.time.size else None
@@ -81,7 +82,7 @@ def trajectory_reading(result: Result) -> str:
 
 
 def _views(result: Result) -> list[View]:
-    """Horizontal and vertical view; none where no component has a position.
+    """Return the horizontal and vertical view; none where no component has a position.
 
     Over a round body the vertical view is altitude over downrange, else both are elements of the position.
     """
@@ -103,7 +104,7 @@ def _views(result: Result) -> list[View]:
 
 
 def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: Result) -> float | None:
-    """The radius (m) of the body, from the first component that has a position and its altitude; None without one."""
+    """Return the radius (m) of the body, from the first component with a position and its altitude; None without."""
     for group, path in zip(groups, paths, strict=True):
         altitude = f"{group.component}.altitude"
         if result.units.get(altitude) == "m" and (radius := radius_of(path, result[altitude])) is not None:
@@ -112,13 +113,13 @@ def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: 
 
 
 def _axes(groups: Sequence[SignalGroup]) -> tuple[str, ...]:
-    """What the elements of positions are called: by axes where all positions are along the same ones, else by index."""
+    """Return the names of the elements of positions: axes where all positions are along the same ones, else indices."""
     named = {group.labels if group.is_named else () for group in groups}
     return named.pop() if len(named) == 1 and () not in named else INDICES
 
 
 def _flat_views(paths: Sequence[np.ndarray], groups: Sequence[SignalGroup], time: np.ndarray) -> list[View]:
-    """Plan view (elements 1 and 2) and side view (3 over the wider of the two); in a plane the side view alone."""
+    """Return the plan view (elements 1 and 2) and side view (3 over the wider one); in a plane the side view alone."""
     axes, labels = _axes(groups), [group.label for group in groups]
     spans = np.ptp(np.concatenate(paths, axis=1), axis=1)
     across = 0 if spans[0] >= spans[1] else 1

@@ -1,0 +1,108 @@
+"""The figures that a system declares in its SSD, each below its heading, in the groups that the system declares."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from .....reports.figures.declared import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses, Unavailable
+from .....reports.figures.declared import Group as DeclaredGroup
+from .....reports.figures.scene.declared import Scene
+from .....runtime.flight.results import Result
+from ....cell import Inline, Rich
+from ....model import Group, Table
+from .band_figure import band_section, inside, settling_text
+from .history_figures import curve_section, error_section
+from .limits import Verdict, evaluate, limit_rows
+from .path_figure import path_section
+from .phase_figure import budget_section, phase_section
+from .pulse_figure import pulse_section
+from .section import figure_group
+from .words import condition_text
+
+
+class FigureGroup(NamedTuple):
+    """Figures under a common heading, which a page folds where ``is_folded``."""
+
+    title: str
+    is_folded: bool
+    figures: list[Group]
+
+
+def figure_groups(figures: Sequence[Figure], result: Result, system: str) -> tuple[list[Group], list[FigureGroup]]:
+    """Return the tables of limits, and other figures by group, without one under the ``system``'s name."""
+    limits: list[Group] = []
+    by_group: dict[DeclaredGroup, list[Group]] = {}
+    for figure, subsection in _subsections(figures, result):
+        judges = isinstance(figure, Limits) or (isinstance(figure, Unavailable) and figure.has_limits)
+        members = limits if judges else by_group.setdefault(figure.group or DeclaredGroup(system, is_folded=False), [])
+        members.append(subsection)
+    return limits, [FigureGroup(group.title, group.is_folded, members) for group, members in by_group.items()]
+
+
+def figure_sections(figures: Sequence[Figure], result: Result) -> list[Group]:
+    """Return each figure but a scene below its heading, in the order of the SSD; none for a run without samples."""
+    return [subsection for _, subsection in _subsections(figures, result)]
+
+
+def _subsections(figures: Sequence[Figure], result: Result) -> list[tuple[Figure, Group]]:
+    if not result.time.size:
+        return []
+    plotted = [figure for figure in figures if not isinstance(figure, Scene)]
+    return [(figure, _subsection(figure, result, f"figure{index}")) for index, figure in enumerate(plotted)]
+
+
+def _subsection(figure: Figure, result: Result, name: str) -> Group:
+    if isinstance(figure, Error | Curve | Path) and figure.rows is not None and not figure.rows.select(result).any():
+        return figure_group(figure.title, notes=[["Not plotted: no sample where ", *condition_text(figure.rows), "."]])
+    match figure:
+        case Band():
+            return band_section(figure, result, name)
+        case Pulses():
+            return pulse_section(figure, result, name)
+        case Error():
+            return error_section(figure, result, name)
+        case Curve():
+            return curve_section(figure, result, name)
+        case Path():
+            return path_section(figure, result, name)
+        case Phases():
+            return phase_section(figure, result, name)
+        case Limits():
+            return limit_section(figure, result)
+        case Budget():
+            return budget_section(figure, result)
+    return figure_group(figure.title, notes=[f"Not plotted: {note}." for note in figure.notes])
+
+
+def joint_findings(figures: Sequence[Figure], result: Result) -> list[Rich]:
+    """Return the time from which all bands of one name hold, where several have it."""
+    conditions: dict[str, list[np.ndarray]] = {}
+    for band in figures:
+        if isinstance(band, Band) and result.time.size:
+            conditions.setdefault(band.name, []).append(np.logical_and.reduce(inside(band, result)))
+    findings: list[Rich] = []
+    for name, bands in conditions.items():
+        if len(bands) > 1:
+            count = "both bands" if len(bands) == 2 else f"all {len(bands)} bands"
+            text: list[Inline] = [f"{count}: ", *settling_text(name, result.time, np.logical_and.reduce(bands))]
+            findings.append(text)
+    return findings
+
+
+def limit_section(limits: Limits, result: Result) -> Group:
+    """Return the table of limits, with those that are violated, or why none is evaluated."""
+    violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is Verdict.VIOLATED]
+    obstacle = limits.obstacle(result)
+    total = len(limits.limits)
+    verdicts = f"{total - len(violated)} of {total} limits met"
+    if violated:
+        verdicts += f"; violated: {', '.join(violated)}"
+    return figure_group(
+        limits.title,
+        table=Table(("", "final value", "limit", "unit", ""), limit_rows(limits, result), style=""),
+        findings=[f"not evaluated: {obstacle}" if obstacle else verdicts],
+        notes=limits.notes,
+    )

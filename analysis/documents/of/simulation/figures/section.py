@@ -1,0 +1,87 @@
+"""Parts of the figures that a system declares: charts over time, legends, a heading with what stands below it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from .....reports.chart.axes import linear_axis
+from .....reports.common.colours import look
+from .....reports.common.quantities import in_display_unit
+from .....reports.figures.declared import Rows
+from .....reports.interactive.charts import NO_BOX, Area, Chart, Curve, Rule
+from .....runtime.flight.results import Result
+from ....cell import LegendEntry, Quantity, Rich
+from ....model import Figure, Figures, Group, Node, Note, Table, Text
+
+HEIGHT = 2.6  # in
+
+
+def figure_group(
+    title: str,
+    *,
+    figures: Sequence[Figure] = (),
+    legend: Sequence[LegendEntry] = (),
+    findings: Sequence[Rich] = (),
+    table: Table | None = None,
+    notes: Sequence[Rich] = (),
+) -> Group:
+    """Return a heading with figures and their legend, results, a table and captions."""
+    nodes: list[Node] = [Figures(lambda: figures, legend, is_in_order=True)] if figures else []
+    nodes += map(Text, findings)
+    nodes += [table] if table is not None else []
+    return Group(title, [*nodes, *map(Note, notes)])
+
+
+def legend_of(labels: Sequence[str]) -> list[LegendEntry]:
+    """Return the elements of a vector with their line styles; none for a scalar."""
+    return [LegendEntry(look(index), [label]) for index, label in enumerate(labels)] if len(labels) > 1 else []
+
+
+def time_chart(
+    time: np.ndarray,
+    curves: Sequence[Curve],
+    ends: tuple[float, float],
+    *,
+    areas: Sequence[Area] = (),
+    rules: Sequence[Rule] = (),
+    intervals: int = 6,
+    y_intervals: int = 5,
+) -> Chart:
+    """Return a chart over time; ``ends`` are those of the ordinate, as displayed.
+
+    There are at most ``intervals`` intervals between the ticks of the abscissa, ``y_intervals`` between the others.
+    """
+    abscissa = (float(time[0]), float(time[-1] if time[-1] > time[0] else time[0] + 1.0))
+    x, y = linear_axis(abscissa, intervals, label="time, s"), linear_axis(ends, y_intervals)
+    return Chart(NO_BOX, x, y, curves=curves, areas=areas, rules=rules)
+
+
+def displayed(curves: Sequence[Curve]) -> np.ndarray:
+    """Return all ordinates of curves, as displayed."""
+    return np.concatenate([curve.displayed for curve in curves])
+
+
+def history_figure(
+    label: str, name: str, description: str, unit: str, chart: Chart, *, is_wide: bool = False
+) -> Figure:
+    """Return a figure over time with the ``unit`` above its axes."""
+    return Figure(label, name, description, replace(chart, title=unit), HEIGHT, is_wide=is_wide)
+
+
+def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:
+    """Return whether each sample belongs to a figure, and from the first of them to the last; at least one does."""
+    chosen = np.ones(result.time.size, dtype=bool) if rows is None else rows.select(result)
+    selected = np.flatnonzero(chosen)
+    return chosen, slice(int(selected[0]), int(selected[-1]) + 1)
+
+
+def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Quantity]:
+    """Return the numbers of a column, all with the decimals of the largest at so many significant digits."""
+    sizes = [abs(in_display_unit(value, unit)) for value in values if value is not None and math.isfinite(value)]
+    maximum = max(sizes, default=0.0)
+    places = max(0, digits - 1 - math.floor(math.log10(maximum))) if maximum > 0.0 else 0
+    return [Quantity(value, unit, is_bare=True, decimals=places) for value in values]

@@ -1,0 +1,42 @@
+"""Words of figures: ranges, conditions, times, sentences."""
+
+from __future__ import annotations
+
+from .....reports.figures.declared import Rows
+from ....cell import Inline, Interval, Quantity, Rich
+
+
+def condition_text(rows: Rows) -> list[Inline]:
+    """Return the condition of a selection of samples."""
+    unit = rows.signal.unit_name
+    condition = (
+        Quantity(rows.low, unit, is_bare=True) if rows.low == rows.high else value_range(rows.low, rows.high, unit)
+    )
+    return [f"{rows.signal.label} is ", condition]
+
+
+def value_range(low: float | None, high: float | None, unit: str | None) -> Interval:
+    """Return the range between two limits of which at most one is None, without the unit."""
+    ends = (None if limit is None else Quantity(limit, unit, is_bare=True) for limit in (low, high))
+    return Interval(*ends)
+
+
+def seconds(time: float) -> Quantity:
+    """Return a time with its unit."""
+    return Quantity(float(time), "s", 6)
+
+
+def sentence(words: Rich) -> list[Inline]:
+    """Return a text as a sentence: with a capital first and a full stop last."""
+    first, *others = [words] if isinstance(words, str) else words
+    return [capital(first) if isinstance(first, str) else first, *others, "."]
+
+
+def capital(words: str) -> str:
+    """Return a text with a capital first."""
+    return words[:1].upper() + words[1:]
+
+
+def join(texts: list[list[Inline]], separator: str) -> list[Inline]:
+    """Return texts as one, with a separator between them."""
+    return [part for index, text in enumerate(texts) for part in ([separator, *text] if index else text)]

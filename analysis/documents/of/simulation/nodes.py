@@ -1,0 +1,37 @@
+"""The figures of a simulation in other documents: those of its system, trajectories, signals over time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ....reports.figures.declared import Figure
+from ....runtime.flight.results import Result
+from ...model import Figures, Fold, Group, Node, Note, Text
+from .figures.groups import figure_sections, joint_findings
+from .histories import time_histories
+from .trajectory import trajectory_figures, trajectory_legend, trajectory_reading
+
+
+def simulation_nodes(simulation: Result, figures: Sequence[Figure]) -> list[Node]:
+    """Return the ``figures`` that the system declares, trajectories, states and commands, and other signals folded."""
+    histories = time_histories(simulation)
+    others = f"Other signals: {histories.folded} plots, constant and duplicate signals"
+    trajectory = trajectory_nodes(simulation)
+    return [
+        *map(Text, joint_findings(figures, simulation)),
+        *figure_sections(figures, simulation),
+        *([Group("Trajectory", trajectory)] if trajectory else []),
+        *(history.subsection() for history in histories.first),
+        *([Fold(others, [history.subsection() for history in histories.rest])] if histories.rest else []),
+    ]
+
+
+def trajectory_nodes(simulation: Result) -> list[Node]:
+    """Return the views of trajectories with their caption; none where no component has a position."""
+    views = trajectory_figures(simulation)
+    if not views:
+        return []
+    return [
+        Figures(lambda: views, trajectory_legend(simulation), is_in_order=True),
+        Note(trajectory_reading(simulation)),
+    ]

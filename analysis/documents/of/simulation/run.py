@@ -1,0 +1,203 @@
+"""The document of one run: termination, limits, scene, the system's figures, trajectory, all signals, provenance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ....reports.diagram.diagram import Diagram
+from ....reports.figures.declared import Figure
+from ....reports.figures.scene.declared import Scene as SceneDeclared
+from ....reports.scene.notes import scene_notes
+from ....reports.scene.picture import draw_ends
+from ....reports.scene.view import scene_view
+from ....runtime.flight.results import Result
+from ...cell import Code, Digest, Quantity
+from ...model import (
+    Blocks,
+    Document,
+    Items,
+    KeyNumbers,
+    Medium,
+    Missing,
+    Node,
+    Note,
+    Only,
+    Printed,
+    Repeat,
+    Scene,
+    Section,
+    Table,
+    Text,
+    Verdict,
+)
+from .figures.groups import figure_groups, joint_findings
+from .figures.limits import Verdict as LimitVerdict
+from .figures.limits import limit_document
+from .final_values import final_values, signal_table
+from .histories import time_histories
+from .nodes import trajectory_nodes
+from .summary import notebook_nodes
+
+ENDINGS = {
+    "finished": "Nominal termination: end-of-run flag raised",
+    "stop_time": "Reached stop time; no end condition triggered",
+    "terminated": "Terminated by an FMU",
+    "nonfinite": "Aborted: a component returned a value that is not finite",
+    "failed": "Aborted: an FMU reported an error or rejected a parameter",
+    "timed_out": "Aborted: wall-clock time limit exceeded",
+    "crashed": "Aborted: an FMU ended its process",
+    "hung": "Aborted: a call of an FMU did not return",
+    "out_of_memory": "Aborted: the process of an FMU exceeded its memory limit",
+    "interrupted": "Aborted: interrupted from the keyboard",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunContext:
+    """The system and the command behind a run's result, as far as its document states them.
+
+    ``figures`` are those that the SSD declares; ``draw_diagram`` returns the block diagram of the system; ``command``
+    simulates the run again; ``lines`` are those of a terminal.
+    """
+
+    title: str
+    figures: Sequence[Figure] = ()
+    draw_diagram: Callable[[], Diagram] | None = None
+    command: str = ""
+    lines: Sequence[str] = ()
+
+
+def run_document(result: Result, context: RunContext, json: object = None) -> Document:
+    """Return the document of a run; the page is composed only when it is written."""
+    return Document(
+        context.title,
+        [
+            Printed(context.lines),
+            Only(Medium.NOTEBOOK, lambda: notebook_nodes(result, context.figures)),
+            Only(Medium.PAGE, lambda: _header(result, context)),
+        ],
+        (),
+        json,
+        page_sections=lambda: _sections(result, context),
+        has_contents=True,
+    )
+
+
+def _header(result: Result, context: RunContext) -> list[Node]:
+    provenance = result.provenance
+    limits, _ = figure_groups(context.figures, result, provenance["system"])
+    end = float(result.time[-1]) if result.time.size else None
+    return [
+        _verdict(result, context.figures),
+        *limits,
+        KeyNumbers(
+            [
+                ("system", provenance["system"]),
+                ("end time", Quantity(end, "s", 6)),
+                ("samples", str(result.time.size)),
+                ("communication step", Quantity(provenance["step"], "s")),
+                ("algorithm", provenance["algorithm"]),
+                ("perilune", provenance["perilune"]),
+            ]
+        ),
+        *([Repeat(context.command)] if context.command else []),
+        *condition_notes(provenance),
+    ]
+
+
+def _verdict(result: Result, figures: Sequence[Figure]) -> Verdict:
+    limits = limit_document(figures, result)
+    texts = []
+    for verdict in (LimitVerdict.VIOLATED, LimitVerdict.NOT_EVALUATED, LimitVerdict.MET):
+        names = [limit["name"] for limit in limits if limit["verdict"] is verdict]
+        if names:
+            listed = "" if verdict is LimitVerdict.MET else f": {', '.join(names)}"
+            texts.append(f"{len(names)} of {len(limits)} limits {verdict}{listed}")
+    is_met = all(limit["verdict"] is LimitVerdict.MET for limit in limits)
+    return Verdict(
+        [ENDINGS[result.status], " (status ", Code(result.status), ")"],
+        [
+            *([Text(["", result.message.rstrip(".")])] if result.message else []),  # it may begin with a name
+            *map(Text, texts),
+            *map(Text, joint_findings(figures, result)),
+        ],
+        is_bad=not (result.complete and is_met),
+    )
+
+
+def condition_notes(provenance: Mapping[str, Any]) -> list[Node]:
+    """Return notes on injected faults and on assumptions about the system."""
+    faults = provenance.get("faults", [])
+    return [
+        *([Note(["Faults: ", Code("; ".join(faults)), "."])] if faults else []),
+        *(Note(f"Assumed: {assumption}.") for assumption in provenance.get("assumptions", ())),
+    ]
+
+
+def _sections(result: Result, context: RunContext) -> list[Section]:
+    scene = _scene(context.figures, result)
+    _, groups = figure_groups(context.figures, result, result.provenance["system"])
+    histories = time_histories(result)
+    trajectory = trajectory_nodes(result)
+    first = [history.subsection() for history in histories.first]
+    absent = "all signals are constant" if result.time.size else "no samples recorded"
+    sections = []
+    if scene is not None:
+        sections.append(scene)
+    elif trajectory:
+        sections.append(Section("Trajectory", trajectory))
+    sections += [Section(group.title, group.figures, is_folded=group.is_folded) for group in groups]
+    sections.append(Section("Final values", [final_values(result)]))
+    if scene is not None and trajectory:
+        sections.append(Section("Trajectory", trajectory, is_folded=bool(groups)))
+    heading = "States and commands" if histories.are_named else "Time histories"
+    sections.append(Section(heading, first or [Missing(absent)], is_folded=bool(groups)))
+    if histories.rest:
+        others = Note(f"{histories.folded} plots, constant and duplicate signals.")
+        folded = [history.subsection() for history in histories.rest]
+        sections.append(Section("Other signals", [others, *folded], is_folded=True))
+    if context.draw_diagram is not None:
+        diagram = context.draw_diagram()
+        nodes, broad = [Blocks(diagram)], diagram.is_broad
+        sections.append(Section("Block diagram", nodes, is_folded=True, style="whole sheet" if broad else "whole"))
+    return [
+        *sections,
+        Section("All signals", [signal_table(result)], is_folded=True),
+        Section("Parameters", _parameters(result.provenance["parameters"]), is_folded=True),
+        Section("Provenance", [_digests(result.provenance)], is_folded=True),
+    ]
+
+
+def _scene(figures: Sequence[Figure], result: Result) -> Section | None:
+    """Return the section of the scene that a system declares; None without one, and for a run without samples."""
+    declared = next((figure for figure in figures if isinstance(figure, SceneDeclared)), None)
+    view = None if declared is None else scene_view(declared, result)
+    if declared is None or view is None:
+        return None
+    return Section(declared.title, [Scene(view, draw_ends(view), scene_notes(declared, result))], style="screen")
+
+
+def _parameters(parameters: Mapping[str, float | str]) -> list[Node]:
+    if not parameters:
+        return [Missing("no parameter was set; all have their FMU defaults")]
+    others = "All other parameters have their FMU defaults."
+    return [
+        Note(f"Values set by the system description, parameter sets and options, in SI units. {others}"),
+        Items(
+            [
+                [f"{name} = ", value if isinstance(value, str) else Quantity(value, digits=10)]
+                for name, value in parameters.items()
+            ],
+            "pairs",
+        ),
+    ]
+
+
+def _digests(provenance: Mapping[str, Any]) -> Table:
+    rows = [
+        ("system", provenance["system"], Digest(provenance["system_sha256"])),
+        *((name, fmu["fmu"], Digest(fmu["sha256"])) for name, fmu in provenance["fmus"].items()),
+    ]
+    return Table(("part", "name", "SHA-256"), rows, style="")

@@ -1,0 +1,50 @@
+"""A run in a notebook: its end, limits or key values, and one plot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from ....reports.figures.declared import Band, Figure, Limits
+from ....runtime.flight.results import Result
+from ...cell import Cell, Vector
+from ...model import Node, Plot, Table, Text
+from .figures.limits import limit_rows
+from .final_values import key_values
+from .histories import signal_plot
+from .trajectory import trajectory_plot
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawing
+
+MOST_PLOTTED = 3  # signals of a run without a path
+
+
+def notebook_nodes(result: Result, figures: Sequence[Figure]) -> list[Node]:
+    """Return what a notebook shows of a run."""
+    tables = [
+        Table((figure.title, "value", "limit", "unit", ""), limit_rows(figure, result))
+        for figure in figures
+        if isinstance(figure, Limits)
+    ]
+    if not tables:
+        rows: list[list[Cell]] = [
+            [row.label, row.note, Vector(row.values, row.unit, 4, is_bare=False)] for row in key_values(result)
+        ]
+        tables = [Table(("", "", "at the end"), rows)]
+    return [
+        Text(f"{result.ending}, {len(result.signals)} signals"),
+        *([Text(result.message)] if result.message else []),
+        *tables,
+        Plot(lambda: main_plot(result, figures)),
+    ]
+
+
+def main_plot(result: Result, figures: Sequence[Figure]) -> Drawing | None:
+    """Return the trajectory, else signals with a tolerance band, else vectors, else the first signals."""
+    if not result.time.size:
+        return None
+    signals = [figure.signal for figure in figures if isinstance(figure, Band)]
+    bands = [signal.names[0] if len(signal.names) == 1 else signal.label for signal in signals]
+    vectors = [row.label for row in key_values(result) if len(row.values) > 1]
+    return trajectory_plot(result) or signal_plot(result, (bands or vectors or list(result.signals))[:MOST_PLOTTED])

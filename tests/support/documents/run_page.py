@@ -1,0 +1,25 @@
+"""The page of a run, written from its result."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from perilune.analysis.documents.of.simulation.run import RunContext, run_document
+from perilune.analysis.documents.render.html import write_document
+from perilune.analysis.reports.diagram.diagram import Diagram
+from perilune.analysis.reports.figures.declared import Figure
+from perilune.analysis.runtime.flight.results import Result
+
+
+def write_run_report(
+    result: Result,
+    path: Path,
+    title: str,
+    figures: Sequence[Figure] = (),
+    diagram: Diagram | None = None,
+    command: str = "",
+) -> None:
+    """Write the page of a run that has no system behind it."""
+    draw = None if diagram is None else lambda: diagram
+    write_document(
+        run_document(result, RunContext(title=title, figures=figures, draw_diagram=draw, command=command)), path
+    )
