@@ -88,7 +88,7 @@ class BatchResult(Documented, results.BatchResult):
 
         Raises KeyError for a metric that the campaign does not have, and ValueError where there is none to plot.
         """
-        from ..reports.campaign.distributions import metric_plot, sort_metrics
+        from ..documents.of.campaign.distributions import metric_plot, sort_metrics
 
         known = {metric.name: metric for metric in self.plan.campaign.metrics}
         for name in metrics:

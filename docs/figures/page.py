@@ -12,9 +12,9 @@ from perilune.analysis.documents.of.batch.content import Content
 from perilune.analysis.documents.of.batch.distribution_sections import distribution_figures
 from perilune.analysis.documents.of.batch.embedded_trials import trials_document
 from perilune.analysis.documents.of.batch.scatters import failure_figures, outcome_marks
+from perilune.analysis.documents.of.campaign.distributions import rates_figure
 from perilune.analysis.documents.render.cell_markup import rich_markup
 from perilune.analysis.documents.render.html import panel_of
-from perilune.analysis.reports.campaign.distributions import rates_figure
 from perilune.analysis.reports.common.page import write_page
 from perilune.analysis.reports.common.panels import swatch
 from perilune.analysis.runtime.flight.results import Result

@@ -10,9 +10,6 @@ from typing import Any, NamedTuple
 from markupsafe import Markup
 from matplotlib.figure import Figure as Plot
 
-from ...campaigns.statistics import STATISTICS
-from ...campaigns.summary import SummaryRow
-from ...campaigns.tables import who_cells, who_heads
 from .page import render_page
 from .quantities import display_unit, in_display_unit, number
 from .svg import svg_bytes
@@ -42,14 +39,3 @@ def value_text(values: Iterable[Any], unit: str | None) -> str:
     """Numbers with their unit, angles in deg."""
     text = ", ".join(number(in_display_unit(value, unit)) for value in values)
     return f"{text} {display_unit(unit)}".strip()
-
-
-def metric_grid(rows: Sequence[SummaryRow], metrics: Iterable[str], group: str | None) -> Grid:
-    """Statistics of metrics over successful trials, a row for each variant or group, angles in deg."""
-    cells = []
-    for metric in metrics:
-        for row in rows:
-            statistics = row.entry.metrics[metric]
-            numbers = [number(in_display_unit(statistics.value(name), statistics.unit)) for name in STATISTICS]
-            cells.append((metric, *who_cells(row, group), *numbers, display_unit(statistics.unit)))
-    return Grid(("metric, successful trials", *who_heads(group), *STATISTICS, "unit"), cells)

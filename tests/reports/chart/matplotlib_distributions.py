@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from perilune.analysis.campaigns.definition.campaign import Metric
-from perilune.analysis.reports.campaign.distributions import _ends
+from perilune.analysis.documents.of.campaign.distributions import _ends
 from perilune.analysis.reports.chart.plot_lines import QuantityLine
 from perilune.analysis.reports.common.quantities import display_factor, label_with_unit
 from perilune.analysis.reports.common.style import Look, house_style, new_figure, plain_ticks

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from functools import partial
 
 from ....campaigns.execute.results import BatchResult
-from ....reports.campaign.tables import fmu_rows
 from ...cell import Code
 from ...model import Document, Group, Medium, Missing, Node, Note, Only, Printed, Section
 from ..campaign.metrics import group_nodes, metric_nodes
-from ..campaign.origin import digest_table, parameter_table
+from ..campaign.origin import digest_table, fmu_rows, parameter_table
 from ..campaign.replays import replay_table
 from ..campaign.statuses import component_statuses, component_table, status_table
 from ..campaign.variants import group_rows, variant_rows

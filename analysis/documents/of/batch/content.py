@@ -10,10 +10,10 @@ from ....campaigns.columns import describe_metric
 from ....campaigns.definition.campaign import Campaign, Metric
 from ....campaigns.execute.results import BatchResult
 from ....campaigns.judged import worst_trial
-from ....reports.campaign.distributions import sort_metrics
-from ....reports.campaign.verdict_table import VerdictTable, verdict_table
 from ....reports.common.colours import Look, look
+from ..campaign.distributions import sort_metrics
 from ..campaign.replays import Replay
+from ..campaign.verdict_table import VerdictTable, verdict_table
 from .replays import trials_to_replay
 from .scatters import influence_on_success
 

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from ....campaigns.definition.campaign import Metric
-from ....reports.campaign.distributions import CUMULATIVE, distribution_chart, metric_values
 from ....reports.common.colours import Look
 from ....reports.common.panels import PANEL_HEIGHT
 from ...cell import LegendEntry, Quantity
 from ...model import Figure, Figures, ForScript, Missing, Node, Note, Section
+from ..campaign.distributions import CUMULATIVE, distribution_chart, metric_values
 from .content import Content
 from .embedded_trials import trials_document, trials_notes
 

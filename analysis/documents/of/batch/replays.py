@@ -9,9 +9,9 @@ import numpy as np
 from ....campaigns.execute.results import BatchResult
 from ....campaigns.trials import TrialTable
 from ....commands.campaigns import replay_command, replay_of_folder
-from ....reports.campaign.verdict_table import VerdictTable
 from ...cell import Cell
 from ..campaign.replays import FAILURES, Replay, value_reason, with_anchors, worst_reasons
+from ..campaign.verdict_table import VerdictTable
 
 Reasons = list[tuple[int, Cell]]  # trials with a reason each
 

@@ -34,3 +34,15 @@ def parameter_table(campaign: Campaign) -> Table:
 def digest_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
     """Return parts with the digests of their files, the last cell of each row."""
     return Table((*heads, "SHA-256"), [(*row[:-1], Digest(row[-1])) for row in rows], style="")
+
+
+def fmu_rows(fmus: dict[str, dict[str, str]]) -> list[tuple[str, str, str]]:
+    """Return component, variants and SHA-256 of every FMU, variants with the same FMU in one row."""
+    variants_of: dict[tuple[str, str], list[str]] = {}
+    for variant, components in fmus.items():
+        for component, digest in components.items():
+            variants_of.setdefault((component, digest), []).append(variant)
+    return [
+        (component, "all" if len(variants) == len(fmus) else ", ".join(variants), digest)
+        for (component, digest), variants in sorted(variants_of.items(), key=lambda item: item[0][0])
+    ]

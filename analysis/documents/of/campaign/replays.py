@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from ....campaigns.definition.campaign import Metric
-from ....reports.campaign.verdict_table import JudgedMetric, VerdictRow
 from ...cell import Cell, CommandLine, Lines, Phrase, Quantity, Row
 from ...model import Table
+from .verdict_table import JudgedMetric, VerdictRow
 
 FAILURES = 3  # of a variant, the first ones
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ....reports.campaign.verdict_table import JudgedMetric, VerdictRow, VerdictTable
 from ....reports.common.colours import Look
 from ....reports.common.quantities import label_with_unit
 from ...cell import Cell, Head, Judged, Link, Percentage, Quantity, Rich, Strong, Track
 from ...model import Node, Note, Table
 from .variants import interval_cell, interval_head, variant_cell
+from .verdict_table import JudgedMetric, VerdictRow, VerdictTable
 
 Anchors = Mapping[tuple[str, int], str]  # by variant and trial
 

@@ -11,14 +11,14 @@ from scipy.stats import norm
 from ....campaigns.compare.comparison import Comparison
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.definition.expressions import Expression
-from ....reports.campaign.distributions import CUMULATIVE, distribution_chart
-from ....reports.campaign.recorded_names import variable_of
 from ....reports.chart.lines import line
 from ....reports.common.colours import COLOURS, DASHES, INK, MARKERS, Look, look
 from ....reports.common.panels import PANEL_HEIGHT
 from ....reports.interactive.measures import FAILED_DASHES
 from ...cell import LegendEntry
 from ...model import Figure, Figures
+from ..campaign.distributions import CUMULATIVE, distribution_chart
+from ..campaign.recorded_names import variable_of
 from .sigma import is_over_sigma
 
 MASS = "kg"

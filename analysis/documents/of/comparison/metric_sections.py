@@ -8,13 +8,13 @@ from functools import partial
 from ....campaigns.compare.comparison import Comparison, name_of
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.summary import SummaryRow
-from ....reports.campaign.verdict_table import axis_start
 from ....reports.common.colours import Look
 from ....reports.common.quantities import MINUS
 from ...cell import Cell, Code, Head, Percentage, Phrase, Quantity, Row, RowHeading, Strong, Track
 from ...model import Figures, Fold, Group, Missing, Node, Note, Section, Table, Text
 from ..campaign.metrics import metric_table
 from ..campaign.variants import group_rows, interval_cell, variant_cells, variant_heads, variant_rows
+from ..campaign.verdict_table import axis_start
 from .content import Content
 from .distributions import metric_figures, overlaid_figures
 from .flights.sections import missing_nodes

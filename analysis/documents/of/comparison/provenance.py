@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ....campaigns.compare.comparison import Comparison
-from ....reports.campaign.tables import fmu_rows
 from ...cell import Cell, Code, Inline, Quantity
 from ...model import Group, Missing, Node, Note, Section, Table
-from ..campaign.origin import digest_table
+from ..campaign.origin import digest_table, fmu_rows
 from .header import parameter_sets
 
 DIGITS = 6

@@ -7,9 +7,9 @@ import numpy as np
 from ....campaigns.compare.comparison import Comparison
 from ....campaigns.folder.manifest import FILE as MANIFEST
 from ....commands.campaigns import replay_of_folder
-from ....reports.campaign.verdict_table import VerdictTable
 from ...cell import Cell
 from ..campaign.replays import FAILURES, Replay, with_anchors, worst_reasons
+from ..campaign.verdict_table import VerdictTable
 
 
 def trials_to_replay(comparison: Comparison, table: VerdictTable) -> list[Replay]:

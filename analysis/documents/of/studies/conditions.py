@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import PurePosixPath
 
-from ....reports.campaign.tables import fmu_rows
 from ....studies.flown import StudyResult
 from ....studies.noise import Noise
 from ...cell import Cell, Code, Quantity, Rich
 from ...model import Commands, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text
-from ..campaign.origin import parameter_table
+from ..campaign.origin import fmu_rows, parameter_table
 
 DEFAULT = "default"  # the name of a campaign's only variant
 UNWRITTEN: Rich = [

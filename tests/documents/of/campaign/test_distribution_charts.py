@@ -15,7 +15,7 @@ from scipy.stats import binomtest
 
 from perilune.analysis.campaigns.definition.campaign import Metric
 from perilune.analysis.campaigns.definition.expressions import Expression
-from perilune.analysis.reports.campaign.distributions import distribution_chart, rates_chart
+from perilune.analysis.documents.of.campaign.distributions import distribution_chart, rates_chart
 from perilune.analysis.reports.chart.svg.fluid import POINT
 from perilune.analysis.reports.common.colours import look
 from perilune.analysis.reports.font.text import text_width

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.stats import chi2, norm
 
 from .....campaigns.verdicts.order_statistics import quantiles
-from .....reports.campaign.recorded_names import RATIO
+from ...campaign.recorded_names import RATIO
 from .recorded import Flight, Quantity, doubling
 
 LEVELS = (5.0, 25.0, 50.0, 75.0, 95.0)  # %

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from .....campaigns.compare.comparison import Comparison
-from .....reports.campaign.recorded_names import names_of_record
+from ...campaign.recorded_names import names_of_record
 from .bands import Bands, bands_of
 from .recorded import Flight, Quantity, quantities, read_flights, trials_with_traces
 from .trajectories import Bundle, bundle_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 
 from .....campaigns.compare.comparison import Comparison
-from .....reports.campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, variable_of
+from ...campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, variable_of
 from ..distributions import MASS
 from ..sigma import is_over_sigma
 from .ends import UNITS

@@ -9,7 +9,7 @@ import numpy as np
 
 from .....campaigns.compare.comparison import Contender
 from .....campaigns.folder.provenance import Provenance
-from .....reports.campaign.recorded_names import (
+from ...campaign.recorded_names import (
     COMMANDS,
     CONSISTENCY,
     DIRECTIONS,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from .....reports.campaign.recorded_names import LETTERS
 from ....cell import Inline, Quantity, Rich
 from ....model import Figure, Figures, Group, Missing, Node, Note, Section, Text
+from ...campaign.recorded_names import LETTERS
 from ..content import Content
 from ..distributions import all_values, metric_figures, overlaid_figures, sort_metrics
 from ..sigma import is_over_sigma, sigma_rows, sigma_table

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .....campaigns.compare.comparison import Contender
-from .....reports.campaign.recorded_names import (
+from .....reports.common.round_body import downrange, radius_of
+from .....reports.common.signals import displayed_name
+from ...campaign.recorded_names import (
     LETTERS,
     AxisNames,
     axes_of,
@@ -18,8 +20,6 @@ from .....reports.campaign.recorded_names import (
     owner_of,
     variable_of,
 )
-from .....reports.common.round_body import downrange, radius_of
-from .....reports.common.signals import displayed_name
 from .ends import target_of
 from .recorded import Flight
 

@@ -7,15 +7,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from markupsafe import Markup
-
-from ...campaigns.definition.campaign import Metric
-from ...campaigns.definition.expressions import Expression
-from ...campaigns.judged import MetricLimits, metric_limits
-from ...campaigns.requirement_verdicts import RequirementVerdict
-from ...campaigns.summary import Interval, Summary, VariantSummary
-from ...campaigns.verdicts.acceptance import Verdict
-from ..figures.words import range_text
+from ....campaigns.definition.campaign import Metric
+from ....campaigns.definition.expressions import Expression
+from ....campaigns.judged import MetricLimits, metric_limits
+from ....campaigns.requirement_verdicts import RequirementVerdict
+from ....campaigns.summary import Interval, Summary, VariantSummary
+from ....campaigns.verdicts.acceptance import Verdict
 
 MEDIAN = "p50"
 Grade = Literal["pass", "fail", "not-applicable"]
@@ -28,14 +25,6 @@ class JudgedMetric(NamedTuple):
 
     metric: Metric
     limits: MetricLimits | None
-
-    @property
-    def limit_text(self) -> Markup:
-        """The limits in words, in the unit that is shown."""
-        if self.limits is None:
-            return Markup("")
-        low, high = (each if abs(each) < float("inf") else None for each in (self.limits.low, self.limits.high))
-        return range_text(low, high, self.metric.unit)
 
 
 class Cell(NamedTuple):

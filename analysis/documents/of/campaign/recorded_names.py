@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ...campaigns.folder.provenance import Provenance
-from ...runtime.ssp.names import split_name
-from ..common.signals import INDEXED, vector_of
+from ....campaigns.folder.provenance import Provenance
+from ....reports.common.signals import INDEXED, vector_of
+from ....runtime.ssp.names import split_name
 
 COMMANDS = ("thrust_acceleration", "thrust", "delivered_thrust", "thrust_angle", "throttle")
 DIRECTIONS = ("thrust_direction", "attitude")
