@@ -23,7 +23,7 @@ test: .venv/ready lint build web
 	MAKEFLAGS= $(BIN)/python -m pytest -n 2 --dist loadfile
 
 # What is proved without built FMUs: the mathematics, the language, expressions, laws, the arrows between rooms.
-QUICK := tests/campaigns/definition tests/campaigns/compare tests/export/judge tests/design/laws tests/mathlib tests/reports/common tests/test_architecture.py tests/common/test_errors.py
+QUICK := tests/campaigns/definition tests/campaigns/compare tests/export/judge tests/design/laws tests/mathlib tests/documents/common tests/test_architecture.py tests/common/test_errors.py
 
 quick: .venv/ready
 	$(BIN)/ruff check .
@@ -92,7 +92,7 @@ figures: build
 screenshots: build browser
 	$(BIN)/python -m docs.figures.screenshots
 
-# How wide characters of figures are, from the font that matplotlib has: analysis/reports/font/advances.json.
+# How wide characters of figures are, from the font that matplotlib has: analysis/documents/font/advances.json.
 font: .venv/ready
 	$(BIN)/python -m release.font
 
@@ -205,7 +205,7 @@ browser:
 browser-firefox: WEB := --tools
 browser-firefox: build
 	@command -v firefox-esr >/dev/null || { apt-get update -qq && apt-get install -y -qq --no-install-recommends firefox-esr >/dev/null; }
-	PERILUNE_REQUIRE_FIREFOX=1 $(BIN)/python -m pytest tests/reports/interactive/test_firefox.py
+	PERILUNE_REQUIRE_FIREFOX=1 $(BIN)/python -m pytest tests/documents/interactive/test_firefox.py
 
 lint: .venv/ready
 	$(BIN)/ruff check .

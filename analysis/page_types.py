@@ -19,14 +19,14 @@ import msgspec
 import numpy as np
 
 from ..common.paths import ROOT
+from .documents.common import colours
+from .documents.common.colours import FAINT, GRID, INK, SHADES, SHIP
+from .documents.interactive.charts import Chart
+from .documents.interactive.columns import Coarse, Packed
+from .documents.interactive.embedded import is_optional, page_fields
 from .documents.of.batch.embedded_flights import RecordedDocument
 from .documents.of.batch.embedded_trials import TrialsDocument
-from .reports.common import colours
-from .reports.common.colours import FAINT, GRID, INK, SHADES, SHIP
-from .reports.interactive.charts import Chart
-from .reports.interactive.columns import Coarse, Packed
-from .reports.interactive.embedded import is_optional, page_fields
-from .reports.scene.view import SceneView
+from .documents.scene.view import SceneView
 from .show.documents import Counts, ShowDocument, TrialEntry
 from .show.query import Query
 

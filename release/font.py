@@ -1,4 +1,4 @@
-"""Writes analysis/reports/font/advances.json: the widths of characters of DejaVu Sans, from its file in matplotlib."""
+"""Writes the widths of characters of DejaVu Sans, from matplotlib, to analysis/documents/font/advances.json."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import matplotlib
 from matplotlib.ft2font import FT2Font, LoadFlags
 
-from perilune.analysis.reports.font.text import TABLE, Advances
+from perilune.analysis.documents.font.text import TABLE, Advances
 
 FONTS = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 FILES = {"regular": "DejaVuSans.ttf", "bold": "DejaVuSans-Bold.ttf"}

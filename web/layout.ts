@@ -1,4 +1,4 @@
-// ELK's layered layout for V8 without a browser, as analysis/reports/diagram/elk.py calls it.
+// ELK's layered layout for V8 without a browser, as analysis/documents/diagram/elk.py calls it.
 
 import "./layout/worker_scope";
 import "elkjs/lib/elk-worker.min.js";

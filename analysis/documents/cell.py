@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:  # figures take as long to import as a verb without any takes to answer
-    from ..reports.common.colours import Look
-    from ..reports.interactive.charts import Curve, Marker
+    from .common.colours import Look
+    from .interactive.charts import Curve, Marker
 
 
 class Quantity(NamedTuple):

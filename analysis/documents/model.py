@@ -29,11 +29,11 @@ if TYPE_CHECKING:  # figures take as long to import as a verb without any takes 
     from markupsafe import Markup
     from matplotlib.figure import Figure as Drawing
 
-    from ..reports.chart.write_svg import TrialPositions
-    from ..reports.common.colours import Look
-    from ..reports.diagram.diagram import Diagram as BlockDiagram
-    from ..reports.interactive.charts import Chart
     from .cell import Cell, Head, LegendEntry, Rich, Row, RowHeading, RowNote
+    from .chart.write_svg import TrialPositions
+    from .common.colours import Look
+    from .diagram.diagram import Diagram as BlockDiagram
+    from .interactive.charts import Chart
 
 
 class Medium(Enum):

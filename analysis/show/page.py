@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ...common.errors import InputError
-from ..reports.common.colours import COLOURS
-from ..reports.common.page import render_page
-from ..reports.common.quantities import display_factor, display_unit
-from ..reports.interactive.bundles import MISSING, read_bundle
+from ..documents.common.colours import COLOURS
+from ..documents.common.page import render_page
+from ..documents.common.quantities import display_factor, display_unit
+from ..documents.interactive.bundles import MISSING, read_bundle
 from .campaign import OpenCampaign
 from .documents import Campaign, ShowDocument
 from .scale import BARS, BINS

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..reports.interactive.columns import knee_of
+from ..documents.interactive.columns import knee_of
 
 BINS = 4096  # of a scale: a filter begins and ends at their edges
 BARS = 64  # of a histogram, each of equally many bins

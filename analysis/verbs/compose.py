@@ -17,12 +17,12 @@ from ..compose.files import add_mark, check_unedited, write_source
 from ..compose.source import SystemSource, read_source
 from ..compose.text import write_toml
 from ..compose.way_back import source_of
+from ..documents.figures.reading import read_figures
 from ..documents.model import Document
 from ..documents.of.files import composition_document
 from ..options.declared.library import COMPOSE, ComposeOptions
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..reports.figures.reading import read_figures
 from ..runtime.ssp.archive import open_system
 from ..runtime.ssp.reading import read_description
 from ..runtime.system.options import SystemOptions

@@ -41,7 +41,7 @@ class Description(Documented, dict[str, Any]):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune describe --report`: one HTML file. Raises InputError for what has no diagram."""
-        from ..reports.diagram.page import write_system_page  # half of what describe would take to start
+        from ..documents.diagram.page import write_system_page  # half of what describe would take to start
 
         if self.prepare is None:
             problem = "only a system and an FMU have a block diagram"

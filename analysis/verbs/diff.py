@@ -9,12 +9,12 @@ from typing import Unpack
 from ...common.errors import InputError
 from ..differences.differences import RunDifferences, compare_runs
 from ..differences.recorded_run import read_run
+from ..documents.common.quantities import number
 from ..documents.model import Document
 from ..documents.of.differences import differences_document
 from ..options.declared.library import DIFF, LISTING, DiffOptions
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..reports.common.quantities import number
 from .common.documented import Documented
 
 

@@ -16,10 +16,10 @@ from ..campaigns.definition.expressions import Expression
 from ..campaigns.execute.campaign import read_folder
 from ..campaigns.execute.results import BatchResult
 from ..campaigns.folder.opened import OpenedResults
+from ..documents.common.colours import look
 from ..documents.of.campaign.distributions import distribution_plot
 from ..documents.of.campaign.stored import stored_document
 from ..options.option import FilePath
-from ..reports.common.colours import look
 from ..runtime.flight.results import require_pandas
 
 if TYPE_CHECKING:

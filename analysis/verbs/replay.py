@@ -12,13 +12,13 @@ from ...common.errors import InputError
 from ..campaigns.execute.replay import ReplayedTrial, replay_plan, replay_trial
 from ..campaigns.plain_text import faults_line
 from ..commands.campaigns import replay_command, replay_of_folder
+from ..documents.figures.reading import read_figures
 from ..documents.of.simulation.run import RunContext
 from ..options.command import record_options
 from ..options.declared.campaigns import REPLAY, ReplayOptions
 from ..options.option import FilePath
 from ..options.system import TrustOptions
 from ..options.verb import verb
-from ..reports.figures.reading import read_figures
 from ..runtime.flight.interruptible import StuckError
 from ..runtime.system.options import trust_of
 from .common.arguments import read_requirements

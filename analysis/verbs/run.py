@@ -12,6 +12,8 @@ from ...common.errors import InputError
 from ...common.visible import on_one_line
 from ..campaigns.definition.expressions import Expression
 from ..campaigns.plain_text import faults_line
+from ..documents.figures.declared import Figure
+from ..documents.figures.reading import read_figures
 from ..documents.model import Document
 from ..documents.of.simulation.figures.limits import limit_document
 from ..documents.of.simulation.run import RunContext, run_document
@@ -20,8 +22,6 @@ from ..options.declared.campaigns import RUN, RunOptions
 from ..options.fault import Fault, faults_of
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..reports.figures.declared import Figure
-from ..reports.figures.reading import read_figures
 from ..runtime.flight import results
 from ..runtime.flight.interruptible import StuckError, fly
 from ..runtime.flight.selection import find_variables
@@ -38,7 +38,7 @@ from .common.flight_text import flight_lines, flight_problems, note_lines
 if TYPE_CHECKING:  # plots and pages are imported where they are made: half of what a run without them would take
     from matplotlib.figure import Figure as Plot
 
-    from ..reports.diagram.diagram import Diagram
+    from ..documents.diagram.diagram import Diagram
 
 STUCK = "nothing is written; see its messages with `log` all, or give a longer `timeout`"
 
@@ -81,7 +81,7 @@ class Result(Documented, results.Result):
         )
 
     def _diagram(self) -> Diagram:
-        from ..reports.diagram.diagram import make_diagram
+        from ..documents.diagram.diagram import make_diagram
 
         return make_diagram(self.prepared, faults_of(self.faults))
 

@@ -26,12 +26,12 @@ from ..compose.likeness import find_difference
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
 from ..design.trajectories.stored_bound import MissingBound, find_bound
+from ..documents.figures.reading import read_figures
 from ..documents.model import Document
 from ..documents.of.validation import validation_document
 from ..options.declared.library import VALIDATE, ValidateOptions
 from ..options.option import FilePath
 from ..options.verb import verb
-from ..reports.figures.reading import read_figures
 from ..runtime.process.resets import find_verdict, renewal_note
 from ..runtime.ssp.archive import DEFAULT_VARIANT, open_system
 from ..runtime.ssp.parameter_sets import read_parameter_file

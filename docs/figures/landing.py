@@ -11,18 +11,18 @@ from matplotlib.figure import Figure
 from perilune.analysis.campaigns.definition.campaign import Variant
 from perilune.analysis.campaigns.definition.checks import variant_names
 from perilune.analysis.campaigns.definition.plan import BatchPlan
+from perilune.analysis.documents.chart.axes import linear_axis
+from perilune.analysis.documents.chart.equal import Ends, to_scale
+from perilune.analysis.documents.chart.layout import BROAD
+from perilune.analysis.documents.chart.lines import line
+from perilune.analysis.documents.chart.panel import POINTS, chart_panel, wide_figure
+from perilune.analysis.documents.chart.plot import plot_charts
+from perilune.analysis.documents.chart.symbols import arrow, mark, marker
+from perilune.analysis.documents.chart.ticks import axis_ends
+from perilune.analysis.documents.common.colours import BLUE, INK, VERMILION
+from perilune.analysis.documents.common.panels import HALF_WIDTH, PANEL_HEIGHT, Panel
+from perilune.analysis.documents.interactive.charts import NO_BOX, Chart, Drawing
 from perilune.analysis.documents.of.simulation.trajectory_chart import View, view_chart
-from perilune.analysis.reports.chart.axes import linear_axis
-from perilune.analysis.reports.chart.equal import Ends, to_scale
-from perilune.analysis.reports.chart.layout import BROAD
-from perilune.analysis.reports.chart.lines import line
-from perilune.analysis.reports.chart.panel import POINTS, chart_panel, wide_figure
-from perilune.analysis.reports.chart.plot import plot_charts
-from perilune.analysis.reports.chart.symbols import arrow, mark, marker
-from perilune.analysis.reports.chart.ticks import axis_ends
-from perilune.analysis.reports.common.colours import BLUE, INK, VERMILION
-from perilune.analysis.reports.common.panels import HALF_WIDTH, PANEL_HEIGHT, Panel
-from perilune.analysis.reports.interactive.charts import NO_BOX, Chart, Drawing
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.flight.simulation import Simulation
 

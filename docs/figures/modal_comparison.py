@@ -18,7 +18,7 @@ from tqdm import tqdm
 from perilune.analysis.design.poles.output_feedback import output_feedback
 from perilune.analysis.design.poles.place import place
 from perilune.analysis.design.poles.spectrum import Spectrum
-from perilune.analysis.reports.common.style import house_style
+from perilune.analysis.documents.common.style import house_style
 from perilune.common.paths import ROOT
 
 from .modal_figures import choices_figure, free_figure, spreads_figure

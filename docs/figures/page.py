@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from perilune.analysis.campaigns.execute.results import BatchResult
+from perilune.analysis.documents.common.page import write_page
+from perilune.analysis.documents.common.panels import swatch
 from perilune.analysis.documents.of.batch.content import Content
 from perilune.analysis.documents.of.batch.distribution_sections import distribution_figures
 from perilune.analysis.documents.of.batch.embedded_trials import trials_document
@@ -15,8 +17,6 @@ from perilune.analysis.documents.of.batch.scatters import failure_figures, outco
 from perilune.analysis.documents.of.campaign.distributions import rates_figure
 from perilune.analysis.documents.render.cell_markup import rich_markup
 from perilune.analysis.documents.render.html import panel_of
-from perilune.analysis.reports.common.page import write_page
-from perilune.analysis.reports.common.panels import swatch
 from perilune.analysis.runtime.flight.results import Result
 
 from .landing import landing_panels, vector

@@ -8,7 +8,7 @@ from pathlib import Path
 from lxml import etree
 from matplotlib.figure import Figure
 
-from perilune.analysis.reports.common.svg import svg_bytes
+from perilune.analysis.documents.common.svg import svg_bytes
 from perilune.common.paths import ROOT
 
 IMAGES = ROOT / "docs" / "images"

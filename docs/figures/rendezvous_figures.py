@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-from perilune.analysis.reports.common.style import (
+from perilune.analysis.documents.common.style import (
     BLUE,
     FAINT,
     INK,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from perilune.analysis.reports.diagram.diagram import make_diagram
+from perilune.analysis.documents.diagram.diagram import make_diagram
 from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.analysis.runtime.system.prepared import prepare_system
 

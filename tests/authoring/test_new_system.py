@@ -16,8 +16,8 @@ from scipy.spatial.transform import Rotation
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.reports.figures.scene.declared import Scene
-from perilune.analysis.reports.scene.poses import compute_poses
+from perilune.analysis.documents.figures.scene.declared import Scene
+from perilune.analysis.documents.scene.poses import compute_poses
 from perilune.common.paths import FLAVOURS, ROOT
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.own_style import assert_in_style

@@ -15,7 +15,7 @@ from hypothesis.strategies import SearchStrategy
 
 from perilune.analysis.campaigns.definition.checks import check_plan
 from perilune.analysis.campaigns.definition.plan import read_plan
-from perilune.analysis.reports.figures.reading import read_figures
+from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.runtime.ssp.archive import SystemArchive, open_system
 from perilune.analysis.runtime.ssp.parameter_sets import read_parameter_file
 from perilune.analysis.runtime.system.fmu import Fmu

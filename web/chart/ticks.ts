@@ -38,7 +38,7 @@ function labelNumbers(ticks: number[]): string[] {
   return ticks.map((at) => format(Math.abs(at) < 1e-9 * step ? 0 : at, Number.isFinite(digits) ? digits : FEW));
 }
 
-// Plain numbers near 1, powers of ten beyond, as analysis/reports/common/quantities.py, `log_tick`.
+// Plain numbers near 1, powers of ten beyond, as analysis/documents/common/quantities.py, `log_tick`.
 function labelPowers(ticks: number[]): string[] {
   const isRound = ticks.every((at) => Math.abs(leading(at) - Math.round(leading(at))) < 1e-6);
   if (!isRound) return labelNumbers(ticks);

@@ -1,4 +1,4 @@
-// Written by build_web.py from analysis/reports/interactive/charts.py.
+// Written by build_web.py from analysis/documents/interactive/charts.py.
 
 // An axis: its ends as drawn, the first at the left or the bottom, and its ticks in between with their texts.
 //

@@ -1,4 +1,4 @@
-// Written by build_web.py from analysis/reports/common/colours.py.
+// Written by build_web.py from analysis/documents/common/colours.py.
 
 export const SHADES = {
   ink: ["#222", "#e6e6e6"],

@@ -1,4 +1,4 @@
-// Written by build_web.py from analysis/reports/interactive/columns.py.
+// Written by build_web.py from analysis/documents/interactive/columns.py.
 
 // A column; without a range its numbers are float32.
 export interface Encoded {

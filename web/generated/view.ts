@@ -1,4 +1,4 @@
-// Written by build_web.py from analysis/reports/scene/view.py.
+// Written by build_web.py from analysis/documents/scene/view.py.
 
 import type { Panel } from "./declared";
 

@@ -1,4 +1,4 @@
-// Columns of numbers inside a page: the inverse of analysis/reports/interactive/columns.py.
+// Columns of numbers inside a page: the inverse of analysis/documents/interactive/columns.py.
 
 import type { Encoded } from "../generated/columns";
 import type { PageDocument } from "../generated/page_types";

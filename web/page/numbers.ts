@@ -1,4 +1,4 @@
-// Numbers as the tables of a page show them: analysis/reports/common/quantities.py, `number`.
+// Numbers as the tables of a page show them: analysis/documents/common/quantities.py, `number`.
 
 export const DIGITS = 6;
 const PLAIN_DIGITS = 6; // before the point; larger numbers have an exponent

@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 
 from ...differences.differences import RunDifferences, SignalDifference
-from ...reports.common.quantities import number
 from ..cell import Cell, Quantity
+from ..common.quantities import number
 from ..model import Document, Figures, Fold, Node, Note, Section, Table, Text
 from .differences_figures import difference_figures, difference_legend, plotted_signals
 

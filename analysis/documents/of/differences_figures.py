@@ -9,14 +9,14 @@ from itertools import cycle
 import numpy as np
 
 from ...differences.differences import SignalDifference
-from ...reports.chart.axes import linear_axis
-from ...reports.chart.quantity import quantity_curve
-from ...reports.chart.ticks import axis_ends
-from ...reports.common.colours import COLOURS, DASHES, INK, Look
-from ...reports.common.quantities import label_with_unit
-from ...reports.common.signals import INDEXED, vector_of
-from ...reports.interactive.charts import NO_BOX, Chart, Curve
 from ..cell import LegendEntry
+from ..chart.axes import linear_axis
+from ..chart.quantity import quantity_curve
+from ..chart.ticks import axis_ends
+from ..common.colours import COLOURS, DASHES, INK, Look
+from ..common.quantities import label_with_unit
+from ..common.signals import INDEXED, vector_of
+from ..interactive.charts import NO_BOX, Chart, Curve
 from ..model import Figure
 
 PLOTTED = 24  # signals and vectors

@@ -9,7 +9,7 @@ from ....common.visible import first_ones, on_one_line
 from ...evidence.comparison import SignalCheck
 from ...evidence.reproduction import Reproduction
 from ...evidence.verification import Verification
-from ...reports.common.quantities import number
+from ..common.quantities import number
 from ..model import Document, Node, Text
 
 VERIFIED, COMPARED, DIFFERENT = "verified", "compared", "different"  # verdicts

@@ -5,12 +5,6 @@ from __future__ import annotations
 from markupsafe import Markup, escape
 
 from ....common.percent import percent
-from ...reports.chart.legend import swatch_of
-from ...reports.common.colours import Look
-from ...reports.common.page import breakable, exact, with_exact
-from ...reports.common.panels import mark_swatch, swatch
-from ...reports.common.quantities import display_unit
-from ...reports.interactive.charts import Curve, Marker
 from ..cell import (
     Bar,
     Cell,
@@ -33,6 +27,12 @@ from ..cell import (
     Track,
     Vector,
 )
+from ..chart.legend import swatch_of
+from ..common.colours import Look
+from ..common.page import breakable, exact, with_exact
+from ..common.panels import mark_swatch, swatch
+from ..common.quantities import display_unit
+from ..interactive.charts import Curve, Marker
 
 BAR = 220.0  # px, of all
 

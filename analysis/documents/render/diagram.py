@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from markupsafe import Markup
 
-from ...reports.chart.svg.fluid import POINT
-from ...reports.chart.write_svg import write_svg
-from ...reports.interactive.charts import Fluid
+from ..chart.svg.fluid import POINT
+from ..chart.write_svg import write_svg
+from ..interactive.charts import Fluid
 from ..model import Diagram
 
 NO_MARGINS = (0.0, 0.0, 0.0, 0.0)

@@ -7,12 +7,12 @@ from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
 
-from ...reports.chart.panel import chart_panel, stack_panel, wide_figure
-from ...reports.chart.write_svg import no_trials
-from ...reports.common.page import write_page
-from ...reports.common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, swatch
-from ...reports.interactive.bundles import MISSING
 from ..cell import Cell, Head, Rich, Row, RowHeading, RowNote
+from ..chart.panel import chart_panel, stack_panel, wide_figure
+from ..chart.write_svg import no_trials
+from ..common.page import write_page
+from ..common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, swatch
+from ..interactive.bundles import MISSING
 from ..model import Document, Figure, Medium, Table, select
 from .cell_markup import cell_class, cell_markup, entry_markup, is_number, legend_swatch, rich_markup
 from .diagram import diagram_svg

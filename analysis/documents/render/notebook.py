@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
-from ...reports.common.notebook import Grid, notebook_view
-from ...reports.common.panels import HALF_WIDTH, PANEL_WIDTH
 from ..cell import Cell, LegendEntry
+from ..common.notebook import Grid, notebook_view
+from ..common.panels import HALF_WIDTH, PANEL_WIDTH
 from ..model import (
     Diagram,
     Document,
@@ -73,7 +73,7 @@ def _key(nodes: Sequence[Node]) -> list[str]:
 
 def plot_figures(figures: Sequence[Figure], key: Sequence[str] = ()) -> Drawing:
     """Return figures next to each other as one of matplotlib's, with their legends; ``key`` is that of all."""
-    from ...reports.chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
+    from ..chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
 
     panes = [(each, chart) for each in figures for chart in (each.chart, each.below) if chart is not None]
     is_stacked = len(panes) > len(figures)
@@ -95,7 +95,7 @@ def _plot_diagram(nodes: Sequence[Node]) -> Drawing | None:
     diagram = next((node for node in nodes if isinstance(node, Diagram)), None)
     if diagram is None:
         return None
-    from ...reports.chart.plot import POINTS, plot_charts
+    from ..chart.plot import POINTS, plot_charts
 
     chart, width, height = diagram.draw()
     return plot_charts([chart], height / POINTS, width / POINTS)

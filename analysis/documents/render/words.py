@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ....common.percent import short_percent
-from ...reports.common.quantities import display_unit, in_display_unit, number
 from ..cell import (
     Bar,
     Cell,
@@ -31,6 +30,7 @@ from ..cell import (
     Track,
     Vector,
 )
+from ..common.quantities import display_unit, in_display_unit, number
 from ..model import Document, KeyNumbers, Table, Verdict
 
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 from ....common.paths import SYSTEMS
 from ....fmus_src.roles import FINISHED
+from ...documents.figures.declared import Figure, Limits, Unavailable
 from ...documents.of.simulation.figures.limits import Verdict, evaluate, limit_lines
-from ...reports.figures.declared import Figure, Limits, Unavailable
 from ...runtime.flight.results import Flight, Result, status_lines
 from ...runtime.system.prepared import PreparedSystem
 

@@ -15,7 +15,7 @@ from docs.figures.papers.huang import draw_hover_figures
 from docs.figures.pictures import IMAGES, LARGEST, write_picture
 from docs.figures.system_figures import PICTURES, POINTS, system_figure
 from perilune import simulate
-from perilune.analysis.reports.common.style import house_style
+from perilune.analysis.documents.common.style import house_style
 from perilune.common.paths import ROOT
 
 PAGES = {path: path.read_text(encoding="utf-8") for path in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]}

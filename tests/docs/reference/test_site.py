@@ -15,7 +15,7 @@ from lxml import html
 from docs.reference.build import SETTINGS, build_site
 from docs.reference.links import broken_links
 from docs.reference.pages import derived_pages
-from perilune.analysis.reports.diagram.elk import MISSING
+from perilune.analysis.documents.diagram.elk import MISSING
 from perilune.analysis.runtime.ssp.archive import system_names
 from perilune.common.paths import ROOT
 from perilune.fmus_src.catalogue import catalogue

@@ -11,8 +11,8 @@ from dataclasses import replace
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.reports.figures.declared import Band, Error, Group, Pulses, Unavailable
-from perilune.analysis.reports.figures.reading import read_figures
+from perilune.analysis.documents.figures.declared import Band, Error, Group, Pulses, Unavailable
+from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.runtime.flight.program import layout_of
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions

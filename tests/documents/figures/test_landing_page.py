@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 import perilune
+from perilune.analysis.documents.figures.declared import Budget, Limits, Phases
+from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.documents.of.simulation.figures.limits import is_met
 from perilune.analysis.documents.of.simulation.figures.phase_figure import (
     amount,
@@ -16,8 +18,6 @@ from perilune.analysis.documents.of.simulation.figures.phase_figure import (
     spans_of,
     statuses_of,
 )
-from perilune.analysis.reports.figures.declared import Budget, Limits, Phases
-from perilune.analysis.reports.figures.reading import read_figures
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.documents.subsections import figure_sections
 

@@ -12,8 +12,8 @@ import pytest
 from lxml import etree, html
 
 import perilune
-from perilune.analysis.reports.figures.declared import Pulses, Signal, Unavailable
-from perilune.analysis.reports.figures.reading import read_figures
+from perilune.analysis.documents.figures.declared import Pulses, Signal, Unavailable
+from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.documents.run_page import write_run_report
 from tests.support.documents.subsections import figure_sections, joint_findings

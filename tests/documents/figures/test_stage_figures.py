@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from lxml import etree, html
 
+from perilune.analysis.documents.figures.declared import Arc, BoundValues, Rows
 from perilune.analysis.documents.of.simulation.figures.limits import limit_entries, limit_lines
 from perilune.analysis.documents.of.simulation.figures.phase_figure import spans_of, statuses_of
 from perilune.analysis.documents.of.simulation.figures.section import align
 from perilune.analysis.documents.render.cell_markup import cell_markup
-from perilune.analysis.reports.figures.declared import Arc, BoundValues, Rows
 from tests.support.documents.run_page import write_run_report
 from tests.support.documents.subsections import figure_sections
 from tests.support.pages.checks import assert_self_contained, parse, section_of

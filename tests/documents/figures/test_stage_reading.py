@@ -12,8 +12,8 @@ import pytest
 import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.design.trajectories.stored_bound import MissingBound, StoredBound
-from perilune.analysis.reports.figures import stage_readers
-from perilune.analysis.reports.figures.declared import (
+from perilune.analysis.documents.figures import stage_readers
+from perilune.analysis.documents.figures.declared import (
     Arc,
     BoundValues,
     Budget,
@@ -24,7 +24,7 @@ from perilune.analysis.reports.figures.declared import (
     Phases,
     Unavailable,
 )
-from perilune.analysis.reports.figures.reading import read_figures
+from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError

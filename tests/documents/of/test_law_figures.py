@@ -15,9 +15,9 @@ from lxml import etree
 from perilune.analysis.design.laws.formula import formula
 from perilune.analysis.design.laws.law import Law, find_law, read_law
 from perilune.analysis.design.laws.layers import JOINT_GAP, NODE_GAP, Layout, longest_paths
+from perilune.analysis.documents.font.text import text_width
 from perilune.analysis.documents.of.design.law_figures import law_chart, law_diagram
 from perilune.analysis.documents.render.diagram import diagram_svg
-from perilune.analysis.reports.font.text import text_width
 from tests.support.laws.networks import matrices
 
 GRAPHS = st.integers(2, 12).flatmap(

@@ -11,6 +11,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from perilune.analysis.documents.chart.marks import SQUARE, hatch
+from perilune.analysis.documents.chart.panel import POINTS, stack_panel
+from perilune.analysis.documents.common.colours import BLUE, GREEN, VERMILION
+from perilune.analysis.documents.common.panels import HALF_WIDTH, PANEL_WIDTH
+from perilune.analysis.documents.common.quantities import NONE
+from perilune.analysis.documents.font.text import text_width
+from perilune.analysis.documents.interactive.measures import LABEL_SIZE
 from perilune.analysis.documents.model import Fold
 from perilune.analysis.documents.of.stability.charts.bode import bode_charts
 from perilune.analysis.documents.of.stability.charts.frequency import (
@@ -27,13 +34,6 @@ from perilune.analysis.documents.of.stability.figures import HEIGHT, loop_figure
 from perilune.analysis.documents.of.stability.parts import modes
 from perilune.analysis.documents.of.stability.words import complex_number, fold_long, in_decibels, numeral
 from perilune.analysis.documents.render.cell_markup import cell_markup
-from perilune.analysis.reports.chart.marks import SQUARE, hatch
-from perilune.analysis.reports.chart.panel import POINTS, stack_panel
-from perilune.analysis.reports.common.colours import BLUE, GREEN, VERMILION
-from perilune.analysis.reports.common.panels import HALF_WIDTH, PANEL_WIDTH
-from perilune.analysis.reports.common.quantities import NONE
-from perilune.analysis.reports.font.text import text_width
-from perilune.analysis.reports.interactive.measures import LABEL_SIZE
 from perilune.analysis.stability.loops.margin_values import Quantity
 from perilune.analysis.stability.loops.readings import Curve
 from perilune.analysis.stability.results.responses import Mode

@@ -14,8 +14,8 @@ import pytest
 
 from perilune import StabilityReport
 from perilune.analysis.cli import main
+from perilune.analysis.documents.common.quantities import NONE
 from perilune.analysis.documents.of.stability.charts.sets import joint_chart
-from perilune.analysis.reports.common.quantities import NONE
 from perilune.analysis.stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from perilune.analysis.stability.loops.readings import Classical, Curve
 from perilune.analysis.stability.results.requirement import Requirement, Scope

@@ -6,9 +6,9 @@ Truth: the shares of the variance of a sum of independent draws; lengths measure
 import numpy as np
 import pytest
 
+from perilune.analysis.documents.common.colours import BLUE, SKY
 from perilune.analysis.documents.of.studies.sensitivity import index_table, rank_table
 from perilune.analysis.documents.of.studies.sensitivity_figures import bars_of
-from perilune.analysis.reports.common.colours import BLUE, SKY
 from tests.documents.leads import assert_lead_everywhere
 from tests.support.pages.checks import assert_self_contained, data_values, parse, read_path, text_of
 from tests.support.pages.studies import SHARES

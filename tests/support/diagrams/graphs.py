@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hypothesis import strategies
 
-from perilune.analysis.reports.diagram.graph import Block, Edge, Port, PortKey, Side
+from perilune.analysis.documents.diagram.graph import Block, Edge, Port, PortKey, Side
 
 KINDS = ("plants", "sensors", "guidance", "", "foreign FMU")
 MAX_BLOCKS, MAX_PORTS = 7, 4

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from perilune.analysis.documents.diagram.diagram import Diagram
+from perilune.analysis.documents.figures.declared import Figure
 from perilune.analysis.documents.of.simulation.run import RunContext, run_document
 from perilune.analysis.documents.render.html import write_document
-from perilune.analysis.reports.diagram.diagram import Diagram
-from perilune.analysis.reports.figures.declared import Figure
 from perilune.analysis.runtime.flight.results import Result
 
 

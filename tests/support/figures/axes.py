@@ -8,9 +8,9 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from perilune.analysis.reports.common.colours import INK
-from perilune.analysis.reports.common.quantities import log_tick
-from perilune.analysis.reports.interactive.measures import FAILED_DASHES
+from perilune.analysis.documents.common.colours import INK
+from perilune.analysis.documents.common.quantities import log_tick
+from perilune.analysis.documents.interactive.measures import FAILED_DASHES
 
 FAILED: dict[str, Any] = {"color": INK, "linestyle": (0, FAILED_DASHES)}
 

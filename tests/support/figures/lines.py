@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from perilune.analysis.reports.chart.plot_lines import QuantityLine
-from perilune.analysis.reports.common.quantities import display_factor, display_unit
-from perilune.analysis.reports.common.style import look
+from perilune.analysis.documents.chart.plot_lines import QuantityLine
+from perilune.analysis.documents.common.quantities import display_factor, display_unit
+from perilune.analysis.documents.common.style import look
 
 
 def plot_quantity(

@@ -13,9 +13,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import StepPatch
 
-from perilune.analysis.reports.chart.plot_lines import TrialDots
-from perilune.analysis.reports.interactive.charts import Axis, Chart
-from perilune.analysis.reports.interactive.columns import has_enough_digits
+from perilune.analysis.documents.chart.plot_lines import TrialDots
+from perilune.analysis.documents.interactive.charts import Axis, Chart
+from perilune.analysis.documents.interactive.columns import has_enough_digits
 from tests.support.figures.read_marks import read_areas, read_collection, read_curve, read_dots, read_rule, read_steps
 from tests.support.figures.read_notes import read_note
 from tests.support.figures.read_ticks import read_axis

@@ -15,10 +15,10 @@ from matplotlib.patches import Circle, Patch, PathPatch, Polygon, Rectangle, Ste
 from matplotlib.path import Path
 from matplotlib.transforms import IdentityTransform, Transform
 
-from perilune.analysis.reports.chart.plot_lines import QuantityLine, TrialDots
-from perilune.analysis.reports.interactive.charts import Area, Curve, Dots, Marker, Rule
-from perilune.analysis.reports.interactive.columns import Coarse
-from perilune.analysis.reports.interactive.envelope import envelope
+from perilune.analysis.documents.chart.plot_lines import QuantityLine, TrialDots
+from perilune.analysis.documents.interactive.charts import Area, Curve, Dots, Marker, Rule
+from perilune.analysis.documents.interactive.columns import Coarse
+from perilune.analysis.documents.interactive.envelope import envelope
 from tests.support.figures.unstated import UnstatedError
 
 NOTHING = ("", "None", "none", " ", None)  # markers and line styles that draw nothing

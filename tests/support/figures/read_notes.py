@@ -9,7 +9,7 @@ from matplotlib.colors import to_hex, to_rgba
 from matplotlib.patches import BoxStyle
 from matplotlib.text import Annotation, Text
 
-from perilune.analysis.reports.interactive.charts import Backing, Note
+from perilune.analysis.documents.interactive.charts import Backing, Note
 from tests.support.figures.unstated import UnstatedError
 
 OF_AXES = {"data": False, "axes fraction": True}

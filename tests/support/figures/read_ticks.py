@@ -10,7 +10,7 @@ from matplotlib.axis import Axis as FigureAxis
 from matplotlib.axis import XAxis
 from matplotlib.ticker import FixedLocator
 
-from perilune.analysis.reports.interactive.charts import Axis
+from perilune.analysis.documents.interactive.charts import Axis
 from tests.support.figures.unstated import UnstatedError
 
 PLAIN = str.maketrans("\N{MINUS SIGN}⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789")

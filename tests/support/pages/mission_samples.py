@@ -5,7 +5,7 @@ Rows are half a second apart, 401 of them. Phase 1 to 20 s, 2 to 150 s, 4 to 180
 
 import numpy as np
 
-from perilune.analysis.reports.figures.declared import (
+from perilune.analysis.documents.figures.declared import (
     BoundValues,
     Budget,
     Curve,

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from perilune.analysis.reports.figures.declared import Band, Error, Pulses, Signal
+from perilune.analysis.documents.figures.declared import Band, Error, Pulses, Signal
 from perilune.analysis.runtime.ssp.conversions import Unit
 from tests.support.pages.samples import run_result
 

@@ -1,4 +1,4 @@
-"""Reader of the data embedded in a page for its scripts: the inverse of reports/interactive/columns.py."""
+"""Reader of the data embedded in a page for its scripts: the inverse of documents/interactive/columns.py."""
 
 import base64
 import json
@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from lxml import html
 
-from perilune.analysis.reports.interactive.bundles import read_bundle
-from perilune.analysis.reports.interactive.embedded import Embedded
+from perilune.analysis.documents.interactive.bundles import read_bundle
+from perilune.analysis.documents.interactive.embedded import Embedded
 
 
 def require_bundle(name):

@@ -10,7 +10,7 @@ from ....campaigns.columns import describe_metric
 from ....campaigns.definition.campaign import Campaign, Metric
 from ....campaigns.execute.results import BatchResult
 from ....campaigns.judged import worst_trial
-from ....reports.common.colours import Look, look
+from ...common.colours import Look, look
 from ..campaign.distributions import sort_metrics
 from ..campaign.replays import Replay
 from ..campaign.verdict_table import VerdictTable, verdict_table

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 from ....campaigns.draws.declared import input_names
 from ....campaigns.execute.results import BatchResult
-from ....reports.common.quantities import number
 from ....studies.sobol import rank_correlations
 from ...cell import Cell, Quantity
+from ...common.quantities import number
 from ...model import Figures, Missing, Node, Note, Section, Table
 from .content import Content
 from .scatters import failure_figures, outcome_marks

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from ....campaigns.definition.campaign import Metric
-from ....reports.common.colours import Look
-from ....reports.common.panels import PANEL_HEIGHT
 from ...cell import LegendEntry, Quantity
+from ...common.colours import Look
+from ...common.panels import PANEL_HEIGHT
 from ...model import Figure, Figures, ForScript, Missing, Node, Note, Section
 from ..campaign.distributions import CUMULATIVE, distribution_chart, metric_values
 from .content import Content

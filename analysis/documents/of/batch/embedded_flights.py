@@ -12,13 +12,13 @@ import numpy as np
 from .....common.errors import InputError
 from ....campaigns.execute.results import BatchResult
 from ....campaigns.folder.provenance import Provenance
-from ....reports.common.colours import COLOURS
-from ....reports.common.quantities import display_factor, display_unit
-from ....reports.common.signals import vector_of
-from ....reports.figures.reading import read_figures
-from ....reports.figures.scene.declared import Scene
-from ....reports.scene.flights import FlightsView, RecordedFlight, flights_view
-from ....reports.scene.poses import signals_of
+from ...common.colours import COLOURS
+from ...common.quantities import display_factor, display_unit
+from ...common.signals import vector_of
+from ...figures.reading import read_figures
+from ...figures.scene.declared import Scene
+from ...scene.flights import FlightsView, RecordedFlight, flights_view
+from ...scene.poses import signals_of
 from ..campaign.recorded_names import axis_of, is_real, names_of_record, unit_of
 from .recorded_flights import choose_flights, read_flights
 

@@ -11,8 +11,8 @@ import numpy as np
 from ....campaigns.draws.declared import input_names
 from ....campaigns.execute.results import BatchResult
 from ....commands.campaigns import replay_command, replay_of_folder
-from ....reports.common.quantities import display_factor, display_unit, number
-from ....reports.interactive.columns import Coarse
+from ...common.quantities import display_factor, display_unit, number
+from ...interactive.columns import Coarse
 
 NUMBER_LIMIT = 2_500_000  # in all, of draws and metrics
 EXACT_LIMIT = 200  # failures of a variant whose numbers are exact

@@ -7,10 +7,10 @@ from collections.abc import Collection
 import numpy as np
 
 from ....campaigns.execute.results import BatchResult
-from ....reports.common.colours import look
-from ....reports.scene.flights import RecordedFlight
-from ....reports.scene.view import FlightName
 from ....runtime.flight.results import Flight
+from ...common.colours import look
+from ...scene.flights import RecordedFlight
+from ...scene.view import FlightName
 
 FLIGHT_LIMIT = 40  # in a page, of all variants
 ROW_LIMIT = 500  # of a flight

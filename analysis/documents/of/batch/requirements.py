@@ -8,8 +8,8 @@ from ....campaigns.definition.campaign import Campaign
 from ....campaigns.requirement_verdicts import RequirementVerdict
 from ....campaigns.summary import Summary
 from ....campaigns.tables import bound_text, requirement_rows, unevaluated_text
-from ....reports.common.quantities import display_unit, in_display_unit, number
 from ...cell import Cell, Code, Head, Judged, Percentage, Phrase, Quantity, Row, RowHeading, RowNote, Strong
+from ...common.quantities import display_unit, in_display_unit, number
 from ...model import Node, Note, Section, Table
 from ..campaign.verdict_table import GRADES
 

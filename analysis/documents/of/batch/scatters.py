@@ -10,18 +10,18 @@ import numpy as np
 from ....campaigns.definition.campaign import Metric, Scatter
 from ....campaigns.draws.declared import input_names
 from ....campaigns.execute.results import BatchResult
-from ....reports.chart.axes import linear_axis
-from ....reports.chart.equal import Ends, to_scale
-from ....reports.chart.marks import dashed_circle
-from ....reports.chart.panel import POINTS
-from ....reports.chart.symbols import mark, marker
-from ....reports.chart.ticks import axis_ends
-from ....reports.chart.write_svg import TrialPositions
-from ....reports.common.colours import INK, VERMILION
-from ....reports.common.panels import PANEL_WIDTH
-from ....reports.common.quantities import display_factor, label_with_unit, number
-from ....reports.interactive.charts import NO_BOX, Chart, Dots
 from ...cell import Inline, LegendEntry, Quantity, Rich
+from ...chart.axes import linear_axis
+from ...chart.equal import Ends, to_scale
+from ...chart.marks import dashed_circle
+from ...chart.panel import POINTS
+from ...chart.symbols import mark, marker
+from ...chart.ticks import axis_ends
+from ...chart.write_svg import TrialPositions
+from ...common.colours import INK, VERMILION
+from ...common.panels import PANEL_WIDTH
+from ...common.quantities import display_factor, label_with_unit, number
+from ...interactive.charts import NO_BOX, Chart, Dots
 from ...model import Figure, Figures, Node, Note
 
 SIDE = 3.4  # in, of a panel over metrics

@@ -12,15 +12,15 @@ from .....common.percent import percent
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.execute.results import BatchResult
 from ....campaigns.verdicts.order_statistics import quantiles
-from ....reports.chart.axes import lane_axis, linear_axis, logarithmic_axis, ticked_axis
-from ....reports.chart.lines import line
-from ....reports.chart.panel import wide_figure
-from ....reports.chart.symbols import mark, marker, marks
-from ....reports.common.colours import INK, Look, look
-from ....reports.common.quantities import display_factor, label_with_unit
-from ....reports.font.text import text_width
-from ....reports.interactive.charts import NO_BOX, Chart, Drawing, Note
-from ....reports.interactive.measures import TICK_SIZE, WIDTH
+from ...chart.axes import lane_axis, linear_axis, logarithmic_axis, ticked_axis
+from ...chart.lines import line
+from ...chart.panel import wide_figure
+from ...chart.symbols import mark, marker, marks
+from ...common.colours import INK, Look, look
+from ...common.quantities import display_factor, label_with_unit
+from ...font.text import text_width
+from ...interactive.charts import NO_BOX, Chart, Drawing, Note
+from ...interactive.measures import TICK_SIZE, WIDTH
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -113,7 +113,7 @@ def metric_plot(batch: BatchResult, metrics: list[Metric]) -> Figure:
 
 def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], styles: Mapping[str, Look]) -> Figure:
     """Return a panel per metric with its numbers by label; each metric has those of all labels, in order."""
-    from ....reports.chart.plot import plot_charts  # which imports matplotlib
+    from ...chart.plot import plot_charts  # which imports matplotlib
 
     charts = [distribution_chart(metric, by_label, list(styles.values())) for metric, by_label in metrics.items()]
     columns = min(COLUMNS, len(charts))

@@ -9,9 +9,9 @@ from ....campaigns.definition.campaign import Metric
 from ....campaigns.statistics import QUANTILES, STATISTICS
 from ....campaigns.summary import SummaryRow
 from ....campaigns.tables import who_cells, who_heads
-from ....reports.common.colours import Look
-from ....reports.common.quantities import display_unit
 from ...cell import Cell, Code, Quantity, Row, RowHeading, Strong
+from ...common.colours import Look
+from ...common.quantities import display_unit
 from ...model import Fold, Missing, Node, Note, Table, Text
 from .variants import success_table, variant_cells, variant_heads
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ....campaigns.folder.provenance import Provenance
-from ....reports.common.signals import INDEXED, vector_of
 from ....runtime.ssp.names import split_name
+from ...common.signals import INDEXED, vector_of
 
 COMMANDS = ("thrust_acceleration", "thrust", "delivered_thrust", "thrust_angle", "throttle")
 DIRECTIONS = ("thrust_direction", "attitude")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ....campaigns.summary import Interval, Summary, SummaryRow, summary_rows
-from ....reports.common.colours import Look
 from ... import cell
 from ...cell import Cell, Head, LegendEntry, Percentage, Quantity
+from ...common.colours import Look
 from ...model import Table
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ....reports.common.colours import Look
-from ....reports.common.quantities import label_with_unit
 from ...cell import Cell, Head, Judged, Link, Percentage, Quantity, Rich, Strong, Track
+from ...common.colours import Look
+from ...common.quantities import label_with_unit
 from ...model import Node, Note, Table
 from .variants import interval_cell, interval_head, variant_cell
 from .verdict_table import JudgedMetric, VerdictRow, VerdictTable

@@ -12,7 +12,7 @@ from ....campaigns.compare.comparison import Comparison
 from ....campaigns.compare.paired import PairedRates, PairedValues
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.judged import MetricLimits, worst_row
-from ....reports.common.colours import Look
+from ...common.colours import Look
 from ..campaign.replays import Replay
 from ..campaign.verdict_table import VerdictTable, verdict_table
 from .distributions import looks_of, metric_distributions, sort_metrics

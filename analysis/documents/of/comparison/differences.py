@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from ....campaigns.compare.comparison import SUCCESS, Comparison
 from ....campaigns.compare.paired import PairedRates, PairedValues, holm_adjusted
-from ....reports.common.quantities import display_unit, in_display_unit, number
 from ...cell import Displayed, Inline
+from ...common.quantities import display_unit, in_display_unit, number
 from .pairs import PairGroup, PairRow, points
 
 LEVEL = 0.05

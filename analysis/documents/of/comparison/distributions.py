@@ -11,11 +11,11 @@ from scipy.stats import norm
 from ....campaigns.compare.comparison import Comparison
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.definition.expressions import Expression
-from ....reports.chart.lines import line
-from ....reports.common.colours import COLOURS, DASHES, INK, MARKERS, Look, look
-from ....reports.common.panels import PANEL_HEIGHT
-from ....reports.interactive.measures import FAILED_DASHES
 from ...cell import LegendEntry
+from ...chart.lines import line
+from ...common.colours import COLOURS, DASHES, INK, MARKERS, Look, look
+from ...common.panels import PANEL_HEIGHT
+from ...interactive.measures import FAILED_DASHES
 from ...model import Figure, Figures
 from ..campaign.distributions import CUMULATIVE, distribution_chart
 from ..campaign.recorded_names import variable_of

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ....reports.common.colours import Look
-from ....reports.common.quantities import MINUS
 from ...cell import Code, Inline, LegendEntry, Quantity
+from ...common.colours import Look
+from ...common.quantities import MINUS
 from ...model import Fold, Items, KeyNumbers, Missing, Node, Note, Repeat, Text
 from ..campaign.replays import anchors_of
 from ..campaign.verdicts import verdict_nodes

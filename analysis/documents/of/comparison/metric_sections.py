@@ -8,9 +8,9 @@ from functools import partial
 from ....campaigns.compare.comparison import Comparison, name_of
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.summary import SummaryRow
-from ....reports.common.colours import Look
-from ....reports.common.quantities import MINUS
 from ...cell import Cell, Code, Head, Percentage, Phrase, Quantity, Row, RowHeading, Strong, Track
+from ...common.colours import Look
+from ...common.quantities import MINUS
 from ...model import Figures, Fold, Group, Missing, Node, Note, Section, Table, Text
 from ..campaign.metrics import metric_table
 from ..campaign.variants import group_rows, interval_cell, variant_cells, variant_heads, variant_rows

@@ -9,8 +9,6 @@ from typing import Generic, Literal, TypeVar
 from ....campaigns.compare.comparison import Comparison, name_of
 from ....campaigns.compare.paired import PairedRates, PairedValues
 from ....campaigns.definition.campaign import Metric
-from ....reports.common.colours import Look
-from ....reports.common.quantities import MINUS, display_unit
 from ...cell import (
     Cell,
     Displayed,
@@ -26,6 +24,8 @@ from ...cell import (
     RowHeading,
     Strong,
 )
+from ...common.colours import Look
+from ...common.quantities import MINUS, display_unit
 from ...model import Table
 
 T = TypeVar("T", PairedRates, PairedValues)

@@ -13,8 +13,8 @@ from ....campaigns.compare.comparison import Comparison
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.summary import Interval as Ends
 from ....campaigns.summary import success_interval
-from ....reports.common.colours import Look
 from ...cell import Cell, Faint, Head, Interval, Lines, Percentage, Quantity, Row, RowHeading, Strong
+from ...common.colours import Look
 from ...model import Table
 from ..campaign.recorded_names import RATIO
 from ..campaign.variants import variant_cell

@@ -19,13 +19,13 @@ from ....design.laws.expression_tree import (
 )
 from ....design.laws.law import Law
 from ....design.laws.layers import Edge, Layout
-from ....reports.chart.lines import line
-from ....reports.chart.marks import outline, rectangle
-from ....reports.chart.symbols import BARB, arrow, mark, marker
-from ....reports.common.colours import BLUE, FAINT, INK, VERMILION
-from ....reports.common.quantities import MINUS
-from ....reports.font.text import text_width
-from ....reports.interactive.charts import Area, Axis, Backing, Chart, Curve, Note
+from ...chart.lines import line
+from ...chart.marks import outline, rectangle
+from ...chart.symbols import BARB, arrow, mark, marker
+from ...common.colours import BLUE, FAINT, INK, VERMILION
+from ...common.quantities import MINUS
+from ...font.text import text_width
+from ...interactive.charts import Area, Axis, Backing, Chart, Curve, Note
 from ...model import Diagram
 
 INCH = 72.0  # pt

@@ -11,16 +11,16 @@ import numpy as np
 from ....design.trajectories.landing_study import LandingStudy
 from ....design.trajectories.path import PlannedPath
 from ....design.transfers.hover_study import Curve, HoverStudy
-from ....reports.chart.axes import linear_axis
-from ....reports.chart.equal import Ends, to_scale
-from ....reports.chart.lines import line
-from ....reports.chart.symbols import arrow, mark, marker
-from ....reports.chart.ticks import axis_ends
-from ....reports.common.colours import FAINT, INK, Look, look
-from ....reports.common.panels import HALF_WIDTH, PANEL_HEIGHT, far
-from ....reports.common.quantities import number
-from ....reports.interactive import charts
-from ....reports.interactive.charts import NO_BOX, Axis, Chart, Note
+from ...chart.axes import linear_axis
+from ...chart.equal import Ends, to_scale
+from ...chart.lines import line
+from ...chart.symbols import arrow, mark, marker
+from ...chart.ticks import axis_ends
+from ...common.colours import FAINT, INK, Look, look
+from ...common.panels import HALF_WIDTH, PANEL_HEIGHT, far
+from ...common.quantities import number
+from ...interactive import charts
+from ...interactive.charts import NO_BOX, Axis, Chart, Note
 from ...model import Figure
 
 POINTS = 72.0  # in an inch

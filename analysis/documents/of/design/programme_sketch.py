@@ -8,15 +8,15 @@ from dataclasses import replace
 import numpy as np
 
 from ....design.transfers.programme import Programme
-from ....reports.chart.axes import linear_axis
-from ....reports.chart.lines import line
-from ....reports.chart.marks import during, instant, level
-from ....reports.chart.symbols import mark, marker
-from ....reports.chart.ticks import axis_ends
-from ....reports.common.colours import BLUE, FAINT, INK, SKY, VERMILION
-from ....reports.common.quantities import number
-from ....reports.interactive.charts import NO_BOX, Backing, Chart, Curve, Note
-from ....reports.interactive.measures import TICK_SIZE
+from ...chart.axes import linear_axis
+from ...chart.lines import line
+from ...chart.marks import during, instant, level
+from ...chart.symbols import mark, marker
+from ...chart.ticks import axis_ends
+from ...common.colours import BLUE, FAINT, INK, SKY, VERMILION
+from ...common.quantities import number
+from ...interactive.charts import NO_BOX, Backing, Chart, Curve, Note
+from ...interactive.measures import TICK_SIZE
 from ...model import Figure
 
 HEIGHT = 3.4  # in

@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from .....fmus_src.roles import STATUS
-from ....reports.common.quantities import display_unit
-from ....reports.common.signals import axes_of, distinct, signal_groups
 from ....runtime.flight.results import Result
 from ....runtime.ssp.types import WHOLE
 from ...cell import Cell, Faint, Phrase, Quantity, Vector
+from ...common.quantities import display_unit
+from ...common.signals import axes_of, distinct, signal_groups
 from ...model import Missing, Node, Table
 
 MOST_KEYS = 12  # final values listed where no signal has a known name

@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ....campaigns.verdicts.order_statistics import quantiles
-from ....reports.chart.axes import bare_axis, linear_axis, named_axis
-from ....reports.chart.quantity import quantity_curve
-from ....reports.chart.ticks import axis_ends
-from ....reports.common.colours import FAINT, look
-from ....reports.common.quantities import display_factor, display_unit, label_with_unit, number
-from ....reports.common.signals import (
+from ....runtime.flight.results import Result
+from ....runtime.ssp.names import elements
+from ...cell import Inline, LegendEntry, Quantity, Rich
+from ...chart.axes import bare_axis, linear_axis, named_axis
+from ...chart.quantity import quantity_curve
+from ...chart.ticks import axis_ends
+from ...common.colours import FAINT, look
+from ...common.quantities import display_factor, display_unit, label_with_unit, number
+from ...common.signals import (
     SignalGroup,
     axes_of,
     displayed_name,
@@ -23,11 +26,8 @@ from ....reports.common.signals import (
     signal_groups,
     states_and_commands,
 )
-from ....reports.interactive.charts import NO_BOX, Chart
-from ....reports.interactive.charts import Note as Annotation
-from ....runtime.flight.results import Result
-from ....runtime.ssp.names import elements
-from ...cell import Inline, LegendEntry, Quantity, Rich
+from ...interactive.charts import NO_BOX, Chart
+from ...interactive.charts import Note as Annotation
 from ...model import Figure, Figures, Group, Items, Node, Note
 from .figures.words import join
 
@@ -229,7 +229,7 @@ def signal_plot(result: Result, names: Sequence[str]) -> Drawing:
 
     Raises KeyError for an unknown name.
     """
-    from ....reports.chart.plot import plot_charts  # which imports matplotlib
+    from ...chart.plot import plot_charts  # which imports matplotlib
 
     charts, titles, legends = [], [], []
     for name in names:

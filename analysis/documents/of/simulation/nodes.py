@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ....reports.figures.declared import Figure
 from ....runtime.flight.results import Result
+from ...figures.declared import Figure
 from ...model import Figures, Fold, Group, Node, Note, Text
 from .figures.groups import figure_sections, joint_findings
 from .histories import time_histories

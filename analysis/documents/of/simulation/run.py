@@ -6,14 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ....reports.diagram.diagram import Diagram
-from ....reports.figures.declared import Figure
-from ....reports.figures.scene.declared import Scene as SceneDeclared
-from ....reports.scene.notes import scene_notes
-from ....reports.scene.picture import draw_ends
-from ....reports.scene.view import scene_view
 from ....runtime.flight.results import Result
 from ...cell import Code, Digest, Quantity
+from ...diagram.diagram import Diagram
+from ...figures.declared import Figure
+from ...figures.scene.declared import Scene as SceneDeclared
 from ...model import (
     Blocks,
     Document,
@@ -32,6 +29,9 @@ from ...model import (
     Text,
     Verdict,
 )
+from ...scene.notes import scene_notes
+from ...scene.picture import draw_ends
+from ...scene.view import scene_view
 from .figures.groups import figure_groups, joint_findings
 from .figures.limits import Verdict as LimitVerdict
 from .figures.limits import limit_document

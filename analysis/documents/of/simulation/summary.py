@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ....reports.figures.declared import Band, Figure, Limits
 from ....runtime.flight.results import Result
 from ...cell import Cell, Vector
+from ...figures.declared import Band, Figure, Limits
 from ...model import Node, Plot, Table, Text
 from .figures.limits import limit_rows
 from .final_values import key_values

@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....reports.chart.ticks import axis_ticks
-from ....reports.common.colours import FAINT, INK
-from ....reports.common.quantities import number
-from ....reports.font.text import text_width
-from ....reports.interactive.charts import Chart, Note
-from ....reports.interactive.measures import TICK_SIZE
+from ...chart.ticks import axis_ticks
+from ...common.colours import FAINT, INK
+from ...common.quantities import number
+from ...font.text import text_width
+from ...interactive.charts import Chart, Note
+from ...interactive.measures import TICK_SIZE
 
 INTERVALS = 8  # between marks, at most
 LAST = 0.6  # of an interval before the end, from which on no time is marked

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....reports.chart.panel import POINTS
-from ....reports.common.colours import FAINT
-from ....reports.common.panels import HALF_WIDTH
-from ....reports.common.quantities import number
-from ....reports.common.round_body import altitude_over, radius_of, track_angles
-from ....reports.common.signals import SignalGroup, position_groups
-from ....reports.interactive.charts import Note
-from ....reports.interactive.measures import TICK_SIZE
 from ....runtime.flight.results import Result
 from ...cell import LegendEntry
+from ...chart.panel import POINTS
+from ...common.colours import FAINT
+from ...common.panels import HALF_WIDTH
+from ...common.quantities import number
+from ...common.round_body import altitude_over, radius_of, track_angles
+from ...common.signals import SignalGroup, position_groups
+from ...interactive.charts import Note
+from ...interactive.measures import TICK_SIZE
 from ...model import Figure
 from .figures.section import legend_of
 from .trajectory_chart import View, view_chart
@@ -49,7 +49,7 @@ def trajectory_plot(result: Result) -> Drawing | None:
     views = _views(result)
     if not views:
         return None
-    from ....reports.chart.plot import plot_charts  # which imports matplotlib
+    from ...chart.plot import plot_charts  # which imports matplotlib
 
     charts, titles = [], []
     for view in views:

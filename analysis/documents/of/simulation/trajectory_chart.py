@@ -8,16 +8,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....reports.chart.axes import linear_axis
-from ....reports.chart.equal import Ends, to_scale
-from ....reports.chart.layout import axes_size, lay_out, lay_out_fluid
-from ....reports.chart.marks import across, level
-from ....reports.chart.quantity import quantity_curve
-from ....reports.chart.symbols import marker, marks
-from ....reports.chart.ticks import axis_ends
-from ....reports.common.colours import GRID, INK, look
-from ....reports.common.panels import far
-from ....reports.interactive.charts import NO_BOX, Chart, Curve
+from ...chart.axes import linear_axis
+from ...chart.equal import Ends, to_scale
+from ...chart.layout import axes_size, lay_out, lay_out_fluid
+from ...chart.marks import across, level
+from ...chart.quantity import quantity_curve
+from ...chart.symbols import marker, marks
+from ...chart.ticks import axis_ends
+from ...common.colours import GRID, INK, look
+from ...common.panels import far
+from ...interactive.charts import NO_BOX, Chart, Curve
 from .times_on_path import mark_rows, time_notes
 
 MAXIMUM_RATIO = 4.0  # of the ranges of both axes, up to which their scales are equal

@@ -10,16 +10,16 @@ from functools import partial
 
 import numpy as np
 
-from ....reports.chart.axes import linear_axis
-from ....reports.chart.equal import Ends, to_scale
-from ....reports.chart.panel import POINTS
-from ....reports.common.panels import PANEL_WIDTH
-from ....reports.common.quantities import number
-from ....reports.interactive.charts import Chart
 from ....stability.loops.margin_values import MARGINS, UNSTABLE
 from ....stability.loops.readings import decibels
 from ....stability.results.report import JointReport, LoopReport, StabilityReport
 from ....stability.results.varied import SweepReport
+from ...chart.axes import linear_axis
+from ...chart.equal import Ends, to_scale
+from ...chart.panel import POINTS
+from ...common.panels import PANEL_WIDTH
+from ...common.quantities import number
+from ...interactive.charts import Chart
 from ...model import Figure
 from .charts.bode import bode_charts
 from .charts.frequency import Limits, margin_words, sensitivity_chart

@@ -1,6 +1,6 @@
 """How to read the figures and tables of a loop."""
 
-from ....reports.common.quantities import MINUS
+from ...common.quantities import MINUS
 
 HOW_TO_READ = (
     "Frequencies are angular, in rad/s, up to the Nyquist frequency of the loop's sample period. Lines are L; small "

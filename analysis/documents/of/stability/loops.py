@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ....reports.common.quantities import MINUS, display_unit
 from ....stability.results.report import LoopReport, StabilityReport
 from ...cell import Faint
+from ...common.quantities import MINUS, display_unit
 from ...model import Figure, Figures, Fold, Group, Items, Missing, Node, Note, Repeat, Text, Tile, Tiles
 from .figures import SIGHT, figures_by_part
 from .how_to_read import HOW_TO_READ

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from ....reports.common.quantities import NONE
 from ....stability.results.report import StabilityReport
 from ...cell import Cell, Digest, Inline, Phrase
+from ...common.quantities import NONE
 from ...model import Fold, Group, Items, KeyNumbers, Missing, Node, Note, Table
 from .margins import SCOPES
 from .words import fold_long, limit, numbers, numeral

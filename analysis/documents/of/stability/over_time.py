@@ -8,20 +8,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ....reports.chart.axes import linear_axis
-from ....reports.chart.lines import line
-from ....reports.chart.marks import across, level
-from ....reports.chart.symbols import marker, marks
-from ....reports.chart.ticks import axis_ends
-from ....reports.common.colours import COLOURS, INK, VERMILION, Look, look
-from ....reports.common.panels import PANEL_HEIGHT
-from ....reports.common.quantities import number
-from ....reports.interactive import charts
-from ....reports.interactive.charts import NO_BOX, Chart, Curve
 from ....stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from ....stability.loops.readings import decibels
 from ....stability.results.report import LoopReport, StabilityReport
 from ...cell import LegendEntry
+from ...chart.axes import linear_axis
+from ...chart.lines import line
+from ...chart.marks import across, level
+from ...chart.symbols import marker, marks
+from ...chart.ticks import axis_ends
+from ...common.colours import COLOURS, INK, VERMILION, Look, look
+from ...common.panels import PANEL_HEIGHT
+from ...common.quantities import number
+from ...interactive import charts
+from ...interactive.charts import NO_BOX, Chart, Curve
 from ...model import Figure, Figures, Node, Note
 from .charts.frequency import FORBIDDEN, WHITE
 from .shared import together

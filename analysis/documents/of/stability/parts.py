@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ....reports.common.quantities import MINUS, NONE, display_unit, label_with_unit
 from ....stability.loops.margin_values import MARGINS
 from ....stability.results.report import LoopReport
 from ....stability.results.responses import Mode, Nonlinearity
 from ....stability.results.varied import LEVELS, Dispersion
 from ...cell import Cell, Head, Rich
+from ...common.quantities import MINUS, NONE, display_unit, label_with_unit
 from ...model import Figure, Table
 from .words import (
     NO_CROSSING,

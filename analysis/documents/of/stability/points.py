@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ....reports.common.quantities import display_unit
 from ....stability.results.report import PointReport
 from ...cell import Cell, Inline, Phrase
+from ...common.quantities import display_unit
 from ...model import Fold, Missing, Node, Note, Table
 from .words import fold_long, names, numbers, numeral, per_cent, sentences
 

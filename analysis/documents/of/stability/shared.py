@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from ....reports.chart.panel import POINTS
-from ....reports.common.panels import HALF_WIDTH, PANEL_WIDTH
-from ....reports.interactive.charts import Axis, Chart
 from ....stability.results.report import LoopReport
+from ...chart.panel import POINTS
+from ...common.panels import HALF_WIDTH, PANEL_WIDTH
+from ...interactive.charts import Axis, Chart
 from ...model import Figure
 
 TOLERANCE = 0.5  # pt; lines of responses are 1.3 pt wide

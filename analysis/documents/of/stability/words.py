@@ -11,12 +11,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ....reports.common.quantities import MINUS, NONE, display_unit, number
 from ....stability.loops.margin_values import UNSTABLE, Margins
 from ....stability.loops.readings import decibel_size, decibels, degree_size
 from ....stability.results.report import LoopReport
 from ....stability.results.requirement import Requirement, Verdict
 from ...cell import Cell, Displayed, Head, Inline, Judged, Phrase, Quantity, Rich, Strong
+from ...common.quantities import MINUS, NONE, display_unit, number
 from ...model import Fold, Node, Table
 
 NO_CROSSING = "none (no crossing)"

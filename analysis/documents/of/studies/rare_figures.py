@@ -9,18 +9,18 @@ from itertools import combinations
 import numpy as np
 
 from ....campaigns.verdicts.order_statistics import quantiles
-from ....reports.chart import marks as shapes
-from ....reports.chart.axes import fine_axis, lane_axis, linear_axis
-from ....reports.chart.lines import line
-from ....reports.chart.symbols import mark, marker, marks
-from ....reports.chart.ticks import axis_ends
-from ....reports.common.colours import BLUE, FAINT, INK, VERMILION
-from ....reports.common.quantities import display_factor, label_with_unit, number
-from ....reports.interactive.charts import NO_BOX, Backing, Chart, Note
 from ....studies.rare.interpretation import Equivalent, equivalents, influence, level_spans
 from ....studies.rare.outcome import RareResult
 from ....studies.rare.uncertainty import CONFIDENCE
 from ...cell import LegendEntry
+from ...chart import marks as shapes
+from ...chart.axes import fine_axis, lane_axis, linear_axis
+from ...chart.lines import line
+from ...chart.symbols import mark, marker, marks
+from ...chart.ticks import axis_ends
+from ...common.colours import BLUE, FAINT, INK, VERMILION
+from ...common.quantities import display_factor, label_with_unit, number
+from ...interactive.charts import NO_BOX, Backing, Chart, Note
 from ...model import Figure
 
 GREY = "#9a9a9a"

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ....reports.common.quantities import label_with_unit, number
 from ....studies.sensitivity import SensitivityResult
 from ....studies.sobol import CONFIDENCE
 from ...cell import Cell, Interval, Quantity
+from ...common.quantities import label_with_unit, number
 from ...model import Document, Figures, Fold, KeyNumbers, Node, Note, Section, Table, Text, Verdict
 from .conditions import closing_sections, condition_nodes, condition_of
 from .sensitivity_figures import MOST, bars_of, index_figures

@@ -9,14 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....reports.chart.axes import lane_axis, linear_axis
-from ....reports.chart.lines import line
-from ....reports.chart.marks import instant, rectangle
-from ....reports.chart.symbols import marker
-from ....reports.common.colours import BLUE, INK, SKY
-from ....reports.interactive.charts import NO_BOX, Chart
-from ....reports.interactive.measures import TICK_SIZE
 from ....studies.sensitivity import SensitivityResult
+from ...chart.axes import lane_axis, linear_axis
+from ...chart.lines import line
+from ...chart.marks import instant, rectangle
+from ...chart.symbols import marker
+from ...common.colours import BLUE, INK, SKY
+from ...interactive.charts import NO_BOX, Chart
+from ...interactive.measures import TICK_SIZE
 from ...model import Figure
 
 MOST = 12  # parameters of a panel, those with the largest total index

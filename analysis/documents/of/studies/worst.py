@@ -13,12 +13,12 @@ from ....campaigns.definition.plan import BatchPlan
 from ....campaigns.draws.declared import input_names
 from ....campaigns.draws.given import GivenDraws, part_streams, stream_component
 from ....campaigns.execute.flyer import Flyer
-from ....reports.common.quantities import label_with_unit
-from ....reports.figures.declared import Figure
-from ....reports.figures.reading import read_figures
 from ....runtime.flight.results import Result
 from ....studies.worst.outcome import WorstResult
 from ...cell import Cell, Code, Quantity, Rich
+from ...common.quantities import label_with_unit
+from ...figures.declared import Figure
+from ...figures.reading import read_figures
 from ...model import Document, Figures, Medium, Node, Note, Only, Section, Table, Text, Verdict
 from ..simulation.nodes import simulation_nodes
 from .conditions import closing_sections, condition_nodes, condition_of

@@ -9,16 +9,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....reports.chart.axes import lane_axis, linear_axis, ticked_axis
-from ....reports.chart.lines import line
-from ....reports.chart.marks import instant, outline, rectangle
-from ....reports.chart.symbols import mark, marker, marks
-from ....reports.chart.ticks import axis_ends
-from ....reports.common.colours import BLUE, FAINT, GRID, INK, VERMILION, Look
-from ....reports.common.quantities import display_factor, label_with_unit, number
-from ....reports.interactive.charts import NO_BOX, Chart, Note, Rule
 from ....studies.worst.outcome import WorstResult
 from ...cell import LegendEntry
+from ...chart.axes import lane_axis, linear_axis, ticked_axis
+from ...chart.lines import line
+from ...chart.marks import instant, outline, rectangle
+from ...chart.symbols import mark, marker, marks
+from ...chart.ticks import axis_ends
+from ...common.colours import BLUE, FAINT, GRID, INK, VERMILION, Look
+from ...common.quantities import display_factor, label_with_unit, number
+from ...interactive.charts import NO_BOX, Chart, Note, Rule
 from ...model import Figure
 from .rare_figures import DASHED, DOTTED, GREY, HEIGHT, curve_legend, number_above
 from .worst_points import Lane, Objective, box_lanes, objective_of, select_values

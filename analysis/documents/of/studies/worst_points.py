@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ....campaigns.verdicts.order_statistics import quantiles
-from ....reports.common.quantities import display_factor, label_with_unit
 from ....studies.worst.objective import MOST
 from ....studies.worst.outcome import WorstResult
+from ...common.quantities import display_factor, label_with_unit
 
 CUT = 0.02  # of the simulations, those farthest from the worst may lie outside of an axis
 

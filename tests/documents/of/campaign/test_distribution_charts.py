@@ -15,12 +15,12 @@ from scipy.stats import binomtest
 
 from perilune.analysis.campaigns.definition.campaign import Metric
 from perilune.analysis.campaigns.definition.expressions import Expression
+from perilune.analysis.documents.chart.svg.fluid import POINT
+from perilune.analysis.documents.common.colours import look
+from perilune.analysis.documents.font.text import text_width
 from perilune.analysis.documents.of.campaign.distributions import distribution_chart, rates_chart
-from perilune.analysis.reports.chart.svg.fluid import POINT
-from perilune.analysis.reports.common.colours import look
-from perilune.analysis.reports.font.text import text_width
-from tests.reports.chart.matplotlib_distributions import read_distribution
-from tests.reports.chart.test_history_charts import plain
+from tests.documents.chart.matplotlib_distributions import read_distribution
+from tests.documents.chart.test_history_charts import plain
 from tests.support.pages.samples import batch_result
 
 STYLES = [look(0), look(1)]

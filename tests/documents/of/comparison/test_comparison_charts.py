@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from perilune.analysis.documents.common.panels import PANEL_WIDTH
+from perilune.analysis.documents.common.style import FAINT, INK, look
 from perilune.analysis.documents.of.comparison.flights.band_figures import band_chart, frame_of, overlaid_bands
 from perilune.analysis.documents.of.comparison.flights.bands import LEVELS, bands_of
 from perilune.analysis.documents.of.comparison.flights.end_figures import (
@@ -22,10 +24,8 @@ from perilune.analysis.documents.of.comparison.flights.ends import Ends
 from perilune.analysis.documents.of.comparison.flights.recorded import Flight, Quantity
 from perilune.analysis.documents.of.comparison.flights.trajectories import Bundle, Path
 from perilune.analysis.documents.of.comparison.flights.trajectory_figures import plan_figures, side_figures
-from perilune.analysis.reports.common.panels import PANEL_WIDTH
-from perilune.analysis.reports.common.style import FAINT, INK, look
-from tests.reports.chart.matplotlib_bands import read_bands
-from tests.reports.chart.test_history_charts import plain
+from tests.documents.chart.matplotlib_bands import read_bands
+from tests.documents.chart.test_history_charts import plain
 
 STYLES = {"one": look(0), "two": look(1)}
 ENDS = (-20.0, 20.0)

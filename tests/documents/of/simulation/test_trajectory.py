@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from perilune.analysis.documents.font.text import text_width
 from perilune.analysis.documents.of.simulation.times_on_path import mark_rows
 from perilune.analysis.documents.of.simulation.trajectory import trajectory_plot
 from perilune.analysis.documents.of.simulation.trajectory_chart import View, view_chart
-from perilune.analysis.reports.font.text import text_width
 from tests.support.documents.subsections import trajectory_panels
 from tests.support.pages.samples import run_result
 

@@ -17,7 +17,7 @@ import perilune
 from docs.reference.formats.pages import format_pages
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import read_run
-from perilune.analysis.reports.figures.signal_reader import SignalReader
+from perilune.analysis.documents.figures.signal_reader import SignalReader
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError
 from tests.support.builders import (

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .....reports.chart.axes import linear_axis
-from .....reports.chart.lines import line
-from .....reports.chart.marks import band_areas, level, note_above
-from .....reports.common.colours import FAINT, INK, Look
-from .....reports.common.panels import far
-from .....reports.common.quantities import display_factor, display_unit, number
-from .....reports.interactive.charts import NO_BOX, Area, Chart, Curve
-from .....reports.interactive.measures import FAILED_DASHES
+from ....chart.axes import linear_axis
+from ....chart.lines import line
+from ....chart.marks import band_areas, level, note_above
+from ....common.colours import FAINT, INK, Look
+from ....common.panels import far
+from ....common.quantities import display_factor, display_unit, number
+from ....interactive.charts import NO_BOX, Area, Chart, Curve
+from ....interactive.measures import FAILED_DASHES
 from ....model import Figure
 from .bands import Bands, expectation
 from .recorded import ALL, Quantity

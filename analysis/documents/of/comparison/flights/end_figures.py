@@ -10,17 +10,17 @@ from functools import partial
 import numpy as np
 
 from .....campaigns.verdicts.order_statistics import quantiles
-from .....reports.chart.axes import linear_axis
-from .....reports.chart.equal import Ends as Pair
-from .....reports.chart.equal import to_scale
-from .....reports.chart.lines import line
-from .....reports.chart.marks import note_above
-from .....reports.chart.panel import POINTS
-from .....reports.chart.symbols import arrow, mark, marker, marks
-from .....reports.common.colours import FAINT, INK, Look
-from .....reports.common.panels import PANEL_WIDTH, far
-from .....reports.common.quantities import number
-from .....reports.interactive.charts import NO_BOX, Chart, Curve
+from ....chart.axes import linear_axis
+from ....chart.equal import Ends as Pair
+from ....chart.equal import to_scale
+from ....chart.lines import line
+from ....chart.marks import note_above
+from ....chart.panel import POINTS
+from ....chart.symbols import arrow, mark, marker, marks
+from ....common.colours import FAINT, INK, Look
+from ....common.panels import PANEL_WIDTH, far
+from ....common.quantities import number
+from ....interactive.charts import NO_BOX, Chart, Curve
 from ....model import Figure
 from .ends import UNITS, Ends, ellipse, select_ends
 from .recorded import ALL

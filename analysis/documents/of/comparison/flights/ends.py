@@ -9,8 +9,8 @@ import numpy as np
 
 from .....campaigns.compare.comparison import Contender
 from .....campaigns.verdicts.order_statistics import quantiles
-from .....reports.common.colours import Look
 from ....cell import Cell, Head, Quantity
+from ....common.colours import Look
 from ....model import Table
 from ...campaign.recorded_names import LETTERS, AxisNames, axes_of, find_vector, variable_of, vectors
 from ...campaign.variants import variant_cell

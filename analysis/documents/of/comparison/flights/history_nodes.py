@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-from .....reports.common.colours import Look
 from ....cell import Quantity
+from ....common.colours import Look
 from ....model import Figure, Figures, Group, Node, Note
 from ..distributions import overlaid_figures
 from .band_figures import band_figures, overlaid_bands

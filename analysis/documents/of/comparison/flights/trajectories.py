@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .....campaigns.compare.comparison import Contender
-from .....reports.common.round_body import downrange, radius_of
-from .....reports.common.signals import displayed_name
+from ....common.round_body import downrange, radius_of
+from ....common.signals import displayed_name
 from ...campaign.recorded_names import (
     LETTERS,
     AxisNames,

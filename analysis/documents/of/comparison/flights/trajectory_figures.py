@@ -8,16 +8,16 @@ from functools import partial
 
 import numpy as np
 
-from .....reports.chart.axes import linear_axis
-from .....reports.chart.equal import Ends, to_scale
-from .....reports.chart.lines import line
-from .....reports.chart.marks import across, instant, level, note_above
-from .....reports.chart.panel import POINTS
-from .....reports.chart.symbols import mark
-from .....reports.common.colours import GRID, INK, Look
-from .....reports.common.panels import PANEL_HEIGHT, PANEL_WIDTH, far
-from .....reports.interactive.charts import NO_BOX, Axis, Chart, Curve
-from .....reports.interactive.measures import FAILED_DASHES
+from ....chart.axes import linear_axis
+from ....chart.equal import Ends, to_scale
+from ....chart.lines import line
+from ....chart.marks import across, instant, level, note_above
+from ....chart.panel import POINTS
+from ....chart.symbols import mark
+from ....common.colours import GRID, INK, Look
+from ....common.panels import PANEL_HEIGHT, PANEL_WIDTH, far
+from ....interactive.charts import NO_BOX, Axis, Chart, Curve
+from ....interactive.measures import FAILED_DASHES
 from ....model import Figure
 from .end_figures import TARGET
 from .trajectories import Bundle, Path

@@ -6,16 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from .....reports.chart.axes import linear_axis, logarithmic_axis
-from .....reports.chart.marks import across, during, instant, level
-from .....reports.chart.quantity import quantity_curve
-from .....reports.chart.ticks import axis_ends
-from .....reports.common.colours import FAINT, GREEN, INK
-from .....reports.common.quantities import display_factor, display_unit
-from .....reports.figures.declared import Band, Signal
-from .....reports.interactive.charts import NO_BOX, Chart
 from .....runtime.flight.results import Result
 from ....cell import Inline, Quantity
+from ....chart.axes import linear_axis, logarithmic_axis
+from ....chart.marks import across, during, instant, level
+from ....chart.quantity import quantity_curve
+from ....chart.ticks import axis_ends
+from ....common.colours import FAINT, GREEN, INK
+from ....common.quantities import display_factor, display_unit
+from ....figures.declared import Band, Signal
+from ....interactive.charts import NO_BOX, Chart
 from ....model import Group
 from .section import displayed, figure_group, history_figure, legend_of, time_chart
 from .words import join, seconds, sentence, value_range

@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .....reports.figures.declared import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses, Unavailable
-from .....reports.figures.declared import Group as DeclaredGroup
-from .....reports.figures.scene.declared import Scene
 from .....runtime.flight.results import Result
 from ....cell import Inline, Rich
+from ....figures.declared import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses, Unavailable
+from ....figures.declared import Group as DeclaredGroup
+from ....figures.scene.declared import Scene
 from ....model import Group, Table
 from .band_figure import band_section, inside, settling_text
 from .history_figures import curve_section, error_section

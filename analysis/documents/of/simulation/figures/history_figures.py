@@ -8,15 +8,15 @@ import numpy as np
 from scipy.special import ndtr
 
 from ......common.percent import short_percent
-from .....reports.chart.marks import band_areas, level
-from .....reports.chart.quantity import quantity_curve
-from .....reports.chart.ticks import axis_ends
-from .....reports.common.colours import FAINT, ORANGE
-from .....reports.common.quantities import display_factor, display_unit
-from .....reports.figures.declared import Curve, Error
-from .....reports.interactive.charts import Chart
 from .....runtime.flight.results import Result
 from ....cell import Displayed, Inline, Quantity, Rich
+from ....chart.marks import band_areas, level
+from ....chart.quantity import quantity_curve
+from ....chart.ticks import axis_ends
+from ....common.colours import FAINT, ORANGE
+from ....common.quantities import display_factor, display_unit
+from ....figures.declared import Curve, Error
+from ....interactive.charts import Chart
 from ....model import Figure, Group
 from .section import displayed, figure_group, history_figure, legend_of, select_rows, time_chart
 from .words import capital, condition_text, join, seconds, sentence

@@ -7,10 +7,10 @@ from enum import StrEnum
 from math import isfinite
 from typing import Any
 
-from .....reports.common.quantities import NONE, display_unit
-from .....reports.figures.declared import Figure, Limit, Limits, Unavailable
 from .....runtime.flight.results import Flight
 from ....cell import Cell, Grade, Judged, Quantity
+from ....common.quantities import NONE, display_unit
+from ....figures.declared import Figure, Limit, Limits, Unavailable
 from ....render.words import cell_text
 from .words import value_range
 

@@ -8,20 +8,20 @@ from functools import partial
 
 import numpy as np
 
-from .....reports.chart.axes import linear_axis
-from .....reports.chart.equal import Ends, to_scale
-from .....reports.chart.marks import level
-from .....reports.chart.panel import POINTS
-from .....reports.chart.quantity import quantity_curve
-from .....reports.chart.symbols import marker, marks
-from .....reports.chart.ticks import axis_ends
-from .....reports.common.colours import BLUE, INK, look
-from .....reports.common.panels import HALF_WIDTH, far
-from .....reports.common.quantities import display_unit, label_with_unit
-from .....reports.figures.declared import Arc, Path, Signal
-from .....reports.interactive.charts import NO_BOX, Chart, Curve, Marker
 from .....runtime.flight.results import Result
 from ....cell import Inline, LegendEntry
+from ....chart.axes import linear_axis
+from ....chart.equal import Ends, to_scale
+from ....chart.marks import level
+from ....chart.panel import POINTS
+from ....chart.quantity import quantity_curve
+from ....chart.symbols import marker, marks
+from ....chart.ticks import axis_ends
+from ....common.colours import BLUE, INK, look
+from ....common.panels import HALF_WIDTH, far
+from ....common.quantities import display_unit, label_with_unit
+from ....figures.declared import Arc, Path, Signal
+from ....interactive.charts import NO_BOX, Chart, Curve, Marker
 from ....model import Figure, Group
 from .section import figure_group, select_rows
 from .words import condition_text, sentence

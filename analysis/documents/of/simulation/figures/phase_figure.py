@@ -8,15 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .....reports.chart.axes import lane_axis, linear_axis
-from .....reports.chart.marks import SQUARE, instant
-from .....reports.common.colours import BLUE, INK, VERMILION
-from .....reports.common.quantities import display_unit, label_with_unit, number
-from .....reports.figures.declared import BoundValues, Budget, Item, Phase, Phases
-from .....reports.interactive.charts import NO_BOX, Area, Chart, Note
-from .....reports.interactive.measures import TICK_SIZE
 from .....runtime.flight.results import Flight, Result
 from ....cell import Cell, Inline, Quantity, Rich
+from ....chart.axes import lane_axis, linear_axis
+from ....chart.marks import SQUARE, instant
+from ....common.colours import BLUE, INK, VERMILION
+from ....common.quantities import display_unit, label_with_unit, number
+from ....figures.declared import BoundValues, Budget, Item, Phase, Phases
+from ....interactive.charts import NO_BOX, Area, Chart, Note
+from ....interactive.measures import TICK_SIZE
 from ....model import Figure, Group, Table
 from .section import align, figure_group
 from .words import seconds

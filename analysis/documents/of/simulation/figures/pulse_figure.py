@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from .....reports.chart.marks import level
-from .....reports.chart.quantity import quantity_curve
-from .....reports.chart.ticks import axis_ends
-from .....reports.common.colours import BLUE, FAINT, VERMILION
-from .....reports.common.quantities import label_with_unit, number
-from .....reports.figures.declared import Pulses
-from .....reports.interactive.charts import Area, Chart
 from .....runtime.flight.results import Result
 from ....cell import Inline, Quantity
+from ....chart.marks import level
+from ....chart.quantity import quantity_curve
+from ....chart.ticks import axis_ends
+from ....common.colours import BLUE, FAINT, VERMILION
+from ....common.quantities import label_with_unit, number
+from ....figures.declared import Pulses
+from ....interactive.charts import Area, Chart
 from ....model import Figure, Group
 from .section import displayed, figure_group, time_chart
 from .words import join, sentence

@@ -8,13 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from .....reports.chart.axes import linear_axis
-from .....reports.common.colours import look
-from .....reports.common.quantities import in_display_unit
-from .....reports.figures.declared import Rows
-from .....reports.interactive.charts import NO_BOX, Area, Chart, Curve, Rule
 from .....runtime.flight.results import Result
 from ....cell import LegendEntry, Quantity, Rich
+from ....chart.axes import linear_axis
+from ....common.colours import look
+from ....common.quantities import in_display_unit
+from ....figures.declared import Rows
+from ....interactive.charts import NO_BOX, Area, Chart, Curve, Rule
 from ....model import Figure, Figures, Group, Node, Note, Table, Text
 
 HEIGHT = 2.6  # in

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from .....reports.figures.declared import Rows
 from ....cell import Inline, Interval, Quantity, Rich
+from ....figures.declared import Rows
 
 
 def condition_text(rows: Rows) -> list[Inline]:

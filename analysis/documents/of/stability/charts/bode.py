@@ -6,16 +6,16 @@ import math
 
 import numpy as np
 
-from .....reports.chart.axes import linear_axis
-from .....reports.chart.lines import line
-from .....reports.chart.marks import instant, level
-from .....reports.chart.symbols import mark, marks
-from .....reports.chart.ticks import axis_ends
-from .....reports.common.colours import BLUE, FAINT, INK, VERMILION
-from .....reports.common.quantities import number
-from .....reports.interactive.charts import NO_BOX, Axis, Chart, Curve, Note, Rule
 from .....stability.loops.readings import Classical, decibels
 from .....stability.results.report import LoopReport
+from ....chart.axes import linear_axis
+from ....chart.lines import line
+from ....chart.marks import instant, level
+from ....chart.symbols import mark, marks
+from ....chart.ticks import axis_ends
+from ....common.colours import BLUE, FAINT, INK, VERMILION
+from ....common.quantities import number
+from ....interactive.charts import NO_BOX, Axis, Chart, Curve, Note, Rule
 from .frequency import (
     BEHIND,
     DOTS,

@@ -12,17 +12,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .....reports.chart.axes import fine_axis, linear_axis
-from .....reports.chart.lines import line
-from .....reports.chart.marks import level
-from .....reports.chart.symbols import mark, marker
-from .....reports.common.colours import BLUE, FAINT, GREEN, INK, VERMILION
-from .....reports.common.quantities import number
-from .....reports.interactive import charts
-from .....reports.interactive.charts import NO_BOX, Axis, Backing, Chart, Marker
 from .....stability.loops.margin_values import Quantity
 from .....stability.loops.readings import Classical, Curve, decibel_size, decibels, degree_size
 from .....stability.results.report import LoopReport
+from ....chart.axes import fine_axis, linear_axis
+from ....chart.lines import line
+from ....chart.marks import level
+from ....chart.symbols import mark, marker
+from ....common.colours import BLUE, FAINT, GREEN, INK, VERMILION
+from ....common.quantities import number
+from ....interactive import charts
+from ....interactive.charts import NO_BOX, Axis, Backing, Chart, Marker
 
 MEASURED = marker("o", 3.0, INK, fill="", width=0.7)
 MARGIN_WIDTH = 1.8  # pt, of the bar of a margin

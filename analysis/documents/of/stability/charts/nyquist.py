@@ -8,16 +8,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .....reports.chart.axes import linear_axis, ticked_axis
-from .....reports.chart.lines import line
-from .....reports.chart.marks import hatch, instant, level, outline
-from .....reports.chart.symbols import BARB, arrow, mark, marker, marks
-from .....reports.common.colours import BLUE, GREEN, INK, PURPLE, VERMILION
-from .....reports.common.quantities import MINUS, number
-from .....reports.interactive.charts import NO_BOX, Area, Chart, Curve, Note
 from .....stability.loops.readings import Classical, Crossing, decibel_size, decibels
 from .....stability.results.report import LoopReport
 from .....stability.results.responses import Nonlinearity
+from ....chart.axes import linear_axis, ticked_axis
+from ....chart.lines import line
+from ....chart.marks import hatch, instant, level, outline
+from ....chart.symbols import BARB, arrow, mark, marker, marks
+from ....common.colours import BLUE, GREEN, INK, PURPLE, VERMILION
+from ....common.quantities import MINUS, number
+from ....interactive.charts import NO_BOX, Area, Chart, Curve, Note
 from .frequency import (
     BEHIND,
     COMPLEMENTARY,

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .....reports.chart.axes import linear_axis
-from .....reports.chart.lines import line
-from .....reports.chart.symbols import marker, marks
-from .....reports.common.colours import BLUE, FAINT, INK, VERMILION
-from .....reports.interactive.charts import NO_BOX, Backing, Chart, Curve, Note
 from .....stability.results.report import LoopReport
+from ....chart.axes import linear_axis
+from ....chart.lines import line
+from ....chart.symbols import marker, marks
+from ....common.colours import BLUE, FAINT, INK, VERMILION
+from ....interactive.charts import NO_BOX, Backing, Chart, Curve, Note
 from .frequency import WHITE, faint_line
 
 DAMPINGS = (0.2, 0.5, 0.8)

@@ -9,20 +9,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from .....reports.chart.axes import fine_axis, linear_axis
-from .....reports.chart.lines import line
-from .....reports.chart.marks import SQUARE, hatch, instant, level, outline, rectangle
-from .....reports.chart.symbols import mark, marker
-from .....reports.chart.ticks import axis_ends
-from .....reports.common.colours import BLUE, GREEN, INK, VERMILION
-from .....reports.common.quantities import display_factor, label_with_unit
-from .....reports.interactive.charts import NO_BOX, Area, Axis, Chart, Curve
 from .....stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from .....stability.loops.margins import disk_of_gain, disk_of_phase
 from .....stability.loops.readings import decibels, factor_of
 from .....stability.results.report import JointReport, LoopReport
 from .....stability.results.responses import Nonlinearity
 from .....stability.results.varied import Dispersion, SweepReport
+from ....chart.axes import fine_axis, linear_axis
+from ....chart.lines import line
+from ....chart.marks import SQUARE, hatch, instant, level, outline, rectangle
+from ....chart.symbols import mark, marker
+from ....chart.ticks import axis_ends
+from ....common.colours import BLUE, GREEN, INK, VERMILION
+from ....common.quantities import display_factor, label_with_unit
+from ....interactive.charts import NO_BOX, Area, Axis, Chart, Curve
 from .frequency import COMPLEMENTARY, DOTS, PEAK, REQUIRED, WHITE, Limits, frequency_axis, in_db
 
 BINS = 24

@@ -1,1 +1,0 @@
-"""Reports: self-contained HTML pages and figures, the same bytes for the same result."""
