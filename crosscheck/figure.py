@@ -9,8 +9,9 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from crosscheck.case import Case
 from docs.figures.pictures import write_picture
+from perilune.analysis.documents.common.colours import COLOURS, DASHES
 from perilune.analysis.documents.common.quantities import log_tick
-from perilune.analysis.documents.common.style import COLOURS, DASHES, house_style, new_figure, plain_ticks
+from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 
 WIDTH, ROW_HEIGHT, COLUMNS = 7.4, 2.0, 2  # in, of a row of panels
 POINTS = 25  # of a line, or up to twice as many

@@ -55,7 +55,7 @@ class Law(Documented, laws.Law):
 
     def plot(self) -> Plot:
         """The law's graph."""
-        from ..documents.chart.plot import plot_charts
+        from ..documents.chart.plot import plot_charts  # which imports matplotlib
 
         chart, width, height = law_chart(self)
         return plot_charts([chart], height / INCH, width / INCH)

@@ -105,7 +105,7 @@ class StabilityReport(Documented, report.StabilityReport):
         return self._plot(Diagram.STEP, loop, point)
 
     def _plot(self, diagram: Diagram, name: str | None, point: str | None) -> Plot:
-        from ..documents.chart.plot import plot_charts
+        from ..documents.chart.plot import plot_charts  # which imports matplotlib
 
         loop = decisive_loop(self) if name is None else self.loop(name, point)
         charts = loop_charts(loop, diagram)

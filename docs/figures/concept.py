@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, FancyBboxPatch
 
-from perilune.analysis.documents.common.style import BLUE, FAINT, INK, ORANGE, SKY, house_style, new_figure
+from perilune.analysis.documents.common.colours import BLUE, FAINT, INK, ORANGE, SKY
+from perilune.analysis.documents.common.style import house_style, new_figure
 
 from .pictures import IMAGES, write_picture
 

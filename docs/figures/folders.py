@@ -7,7 +7,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Curve
 
-from perilune.analysis.documents.common.style import BLUE, INK, house_style, new_figure
+from perilune.analysis.documents.common.colours import BLUE, INK
+from perilune.analysis.documents.common.style import house_style, new_figure
 from perilune.common.paths import ROOT
 from tests.folders import FOLDERS, folder_of, importing_files, module_of
 

@@ -8,8 +8,9 @@ from matplotlib.ticker import FuncFormatter
 from scipy.linalg import expm
 
 from perilune.analysis.design.poles.output_feedback_set import common_feedback
+from perilune.analysis.documents.common.colours import BLUE, FAINT, INK, VERMILION, look
 from perilune.analysis.documents.common.quantities import log_tick
-from perilune.analysis.documents.common.style import BLUE, FAINT, INK, VERMILION, look, new_figure, plain_ticks
+from perilune.analysis.documents.common.style import new_figure, plain_ticks
 
 TURN = np.radians(-20.0)
 PLANTS = (0.05, 0.5, 2.0, 8.0)

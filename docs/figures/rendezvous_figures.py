@@ -9,18 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-from perilune.analysis.documents.common.style import (
-    BLUE,
-    FAINT,
-    INK,
-    ORANGE,
-    SKY,
-    VERMILION,
-    house_style,
-    look,
-    new_figure,
-    plain_ticks,
-)
+from perilune.analysis.documents.common.colours import BLUE, FAINT, INK, ORANGE, SKY, VERMILION, look
+from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.verbs.run import simulate
 from perilune.common.process import leave

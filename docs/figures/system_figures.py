@@ -11,7 +11,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from perilune.analysis.documents.common.style import FAINT, house_style, look, new_figure, plain_ticks
+from perilune.analysis.documents.common.colours import FAINT, look
+from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.verbs.run import simulate
 from perilune.common.process import leave

@@ -10,7 +10,7 @@ from selenium.webdriver.common.by import By
 
 from perilune.analysis.differences.differences import compare_runs
 from perilune.analysis.differences.recorded_run import RecordedRun
-from perilune.analysis.documents.common.style import COLOURS, INK
+from perilune.analysis.documents.common.colours import COLOURS, INK
 from perilune.analysis.documents.of.differences import differences_document
 from perilune.analysis.documents.render.html import write_document
 from tests.support.pages.checks import parse

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from perilune.analysis.documents.common.style import house_style, look, new_figure
+from perilune.analysis.documents.common.colours import look
+from perilune.analysis.documents.common.style import house_style, new_figure
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.verbs.run import simulate
 from perilune.common.process import leave

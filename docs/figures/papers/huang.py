@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 from perilune.analysis.design.trajectories.vehicle import HOVER_TRANSFER, HOVER_VEHICLE
 from perilune.analysis.design.transfers.free_fall import find_free_fall
 from perilune.analysis.design.transfers.programme import Programme, find_programme
-from perilune.analysis.documents.common.style import FAINT, INK, house_style, look, new_figure, plain_ticks
+from perilune.analysis.documents.common.colours import FAINT, INK, look
+from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 
 from ..pictures import IMAGES, write_picture
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from perilune.analysis.documents.common.style import FAINT, house_style, new_figure, plain_ticks
+from perilune.analysis.documents.common.colours import FAINT
+from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.documents.interactive.charts import Chart
 from perilune.analysis.documents.of.comparison.flights.band_figures import Frame
 from perilune.analysis.documents.of.comparison.flights.bands import Bands

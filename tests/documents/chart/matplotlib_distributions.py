@@ -8,8 +8,9 @@ import numpy as np
 
 from perilune.analysis.campaigns.definition.campaign import Metric
 from perilune.analysis.documents.chart.plot_lines import QuantityLine
+from perilune.analysis.documents.common.colours import Look
 from perilune.analysis.documents.common.quantities import display_factor, label_with_unit
-from perilune.analysis.documents.common.style import Look, house_style, new_figure, plain_ticks
+from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.documents.interactive.charts import Chart
 from perilune.analysis.documents.of.campaign.distributions import _ends
 from tests.support.figures.axes import log_ticks_x

@@ -7,18 +7,10 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
+from perilune.analysis.documents.common.colours import FAINT, GREEN, INK, ORANGE
 from perilune.analysis.documents.common.panels import HALF_WIDTH
 from perilune.analysis.documents.common.quantities import display_factor, display_unit
-from perilune.analysis.documents.common.style import (
-    FAINT,
-    GREEN,
-    INK,
-    ORANGE,
-    WIDTH,
-    house_style,
-    new_figure,
-    plain_ticks,
-)
+from perilune.analysis.documents.common.style import WIDTH, house_style, new_figure, plain_ticks
 from perilune.analysis.documents.figures.declared import Band, Curve, Error
 from perilune.analysis.documents.interactive.charts import Chart
 from perilune.analysis.documents.of.simulation.figures import band_figure, history_figures

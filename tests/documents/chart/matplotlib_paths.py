@@ -7,9 +7,10 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
+from perilune.analysis.documents.common.colours import BLUE, FAINT, GREEN, look
 from perilune.analysis.documents.common.panels import far
 from perilune.analysis.documents.common.quantities import display_factor, label_with_unit
-from perilune.analysis.documents.common.style import BLUE, FAINT, GREEN, house_style, look, new_figure, plain_ticks
+from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.documents.figures.declared import Band, Path, Signal
 from perilune.analysis.documents.interactive.charts import Chart
 from perilune.analysis.documents.of.simulation.figures.section import select_rows

@@ -17,10 +17,11 @@ import perilune
 from perilune.analysis.campaigns.verdicts.order_statistics import quantiles
 from perilune.analysis.documents.chart.panel import chart_panel
 from perilune.analysis.documents.chart.svg.polyline import path_of
+from perilune.analysis.documents.common.colours import FAINT
 from perilune.analysis.documents.common.panels import PANEL_WIDTH
 from perilune.analysis.documents.common.quantities import display_factor, number
 from perilune.analysis.documents.common.signals import signal_groups
-from perilune.analysis.documents.common.style import FAINT, house_style, new_figure, plain_ticks
+from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.documents.interactive.columns import Coarse
 from perilune.analysis.documents.of.simulation.histories import HEIGHT, SPIKE, _is_constant, history_chart
 from tests.support.figures.lines import plot_quantity

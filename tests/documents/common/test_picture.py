@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from perilune.analysis.documents.common.style import house_style, look, new_figure
+from perilune.analysis.documents.common.colours import look
+from perilune.analysis.documents.common.style import house_style, new_figure
 from perilune.analysis.documents.common.svg import svg_bytes
 
 

@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from perilune.analysis.documents.chart.plot_lines import QuantityLine
+from perilune.analysis.documents.common.colours import look
 from perilune.analysis.documents.common.quantities import display_factor, display_unit
-from perilune.analysis.documents.common.style import look
 
 
 def plot_quantity(

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
+from perilune.analysis.documents.common.colours import FAINT, INK, look
 from perilune.analysis.documents.common.panels import PANEL_WIDTH
-from perilune.analysis.documents.common.style import FAINT, INK, look
 from perilune.analysis.documents.of.comparison.flights.band_figures import band_chart, frame_of, overlaid_bands
 from perilune.analysis.documents.of.comparison.flights.bands import LEVELS, bands_of
 from perilune.analysis.documents.of.comparison.flights.end_figures import (

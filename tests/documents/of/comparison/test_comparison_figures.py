@@ -16,7 +16,7 @@ from perilune.analysis.campaigns.compare.comparison import Contender
 from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.campaigns.trials import TrialTable
-from perilune.analysis.documents.common.style import Look
+from perilune.analysis.documents.common.colours import Look
 from perilune.analysis.documents.of.campaign.recorded_names import names_of_record, vectors
 from perilune.analysis.documents.of.comparison.flights.band_figures import band_figures
 from perilune.analysis.documents.of.comparison.flights.bands import LEVELS, bands_of
