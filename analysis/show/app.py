@@ -1,4 +1,4 @@
-"""The application behind `perilune show`: one page, and counts and trials of the campaigns that it was started with.
+"""Application of `perilune show`: one page, and counts and trials of the campaigns that it was started with.
 
 Campaigns, columns, variants and rows are named by number; no request names a file.
 """
@@ -50,12 +50,12 @@ class Service:
         return HTMLResponse(self._page)
 
     async def counts(self, request: Request) -> Response:
-        """The figures of a query."""
+        """Answer with the figures of a query."""
         columns, names, query = self._read(request)
         return await self._answer(request, lambda: Counter(columns, names, query).document())
 
     async def trials(self, request: Request) -> Response:
-        """The first trials that a query selects, with the columns of its histograms."""
+        """Answer with the first trials that a query selects, with the columns of its histograms."""
         columns, names, query = self._read(request)
 
         def work() -> Any:
@@ -65,7 +65,7 @@ class Service:
         return await self._answer(request, work)
 
     async def selected(self, request: Request) -> Response:
-        """All trials that a query selects, with all columns, as a file."""
+        """Answer with all trials that a query selects, with all columns, as a file."""
         columns, names, query = self._read(request)
         mask = await asyncio.get_running_loop().run_in_executor(
             self._executor, lambda: Counter(columns, names, query).selected()
@@ -75,7 +75,7 @@ class Service:
         return StreamingResponse(selected_csv(columns.campaign, mask, names), media_type="text/csv", headers=headers)
 
     async def trial(self, request: Request) -> Response:
-        """All numbers of one trial, by its row."""
+        """Answer with all numbers of one trial, by its row."""
         columns, names = self._campaign(request)
         row = request.path_params["row"]
         if row >= columns.campaign.rows:
@@ -83,7 +83,7 @@ class Service:
         return await self._answer(request, lambda: trials_document(columns.campaign, [row], names)[0])
 
     def _campaign(self, request: Request) -> tuple[BinnedColumns, list[str]]:
-        """A campaign by its number, and the names of its columns."""
+        """Return a campaign by its number, and the names of its columns."""
         number = request.path_params["campaign"]
         if number >= len(self._columns):
             raise HTTPException(404)
@@ -96,7 +96,7 @@ class Service:
         return columns, names, read_query(text, len(names), len(columns.campaign.variants))
 
     async def _answer(self, request: Request, work: Callable[[], Any]) -> Response:
-        """What ``work`` gives as JSON; nothing is done for a page that has ended its request while it waited."""
+        """Answer with the result of ``work`` as JSON; skip it for a page that disconnected while it waited."""
         async with self._free:
             if await request.is_disconnected():
                 return Response(status_code=204)
@@ -105,7 +105,7 @@ class Service:
 
 
 async def _refuse(_: Request, error: Exception) -> Response:
-    """One line: what is wrong with a request or a file."""
+    """Answer with one line that states the problem of a request or a file."""
     return PlainTextResponse(str(error), 422)
 
 
@@ -114,7 +114,7 @@ async def _end(_: Request, __: Exception) -> Response:
 
 
 def make_app(service: Service, authority: str, token: str) -> ASGIApp:
-    """The guarded application; ``authority`` is the host and port of its address."""
+    """Return the guarded application; ``authority`` is the host and port of its address."""
     app = Starlette(
         routes=[
             Route("/", service.page),

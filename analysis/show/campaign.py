@@ -26,7 +26,7 @@ DETAILS = ("status", "success")  # of a trial, in addition to its numbers
 
 
 class StoppedError(Exception):
-    """The server is stopping: what is read is of no more use."""
+    """Stop of the server, which no longer needs the data being read."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class OpenCampaign:
         )
 
     def read(self, names: Sequence[str]) -> dict[str, np.ndarray]:
-        """Columns of all rows (rows,) as doubles. Raises InputError for damaged files, StoppedError at the end."""
+        """Read columns of all rows (rows,) as doubles. Raises InputError for damaged files, StoppedError at the end."""
         columns = {name: np.empty(self.rows) for name in names}
         for shard, start in zip(self.source.shards, self.starts, strict=False):
             if self.is_stopped():
@@ -93,7 +93,7 @@ class OpenCampaign:
         return columns
 
     def read_rows(self, rows: Sequence[int], names: Sequence[str]) -> Iterator[dict[str, object]]:
-        """Rows in rising order: variant, trial, and columns of numbers and `DETAILS`. Raises InputError."""
+        """Yield rows in rising order: variant, trial, and columns of numbers and `DETAILS`. Raises InputError."""
         table, current = None, -1
         for row in rows:
             number = bisect_right(self.starts, row) - 1
@@ -104,7 +104,7 @@ class OpenCampaign:
             yield entries
 
     def read_selected(self, mask: np.ndarray, names: Sequence[str]) -> Iterator[pyarrow.Table]:
-        """The rows of a ``mask`` (rows,), shard by shard: identity, `DETAILS` and columns. Raises as `read` does."""
+        """Yield the rows of a ``mask`` (rows,), shard by shard: identity, `DETAILS`, columns. Raises as `read` does."""
         for shard, start in zip(self.source.shards, self.starts, strict=False):
             if self.is_stopped():
                 raise StoppedError
@@ -114,7 +114,7 @@ class OpenCampaign:
                 yield self.source.read(shard, [*names, *DETAILS]).select(columns).filter(pyarrow.array(rows))
 
     def command(self, variant: str, trial: int) -> str:
-        """The command that simulates a trial again."""
+        """Return the command that simulates a trial again."""
         return replay_of_folder(self.source.folder, self.variants, variant, trial)
 
 
@@ -125,7 +125,7 @@ def _is_number(schema: pyarrow.Schema, name: str) -> bool:
 
 
 def open_campaign(folder: Path, is_stopped: Callable[[], bool]) -> OpenCampaign:
-    """A folder that `perilune batch` wrote, whole or unfinished.
+    """Open a folder that `perilune batch` wrote, whole or unfinished.
 
     Raises InputError for what is no such folder, for a link in it, for damage, and above `ROW_LIMIT` rows.
     """

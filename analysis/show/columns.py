@@ -20,7 +20,7 @@ READING = 100_000_000  # bytes of doubles that are read at a time
 
 @dataclass(frozen=True)
 class Binned:
-    """``codes`` (rows,) are bins of ``scale``; it is None where no number is finite."""
+    """Column as ``codes`` (rows,), bins of ``scale``, which is None where no number is finite."""
 
     scale: Scale | None
     codes: np.ndarray
@@ -37,11 +37,11 @@ class BinnedColumns:
 
     @cached_property
     def success(self) -> np.ndarray:
-        """Which rows are successes (rows,). Raises as `get` does."""
+        """Successes as booleans (rows,). Raises as `get` does."""
         return self.campaign.read(["success"])["success"] != 0.0
 
     def get(self, names: Sequence[str]) -> dict[str, Binned]:
-        """Some columns by name; those that are not in memory are read, several in one go through the shards.
+        """Return columns by name; those that are not in memory are read, several per pass through the shards.
 
         Raises InputError for damaged files, StoppedError at the end.
         """
@@ -61,7 +61,7 @@ class BinnedColumns:
             return columns
 
     def _read(self, names: list[str]) -> dict[str, np.ndarray]:
-        """Columns as doubles, and at the first time which rows are successes."""
+        """Read columns as doubles, and on the first call the successes."""
         if "success" in self.__dict__:
             return self.campaign.read(names)
         columns = self.campaign.read([*names, "success"])

@@ -14,7 +14,7 @@ from .scale import BARS, BINS, CHUNK, CODES, SHIFT
 
 
 class Counter:
-    """What a query asks of a campaign, counted. Raises InputError for damaged files, StoppedError at the end."""
+    """Counts that a query requests of a campaign. Raises InputError for damaged files, StoppedError at the end."""
 
     def __init__(self, columns: BinnedColumns, names: Sequence[str], query: Query) -> None:
         self.campaign = columns.campaign
@@ -31,7 +31,7 @@ class Counter:
         self._within = {(each.column, each.first, each.last): self._in_range(each) for each in query.ranges}
 
     def selected(self, *without: int) -> np.ndarray:
-        """The rows that the filter selects (rows,), as booleans, ranges of the columns ``without`` left out."""
+        """Return a mask (rows,) of the rows that the filter selects, without the ranges of the columns ``without``."""
         mask = self._common
         for (column, _, _), rows in self._within.items():
             if column not in without:
@@ -39,7 +39,7 @@ class Counter:
         return mask
 
     def document(self) -> Counts:
-        """All counts, for the page: every figure of the trials that the ranges of other columns select."""
+        """Return all counts, for the page: every figure of the trials that the ranges of other columns select."""
         mask = self.selected()
         return {
             "outcomes": self._outcomes(mask),
@@ -49,11 +49,11 @@ class Counter:
         }
 
     def _outcomes(self, mask: np.ndarray) -> list[tuple[int, int]]:
-        """Failures and successes of each variant (variants, 2)."""
+        """Count failures and successes of each variant (variants, 2)."""
         return [(failures, successes) for failures, successes in self._by_variant(mask, self._success, 2)]
 
     def _histograms(self) -> list[HistogramCounts]:
-        """Counts of each variant over the bars, as many columns at a time as memory may have."""
+        """Count each variant over the bars, with as many columns at a time as the memory limit allows."""
         histograms: list[HistogramCounts] = []
         size = self._binned.limit
         for first in range(0, len(self.query.histograms), size):
@@ -65,7 +65,7 @@ class Counter:
         return histograms
 
     def _by_variant(self, mask: np.ndarray, codes: np.ndarray, kinds: int, shift: int = 0) -> list[list[int]]:
-        """How often each variant has each code, shifted right, in the rows of a mask (variants, kinds)."""
+        """Count each variant's codes, shifted right, in the rows of a mask (variants, kinds)."""
         variants = len(self.campaign.variants)
         counts = np.zeros(variants * kinds, dtype=np.intp)
         for first in range(0, mask.size, CHUNK):  # indices are four times as large as codes
@@ -80,7 +80,7 @@ class Counter:
         return {index: binned[self._names[index]] for index in indices}
 
     def _grid(self, x: int, y: int) -> GridCounts:
-        """Counts and failures over two columns (BARS, BARS), rows from the bottom; or the dots of few trials."""
+        """Count trials and failures over two columns (BARS, BARS), from the bottom; or return dots of few trials."""
         mask = self.selected(x, y)
         mask = mask & (self._codes(x) < BINS) & (self._codes(y) < BINS)
         scales: GridCounts = {"x": scale_document(self._columns[x]), "y": scale_document(self._columns[y])}
@@ -105,7 +105,7 @@ class Counter:
         return (codes >= each.first) & (codes <= each.last)
 
     def _ends(self, each: Range) -> RangeEnds | None:
-        """The ends of a range; None of a column without a finite number.
+        """Return the ends of a range; None for a column without a finite number.
 
         The step is the width of the narrower one of the bins at the ends.
         """
@@ -129,6 +129,6 @@ class Counter:
 
 
 def scale_document(column: Binned) -> ScaleDocument | None:
-    """A scale for the page; None where no number is finite."""
+    """Return a scale for the page; None where no number is finite."""
     scale = column.scale
     return None if scale is None else {"low": scale.low, "high": scale.high, "knee": scale.knee}

@@ -17,7 +17,7 @@ TABLE_LIMIT = 50  # rows of the table of selected trials
 
 
 def dots_of(rows: np.ndarray, x: np.ndarray, y: np.ndarray, success: np.ndarray, variants: np.ndarray) -> DotsDocument:
-    """Row numbers, bins, outcomes and variants of trials (dots,)."""
+    """Return row numbers, bins, outcomes and variants of trials (dots,)."""
     return {
         "rows": _text(rows.astype("<u4")),
         "x": _text(x.astype("<u2")),

@@ -1,4 +1,4 @@
-"""Who can connect: the browser that has the server's token, from its own page; all is read-only.
+"""Access rules: only the browser that has the server's token, from its own page; all is read-only.
 
 The address that is printed has the token. The first request with it gets a cookie and is sent on to an address without
 it, so that the token is neither in the history nor in what a page tells others about where it was opened.
@@ -27,7 +27,7 @@ HEADERS = {  # of every answer
 
 
 class Guard:
-    """An application behind these rules; ``authority`` is its own host and port, ``token`` its secret."""
+    """Application behind these rules; ``authority`` is its own host and port, ``token`` its secret."""
 
     def __init__(self, app: ASGIApp, authority: str, token: str) -> None:
         self.app = app
@@ -49,7 +49,7 @@ class Guard:
         await (self._refusal(scope) or self.app)(scope, receive, send_guarded)
 
     def _refusal(self, scope: Scope) -> Response | None:
-        """What is answered instead of the application; None where it may answer."""
+        """Return the response that refuses a request; None where the application may answer."""
         headers = Headers(scope=scope)
         if headers.getlist("host") != [self.authority]:
             return PlainTextResponse(f"only http://{self.authority}/ is answered, no other name of this machine", 421)

@@ -1,4 +1,4 @@
-"""The page of `perilune show`: what its script needs to know of the campaigns before it asks for counts."""
+"""The page of `perilune show`: the facts on the campaigns that its script needs before it requests counts."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FIRST_FIGURES = 6  # histograms that a page begins with
 
 
 def show_page(campaigns: Sequence[OpenCampaign]) -> str:
-    """HTML with its script. Raises InputError where the script was not built."""
+    """Return the page as HTML with its script. Raises InputError where the script was not built."""
     if read_bundle(BUNDLE) is None:
         problem, _, remedy = MISSING.partition(": ")
         raise InputError("perilune show", "", problem, remedy.rstrip("."))

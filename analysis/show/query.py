@@ -1,4 +1,4 @@
-"""What a page asks of a campaign, as JSON in an address: columns and variants by number, ranges by bins."""
+"""Query of a page on a campaign, as JSON in an address: columns and variants by number, ranges by bins."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Range(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class Query(msgspec.Struct, forbid_unknown_fields=True):
-    """``histograms`` and ``grids`` of columns, of the rows that are in all ranges and of the outcome and variants."""
+    """Query of ``histograms`` and ``grids`` of columns, over the rows in all ranges, of the outcome and variants."""
 
     histograms: Figures = []
     grids: Annotated[list[tuple[Index, Index]], msgspec.Meta(max_length=4)] = []
@@ -34,7 +34,7 @@ class Query(msgspec.Struct, forbid_unknown_fields=True):
 
 
 def read_query(text: str, columns: int, variants: int) -> Query:
-    """A query about a campaign of so many columns and variants. Raises InputError."""
+    """Read a query on a campaign with these numbers of columns and variants. Raises InputError."""
     remedy = "load the page again"
     if len(text) > LONGEST:
         raise InputError("query", "", f"{len(text)} characters, at most {LONGEST} are read", remedy)

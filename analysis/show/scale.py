@@ -24,7 +24,7 @@ CHUNK = 1 << 18  # numbers binned at a time
 
 @dataclass(frozen=True)
 class Scale:
-    """From ``low`` to ``high``, finite; linear, or through asinh: linear below the ``knee``, logarithmic above it."""
+    """Scale from ``low`` to ``high``, finite; linear, or by asinh: linear below the ``knee``, logarithmic above."""
 
     low: float
     high: float
@@ -42,7 +42,7 @@ class Scale:
         return np.maximum.accumulate(np.minimum(edges, self.high))
 
     def bin(self, numbers: np.ndarray) -> np.ndarray:
-        """The bin of each number (rows,) as uint16; `NAN`, `ABOVE` or `BELOW` of what is not finite."""
+        """Return the bin of each number (rows,) as uint16; `NAN`, `ABOVE` or `BELOW` where it is not finite."""
         codes = np.empty(numbers.size, dtype=np.uint16)
         for first in range(0, numbers.size, CHUNK):
             part = numbers[first : first + CHUNK]
@@ -55,7 +55,7 @@ class Scale:
 
 
 def make_scale(numbers: np.ndarray) -> Scale | None:
-    """The scale on which the finite ones of some numbers (rows,) are, below its high end; None where none is finite.
+    """Return the scale that spans the finite numbers of (rows,), all below its high end; None where none is finite.
 
     The greatest double of all is at that end.
     """
@@ -77,7 +77,7 @@ def make_scale(numbers: np.ndarray) -> Scale | None:
 
 
 def _whole_scale(low: float, high: float) -> Scale:
-    """Of whole numbers: bars that have equally many of them each, or equally many bars for each."""
+    """Return a scale of whole numbers: an equal count of them for each bar, or of bars for each number."""
     count = high - low + 1.0
     step = math.ceil(count / BARS) if count > BARS else 1.0 / (BARS // count)
     return Scale(low - 0.5, low - 0.5 + BARS * step)

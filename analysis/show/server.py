@@ -28,7 +28,7 @@ class CampaignServer:
     """Campaigns that are served; ``address`` opens their page, with the token that it takes."""
 
     def __init__(self, folders: Sequence[Path], port: int = 0) -> None:
-        """``port`` 0: a free one. Raises InputError for folders without campaigns, and for a port that is taken."""
+        """Open campaigns, listen on ``port`` (0: a free one). Raises InputError for other folders and a port in use."""
         self._is_stopped = False
         self.campaigns = [open_campaign(folder, lambda: self._is_stopped) for folder in folders]
         page = show_page(self.campaigns)
@@ -76,7 +76,7 @@ class CampaignServer:
 
 
 class _Protocol(H11Protocol):
-    """uvicorn's, which otherwise waits for a first request as long as the client likes."""
+    """HTTP protocol of uvicorn that closes a connection without a first request after `SILENCE`."""
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
@@ -88,7 +88,7 @@ class _Protocol(H11Protocol):
 
 
 class _Server(uvicorn.Server):
-    """uvicorn's, which says when it listens and when it is to end."""
+    """Server of uvicorn that reports when it listens and when it is to end."""
 
     def __init__(self, config: uvicorn.Config, on_start: Callable[[], None], on_end: Callable[[], None]) -> None:
         super().__init__(config)

@@ -51,19 +51,19 @@ class BatchResult(Documented, results.BatchResult):
         return batch_document(self, self.displayed)
 
     def problems(self) -> list[str]:
-        """Failed simulations, requirements of the campaign and of ``require`` that are not met."""
+        """Return failed simulations and requirements of the campaign and of ``require`` that are not met."""
         return campaign_problems(self, self.requirements)
 
     def to_pandas(self) -> Any:
-        """`table` as a pandas.DataFrame, a row per variant and trial; needs pandas."""
+        """Return `table` as a pandas.DataFrame, a row per variant and trial; needs pandas."""
         require_pandas()
         return self.table().to_pandas()
 
     def rank_correlations(self, variant: str | None = None) -> dict[str, dict[str, float | None]]:
-        """Spearman's rank correlations of one variant's metrics with the draws, by metric and draw; of the first one.
+        """Return Spearman's rank correlations of a variant's metrics with the draws, by metric and draw.
 
-        Over all trials in which the metric is a number; None where there are too few, or one of the two does not vary.
-        Raises KeyError for a variant that the batch does not have.
+        By default of the first variant. Over all trials in which the metric is a number; None where there are too few,
+        or one of the two does not vary. Raises KeyError for a variant that the batch does not have.
         """
         rows = next(iter(self.rows.values())) if variant is None else self.rows[variant]
         campaign = self.plan.campaign
@@ -82,7 +82,7 @@ class BatchResult(Documented, results.BatchResult):
         write_task(self, Path(path))
 
     def plot(self, *metrics: str) -> Plot:
-        """Distributions of metrics over trials, variant next to variant; by default of all metrics that vary.
+        """Plot distributions of metrics over trials, variant next to variant; by default all metrics that vary.
 
         Of more than 100 000 trials the first are plotted.
 

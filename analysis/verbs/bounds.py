@@ -94,7 +94,7 @@ def _find_lookup(plan: BatchPlan) -> Lookup:
 
 
 def _inputs_of(plan: BatchPlan, lookup: Lookup) -> tuple[InputColumns, SystemArchive]:
-    """The inputs of all trials, which its variants share, and the system. Raises InputError."""
+    """Return the inputs of all trials, which its variants share, and the system. Raises InputError."""
     where = _element_of(lookup)
     check_roles({name: len(formulas) for name, formulas in lookup.inputs.items()}, where)
     plan = replace(plan, campaign=replace(plan.campaign, lookups=(), metrics=()))  # its table may be missing
@@ -113,7 +113,7 @@ def _inputs_of(plan: BatchPlan, lookup: Lookup) -> tuple[InputColumns, SystemArc
 
 
 def _solve(inputs: InputColumns, lookup: Lookup, intervals: int, workers: int) -> TrialBounds:
-    """The bounds of all trials, in parallel. Raises InputError."""
+    """Compute the bounds of all trials, in parallel. Raises InputError."""
     trials = range(next(iter(inputs.values()))[0].size)
     numbers = ({name: [x[trial] for x in row] for name, row in inputs.items()} for trial in trials)
     problems, masses = zip(*(descent_problem(each, _element_of(lookup)) for each in numbers), strict=True)
@@ -131,7 +131,7 @@ def _element_of(lookup: Lookup) -> tuple[str, str]:
 
 
 def _target(lookup: Lookup, archive: SystemArchive) -> Path:
-    """The file of a lookup's table. Raises InputError where it cannot be written."""
+    """Return the file of a lookup's table. Raises InputError where it cannot be written."""
     inside = archive.name_of(lookup.origin)
     if inside is None:
         return Path(lookup.label)

@@ -36,7 +36,7 @@ class Comparison(Documented, comparison.Comparison):
         return f"{type(self).__name__}({', '.join(self.contenders)}; {trials} trials)"
 
     def to_pandas(self) -> Any:
-        """Statistics as a pandas.DataFrame, a row per metric, variant and group; needs pandas."""
+        """Return statistics as a pandas.DataFrame, a row per metric, variant and group; needs pandas."""
         require_pandas()
         from pandas import DataFrame
 

@@ -1,4 +1,4 @@
-"""`perilune.describe` and `perilune describe`: what a system, an FMU or a slot has."""
+"""`perilune.describe` and `perilune describe`: contents of a system, an FMU or a slot."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from .common.documented import Documented
 
 
 class Description(Documented, dict[str, Any]):
-    """What a system, an FMU, a component or a slot has, by key; see `describe`.
+    """Contents of a system, an FMU, a component or a slot, by key; see `describe`.
 
     ``prepare`` makes ready what has a block diagram: a system, or an FMU that is simulated alone.
     """

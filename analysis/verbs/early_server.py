@@ -12,7 +12,7 @@ from ..options.option import options_of
 
 
 def start_early(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:
-    """Start it where a command will simulate in processes: FMUs of others, or campaigns with Python FMUs."""
+    """Start the server where a command will simulate in processes: FMUs of others, or campaigns with Python FMUs."""
     if "in_process" not in options_of(verb.options) or options.get("in_process"):
         return
     files = [arguments.get("system"), *arguments.get("files", ()), *options.get("use", {}).values()]

@@ -35,12 +35,12 @@ from .common.documented import Documented
 
 @dataclass(frozen=True)
 class Exported(Documented, Written):
-    """What was written, and its version of FMI."""
+    """Files that were written, and their version of FMI."""
 
     fmi: int
 
     def document(self) -> Document:
-        """Return a path each."""
+        """Return the paths that were written."""
         return exported_document(**vars(self))
 
 
@@ -86,7 +86,7 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
 
 
 def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
-    """The options of a system as one FMU. Raises InputError where some are given without `as_fmu`."""
+    """Return the options of a system as one FMU. Raises InputError where some are given without `as_fmu`."""
     if options["as_fmu"]:
         assembly = {name: value for name, value in options.items() if name in options_of(AssemblyOptions)}
         slots = {slot: _candidates(slot, fmus) for slot, fmus in options["slots"].items()}
@@ -102,7 +102,7 @@ def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
 
 
 def _candidates(slot: str, fmus: object) -> list[str]:
-    """The candidates of a slot: one, a text with commas between them, or a list."""
+    """Return the candidates of a slot: one, a text with commas between them, or a list."""
     several = fmus if isinstance(fmus, list | tuple) else str(fmus).split(",") if isinstance(fmus, str | Path) else ()
     if not several or not all(isinstance(each, str | Path) for each in several):
         raise InputError("`slots`", slot, f"{fmus!r} are no FMUs", "give names or paths, in a text or a list")
@@ -110,7 +110,7 @@ def _candidates(slot: str, fmus: object) -> list[str]:
 
 
 def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
-    """A system as one FMU, of a name, a folder or an .ssp."""
+    """Export a system as one FMU, from a name, a folder or an .ssp."""
     request.check_one_fmu()
     name = request.name
     if not _names_system(name) and not name.endswith(".ssp"):
@@ -127,12 +127,12 @@ def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
 
 
 def _names_system(name: str) -> bool:
-    """True of a system's name, its folder, or an SSD in its folder."""
+    """Return True if ``name`` is a system's name, its folder, or an SSD in its folder."""
     return name in system_names() or Path(name).is_dir() or (name.endswith(".ssd") and Path(name).is_file())
 
 
 def _archive_name(name: str) -> str:
-    """Return what a system's file is called: as its folder, or as an SSD beside the default one."""
+    """Return the name of a system's file: that of its folder, or of an SSD next to the default one."""
     path = Path(name).resolve()
     if path.suffix != ".ssd":
         return path.name
@@ -155,7 +155,7 @@ def _export(request: ExportRequest) -> Written:
 
 
 def _export_named(request: ExportRequest) -> Written:
-    """An FMU or a system of this repository or of a folder."""
+    """Export an FMU or a system of this repository or of a folder."""
     name, flavour, fmi = request.name, request.flavour or "native", request.fmi
     platforms = [] if flavour == "python" else request.find_platforms(prebuilt=True)
     blocks = catalogue()

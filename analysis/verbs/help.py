@@ -1,4 +1,4 @@
-"""What `perilune --help` and `perilune VERB --help` print around the options: purposes, examples, exit statuses."""
+"""Text of `perilune --help` and `perilune VERB --help` around the options: purposes, examples, exit statuses."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NAME = 18  # columns of a verb's name
 
 
 class Formatter(argparse.HelpFormatter):
-    """argparse's own, at most 100 columns wide, which keeps the lines of examples as they are: those with an indent."""
+    """Formatter of argparse, at most 100 columns wide, that keeps indented lines, those of examples, as they are."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, max_help_position=32, width=min(shutil.get_terminal_size().columns, WIDEST))
@@ -33,7 +33,7 @@ class Formatter(argparse.HelpFormatter):
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse with errors on one line and options in full."""
+    """Parser of argparse with errors on one line and options in full."""
 
     def __init__(self, **keywords: Any) -> None:
         super().__init__(**keywords, allow_abbrev=False, formatter_class=Formatter)
@@ -44,7 +44,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def overview() -> str:
-    """The verbs by purpose, each purpose with an example."""
+    """Return the verbs by purpose, each purpose with an example."""
     lines = ["Spacecraft guidance, navigation and control as FMI components."]
     for purpose, verbs in PURPOSES.items():
         lines += ["", f"{purpose}:", *_rows([(verb.name, verb.text) for verb in verbs])]
@@ -54,19 +54,19 @@ def overview() -> str:
 
 
 def group_help(group: str) -> str:
-    """The verbs of a group."""
+    """Return the verbs of a group."""
     rows = [(name.split()[1], verb.text) for name, verb in VERBS.items() if name.split()[0] == group]
     return "\n".join([f"{GROUPS[group]}", "", *_rows(rows)])
 
 
 def verb_help(verb: Verb) -> str:
-    """A verb's examples, and what its exit statuses mean."""
+    """Return a verb's examples, and the meaning of its exit statuses."""
     examples = "".join(f"  {_break_line(command, 4)}\n      {comment}\n" for command, comment in verb.examples.items())
     return f"Examples:\n{examples}\n{exit_status(verb)}"
 
 
 def exit_status(verb: Verb) -> str:
-    """What the exit statuses of a verb mean."""
+    """Return the meaning of a verb's exit statuses."""
     not_met = f"{verb.not_met}, or interrupted" if verb.not_met else "interrupted"
     return f"Exit status: 0: success. 1: {not_met}. 2: wrong input, or a result could not be written."
 
@@ -80,7 +80,7 @@ def _rows(rows: list[tuple[str, str]]) -> list[str]:
 
 
 def _break_line(command: str, indent: int) -> str:
-    """A command as a shell reads it, its lines no longer than WIDEST: broken before options."""
+    """Return a command as a shell reads it, its lines no longer than WIDEST: broken before options."""
     lines, first, *others = [], *command.split(" --")
     for other in others:
         if len(first) + len(other) + indent + 6 > WIDEST:

@@ -1,4 +1,4 @@
-"""`perilune.inventory` and `perilune list`: what there is to simulate."""
+"""`perilune.inventory` and `perilune list`: systems, laws, searches and FMUs that are available."""
 
 from __future__ import annotations
 
@@ -63,14 +63,14 @@ class Inventory(Documented):
         return inventory_document(content, ("campaigns",)) if self.campaigns_only else inventory_document(content)
 
     def only(self, kind: str) -> Inventory:
-        """The same with one of `KINDS` alone."""
+        """Return the inventory with one of `KINDS` alone."""
         if kind == "campaigns":
             systems = {name: system for name, system in self.systems.items() if system.campaigns}
             return Inventory(systems, (), (), {}, campaigns_only=True)
         return replace(Inventory({}, (), (), {}), **{kind: getattr(self, kind)})
 
     def matching(self, text: str) -> Inventory:
-        """What has a text in its name or its description, in capitals or not; a system in names of what it has, too."""
+        """Return entries with a text in name or description, in any case; of systems also in names of contents."""
         sought = text.casefold()
         return Inventory(
             {
@@ -123,7 +123,7 @@ def _system(archive: SystemArchive) -> SystemFiles:
 
 
 def _interface(block: type[Block]) -> str | None:
-    """The interface that makes a block swappable: the class right below Block; None without one."""
+    """Return the interface that makes a block swappable: the class right below Block; None without one."""
     base = block.__mro__[block.__mro__.index(Block) - 1]
     return base.__name__ if base is not block else None
 

@@ -54,7 +54,7 @@ class Law(Documented, laws.Law):
         _write_graph(self, Path(path))
 
     def plot(self) -> Plot:
-        """The law's graph."""
+        """Plot the law's graph."""
         from ..documents.chart.plot import plot_charts  # which imports matplotlib
 
         chart, width, height = law_chart(self)

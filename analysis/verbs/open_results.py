@@ -29,7 +29,7 @@ Results = OpenedResults | BatchResult
 
 
 def plot_results(results: Mapping[str, FilePath | Results], metrics: Sequence[str] | None = None) -> Plot:
-    """How metrics of several campaigns are distributed over all trials: a panel per metric, a line per variant.
+    """Plot distributions of metrics of several campaigns over all trials: a panel per metric, a line per variant.
 
     ``results`` are folders that `batch` wrote, or what `batch` or `open_results` gave, by their labels; they may be of
     different systems and draws, since only the metrics' names and units are put together. Without ``metrics`` it is
@@ -46,7 +46,7 @@ def plot_results(results: Mapping[str, FilePath | Results], metrics: Sequence[st
 
 
 def distributions(results: Mapping[str, Results], metrics: Sequence[str] | None) -> Plot:
-    """The figure of `plot_results`; a label may be empty where it is the only one."""
+    """Return the figure of `plot_results`; a label may be empty where it is the only one."""
     declared = {label: _metrics(batch) for label, batch in results.items()}
     common = [name for name in next(iter(declared.values())) if all(name in batch for batch in declared.values())]
     for name in metrics or ():
@@ -77,7 +77,7 @@ def _metrics(results: Results) -> dict[str, Metric]:
 
 
 def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Metric:
-    """A metric of all campaigns. Raises InputError where its units differ."""
+    """Return a metric that all campaigns have. Raises InputError where its units differ."""
     (first, metric), *others = ((label, known[name]) for label, known in declared.items())
     for label, other in others:
         if other.unit != metric.unit:
@@ -87,7 +87,7 @@ def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Met
 
 
 def _lines(label: str, results: Results, metric: str) -> list[tuple[str, np.ndarray]]:
-    """The values of a metric by what their lines are called: the label, the variant, or both."""
+    """Return the values of a metric, each with the name of its line: the label, the variant, or both."""
     if isinstance(results, BatchResult):
         lines = {variant: rows.column(f"metric.{metric}") for variant, rows in results.rows.items()}
     else:
@@ -107,7 +107,7 @@ def _varies(values: np.ndarray) -> bool:
 
 
 class StoredResults(OpenedResults):
-    """A campaign's folder as it was when it was opened; what is asked for is read then, and no more.
+    """A campaign's folder as it was when it was opened; only data that is requested is read, at that time.
 
     ``columns`` are unit and meaning by name, ``trials`` how many the campaign has of each variant and ``flown`` how
     many of them are there, ``provenance`` what the numbers depend on.
@@ -118,12 +118,12 @@ class StoredResults(OpenedResults):
         return f"{type(self).__name__}({self.provenance['system']}, {there} trials: {', '.join(self.variants)})"
 
     def to_pandas(self, columns: Sequence[str] | None = None) -> Any:
-        """All ``columns``, or some, as a pandas.DataFrame, a row per variant and trial; needs pandas."""
+        """Return all ``columns``, or some, as a pandas.DataFrame, a row per variant and trial; needs pandas."""
         require_pandas()
         return self.arrow(columns).to_pandas()
 
     def plot(self, *metrics: str) -> Plot:
-        """How metrics are distributed over all trials, variant beside variant; of none named all that vary.
+        """Plot distributions of metrics over all trials, variant next to variant; by default all metrics that vary.
 
         Raises KeyError for a metric that the campaign does not have, and ValueError where there is none to draw.
         """

@@ -47,12 +47,12 @@ NEEDS = {
 
 
 def format_numbers(options: Mapping[str, Any], names: Collection[str]) -> dict[str, float]:
-    """The numbers among the options that are given, by name."""
+    """Return the numbers among the options that are set, by name."""
     return {name: options[name] for name in names if options[name] is not None}
 
 
 def propellant_problems(vehicle: Vehicle, propellant: float, what: str) -> list[str]:
-    """A line for a plan that takes more propellant (kg) than is on board."""
+    """Return a line for a plan that takes more propellant (kg) than is on board."""
     carried = vehicle.mass - vehicle.dry_mass
     if propellant <= carried:
         return []
@@ -68,7 +68,7 @@ class HoverPlan(Documented, HoverStudy):
         return transfer_document(self)
 
     def problems(self) -> list[str]:
-        """Whether the programme takes more propellant than is on board."""
+        """Return a line if the programme takes more propellant than is on board."""
         return propellant_problems(
             self.vehicle, self.programme.propellant_fraction * self.vehicle.mass, "the programme"
         )
@@ -119,7 +119,7 @@ def plan_hover_transfer(
 
 
 def _margins(options: TransferOptions, vehicle: Vehicle) -> Margins | None:
-    """The margins with the numbers that replace theirs; None where none are requested."""
+    """Return the margins with the numbers that replace theirs; None where none are requested."""
     margins = options["margins"]
     numbers = format_numbers(options, ("maximum_throttle", "minimum_throttle", "angular_acceleration"))
     if not numbers and not margins:
@@ -149,7 +149,7 @@ class LandingBound(Documented, LandingStudy):
         return landing_bound_document(self, self.file)
 
     def problems(self) -> list[str]:
-        """Whether the bound is more propellant than is on board."""
+        """Return a line if the bound is more propellant than is on board."""
         return propellant_problems(self.vehicle, self.propellant, "the bound")
 
 

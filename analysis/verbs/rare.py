@@ -39,10 +39,11 @@ class RareResult(Required, outcome.RareResult):
 
 @verb(RARE)
 def rare(system: FilePath, campaign: FilePath, **options: Unpack[RareOptions]) -> RareResult:
-    """The probability of a rare failure over a campaign's dispersions and noise, by subset simulation: `perilune rare`.
+    """Estimate the probability of a rare failure over a campaign's dispersions and noise: `perilune rare`.
 
-    ``failure`` is an expression over metrics and draws, by default that a trial is no success; ``samples`` are the
-    simulations of a level, and a failure less probable than ``least`` is given up. ``hold`` fixes dispersed inputs.
+    The method is subset simulation. ``failure`` is an expression over metrics and draws, by default that a trial is no
+    success; ``samples`` are the simulations of a level; the search ends where a failure is less probable than
+    ``least``. ``hold`` fixes dispersed inputs.
     The noise of components is random, unless ``noise_trial`` is the trial of the campaign whose noise all simulations
     have: then the probability is conditional on that realisation. ``compare`` chooses the FMU of a slot that the
     campaign compares; ``output`` is a folder for rare.json, flights.parquet and failures.parquet; ``require`` are

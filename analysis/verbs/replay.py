@@ -60,7 +60,7 @@ class ReplayResult(Result):
 
     @property
     def success(self) -> bool:
-        """Whether the trial is a success of its campaign."""
+        """True if the trial is a success of its campaign."""
         return self.replayed.outcome.success
 
     @property
@@ -70,12 +70,12 @@ class ReplayResult(Result):
 
     @property
     def stored(self) -> bool:
-        """Whether the folder has the trial."""
+        """True if the folder has the trial."""
         return self.replayed.stored
 
     @property
     def differences(self) -> tuple[str, ...]:
-        """How the simulation differs from the stored trial."""
+        """Differences of the simulation from the stored trial."""
         return self.replayed.differences
 
     def context(self) -> RunContext:
@@ -85,7 +85,7 @@ class ReplayResult(Result):
         return replace(context, title=title, draw_diagram=None, lines=[*context.lines, *self._lines()])
 
     def to_json(self) -> dict[str, object]:
-        """As of `Result`, with the campaign, the trial's success and metrics, and differences from the stored one."""
+        """Return that of `Result`, campaign, the trial's success and metrics, and differences from the stored one."""
         metrics = {name: value if abs(value) < float("inf") else None for name, value in self.metrics.items()}
         faults = {"faults": list(self.replayed.faults)} if self.replayed.plan.fault_texts() else {}
         return (
@@ -103,7 +103,7 @@ class ReplayResult(Result):
         )
 
     def _lines(self) -> list[str]:
-        """Return what a terminal has of the trial, after the lines of its simulation."""
+        """Return the terminal's lines on the trial, which follow those of its simulation."""
         metrics = self.replayed.plan.campaign.metrics
         lines = outcome_lines(self.configuration, self.trial, self.replayed.outcome, metrics)
         lines += [faults_line(self.replayed.faults)] if self.replayed.faults else []
@@ -112,7 +112,7 @@ class ReplayResult(Result):
         return lines
 
     def problems(self) -> list[str]:
-        """As of `Result`; that the trial is no success, and how it differs from the stored one."""
+        """Return those of `Result`, a line for a trial without success, and differences from the stored one."""
         name, lines = f"{self.source}: trial {self.trial}", super().problems()
         success = self.replayed.plan.campaign.success.text
         if self.complete and not self.success:
@@ -124,7 +124,7 @@ class ReplayResult(Result):
         return lines + [f"{name}: {each}{'' if self.replayed.is_cut_off else remedy}" for each in self.differences]
 
     def last_values(self) -> dict[str, float]:
-        """The last values of signals and of time, and the metrics, on which requirements are."""
+        """Return the last values of signals and of time, and the metrics, for requirements."""
         return super().last_values() | {METRIC + name: value for name, value in self.metrics.items()}
 
 

@@ -1,4 +1,4 @@
-"""What the command line needs of every verb's result, and how it leaves as text, JSON and files."""
+"""Interface of every verb's result to the command line, and its output as text, JSON and files."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ class VerbResult(Protocol):
     """
 
     def lines(self) -> Sequence[str]:
-        """What the terminal shows."""
+        """Return the lines that the terminal shows."""
 
     def to_json(self) -> object:
-        """A document of strict JSON."""
+        """Return a document of strict JSON."""
 
     def problems(self) -> Sequence[str]:
-        """Requirements that are not met and simulations that did not complete: a line each, exit status 1."""
+        """Return a line for each unmet requirement and each incomplete simulation; with any the exit status is 1."""
 
 
 # The method of a result that writes the file of an option, unless the option names another one.
@@ -76,7 +76,7 @@ def report_state_of_fmus(verb: Verb, arguments: Mapping[str, Any], options: Mapp
 
 
 def present(verb: Verb, result: VerbResult, files: Mapping[str, Any]) -> ExitStatus:
-    """Print a result or its JSON document, write its files, report its problems; the exit status of the command."""
+    """Print a result or its JSON document, write its files, report its problems; return the command's exit status."""
     written, declared, flags = Results(), options_of(verb.files), flags_of(verb)
     written.written += [folder] if (folder := getattr(result, "folder", None)) is not None else []
     target = files.get("json")

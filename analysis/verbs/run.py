@@ -99,7 +99,7 @@ class Result(Documented, results.Result):
         return signal_plot(self, names)
 
     def plot_trajectory(self) -> Plot:
-        """The path of whatever has a position: ground track and side view. Raises ValueError where nothing has one."""
+        """Plot the path of each position: ground track and side view. Raises ValueError where there is none."""
         from ..documents.of.simulation.trajectory import trajectory_plot
 
         plot = trajectory_plot(self)
@@ -109,24 +109,24 @@ class Result(Documented, results.Result):
 
     @property
     def limits(self) -> list[dict[str, Any]]:
-        """What the SSD's `Limits` say of the end: name, value, unit, least, most and verdict of each.
+        """The SSD's `Limits`, evaluated at the end: name, value, unit, least, most and verdict of each.
 
         The verdict is ``met``, ``violated`` or ``not evaluated``, with the reason why not.
         """
         return limit_document(self.figures, self)
 
     def to_json(self) -> dict[str, object]:
-        """Status, provenance, limits and final values, for other programs."""
+        """Return status, provenance, limits and final values, for other programs."""
         final = {name: value if abs(value) < float("inf") else None for name, value in self.final().items()}
         return self.summary() | {"limits": self.limits, "final": final}
 
     def problems(self) -> list[str]:
-        """Why the simulation did not complete, limits that it violates, requirements that are not met."""
+        """Return the reason for an incomplete simulation, violated limits, and requirements that are not met."""
         problems = flight_problems(self.prepared, self.figures, self)
         return problems + requirement_problems(self.requirements, self.last_values())
 
     def last_values(self) -> dict[str, float]:
-        """The last values of signals and of time, on which requirements are."""
+        """Return the last values of signals and of time, for requirements."""
         if not self.time.size:
             return {}
         return {"time": float(self.time[-1]), **{name: float(value) for name, value in self.final().items()}}

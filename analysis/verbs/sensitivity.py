@@ -1,4 +1,4 @@
-"""`perilune.sensitivity`: which dispersed inputs drive a campaign's metrics."""
+"""`perilune.sensitivity`: influence of dispersed inputs on a campaign's metrics."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class SensitivityResult(Stored, study.SensitivityResult):
         super().write(Path(folder))
 
     def plot(self, *metrics: str) -> Plot:
-        """Total and first-order indices with their intervals, a panel for each metric; by default of all.
+        """Plot total and first-order indices with their intervals, a panel for each metric; by default all.
 
         Raises KeyError for a metric that has no indices, ValueError where none has any.
         """
@@ -54,7 +54,7 @@ class SensitivityResult(Stored, study.SensitivityResult):
 def sensitivity(
     system: FilePath, campaign: FilePath, base: int, **options: Unpack[SensitivityOptions]
 ) -> SensitivityResult:
-    """Sobol' indices of a campaign's metrics and of its success: `perilune sensitivity`.
+    """Compute Sobol' indices of a campaign's metrics and of its success: `perilune sensitivity`.
 
     ``base`` is a power of two, 32 or more: that many times the number of dispersed inputs and 3 are simulated, or the
     number and 2 where no noise is random. The noise of all components is one input in addition to the dispersed ones.

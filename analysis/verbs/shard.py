@@ -62,7 +62,7 @@ def prepare(
 
 @dataclass(frozen=True)
 class ShardResult(Documented):
-    """How many shards were simulated, how many were complete before, and how many of ``count`` are missing."""
+    """Numbers of shards: simulated, complete before, and missing, of ``count``."""
 
     simulated: int
     complete_before: int
@@ -75,7 +75,7 @@ class ShardResult(Documented):
         return shards_document(self.simulated, self.complete_before, self.missing, self.count)
 
     def problems(self) -> list[str]:
-        """Failed simulations of each variant."""
+        """Return failed simulations of each variant."""
         return list(self.failures)
 
 

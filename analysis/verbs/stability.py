@@ -39,7 +39,7 @@ class StabilityReport(Documented, report.StabilityReport):
         return f"{type(self).__name__}({self.system}: {self.verdict}; {verdicts})"
 
     def loop(self, name: str, point: str | None = None) -> LoopReport:
-        """A loop by its name and, where it is studied at several, its operating point. Raises KeyError."""
+        """Return a loop by its name and, where it is studied at several, its operating point. Raises KeyError."""
         named = {loop.point: loop for loop in self.loops if loop.name == name}
         if not named:
             raise KeyError(f"no loop {name}; {suggestion(name, {loop.name for loop in self.loops})}")
@@ -58,7 +58,7 @@ class StabilityReport(Documented, report.StabilityReport):
         return stability_problems(self)
 
     def to_pandas(self) -> Any:
-        """Margins as a pandas.DataFrame, a row per loop and operating point, in dB, deg and s; needs pandas.
+        """Return margins as a pandas.DataFrame, a row per loop and operating point, in dB, deg and s; needs pandas.
 
         An unstable loop has no margins: nan; one without a crossing has inf.
         """
@@ -78,30 +78,30 @@ class StabilityReport(Documented, report.StabilityReport):
         write_data(self, Path(folder))
 
     def plot_bode(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """Gain and phase of a loop, by default of the first that fails, else of the first.
+        """Plot gain and phase of a loop, by default the first that fails, else the first.
 
         This and the other diagrams raise KeyError for an unknown loop, ValueError where the study lacks what one takes.
         """
         return self._plot(Diagram.BODE, loop, point)
 
     def plot_nyquist(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """The response in the complex plane, with the zone that it is to stay out of."""
+        """Plot the response in the complex plane, with the zone that it is to stay out of."""
         return self._plot(Diagram.NYQUIST, loop, point)
 
     def plot_nichols(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """Gain over phase, with the zone that it is to stay out of."""
+        """Plot gain over phase, with the zone that it is to stay out of."""
         return self._plot(Diagram.NICHOLS, loop, point)
 
     def plot_sensitivity(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """Sensitivity and complementary sensitivity, with their peaks."""
+        """Plot sensitivity and complementary sensitivity, with their peaks."""
         return self._plot(Diagram.SENSITIVITY, loop, point)
 
     def plot_poles(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """Poles of the closed loop in the z plane."""
+        """Plot poles of the closed loop in the z plane."""
         return self._plot(Diagram.POLES, loop, point)
 
     def plot_step(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """The closed loop's response to a step at the cut."""
+        """Plot the closed loop's response to a step at the cut."""
         return self._plot(Diagram.STEP, loop, point)
 
     def _plot(self, diagram: Diagram, name: str | None, point: str | None) -> Plot:
@@ -116,7 +116,7 @@ class StabilityReport(Documented, report.StabilityReport):
 
 @verb(STABILITY)
 def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> StabilityReport:
-    """Margins, poles and robustness of a system's loops: `perilune stability`; see docs/stability.md.
+    """Compute margins, poles and robustness of a system's loops: `perilune stability`; see docs/stability.md.
 
     ``loops`` are names that the system declares (all of them by default), or connectors to cut as
     ``component.connector`` at the time ``at`` (s), or at several. Declared loops are studied there, too, with the

@@ -113,7 +113,7 @@ class System:
         return [home / name for name in (*contents, SYSTEM_FILE, DESCRIPTION)]
 
     def run(self, **options: Unpack[RunOptions]) -> Result:
-        """Simulate it with the options of `simulate`. Raises InputError as `write` does."""
+        """Simulate the system with the options of `simulate`. Raises InputError as `write` does."""
         folder = make_folder() / self._source.name
         self.write(folder)
         return simulate(folder, **options)

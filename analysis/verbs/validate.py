@@ -81,11 +81,11 @@ class Validation(Documented, Sequence[FileCheck]):
         return len(self.checks)
 
     def document(self) -> Document:
-        """Return notes, and what is valid."""
+        """Return notes, and the valid paths."""
         return validation_document([asdict(check) for check in self.checks])
 
     def problems(self) -> list[str]:
-        """The problems of all paths."""
+        """Return the problems of all paths."""
         return [problem for check in self.checks for problem in check.problems]
 
 
@@ -139,7 +139,7 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
 
 
 def _broken_rules(fmu: Fmu) -> list[str]:
-    """What of the schema an FMU's description breaks; if nothing, what of FMI's rules for names and structure."""
+    """Return violations of the schema by an FMU's description; if none, those of FMI's rules on names and structure."""
     if fmu.flaws:
         return fmu.flaws
     # FMPy parses a name in a millisecond: it is asked about those that are not plainly right.
@@ -156,7 +156,7 @@ def _broken_rules(fmu: Fmu) -> list[str]:
 
 
 def _check_campaign(path: str, systems: Sequence[str]) -> list[str]:
-    """Check a search, or a campaign as `batch` does, with its system where that is known; notes. Raises InputError."""
+    """Check a search, or a campaign as `batch` does, with its system if known; return notes. Raises InputError."""
     raw = _read(path)
     system = find_system(raw, Path(path), systems)
     table = read_source(raw, path, None if system is None else open_system(system)).table()
@@ -171,7 +171,7 @@ def _check_campaign(path: str, systems: Sequence[str]) -> list[str]:
 
 
 def _check_short_file(path: Path) -> list[str]:
-    """Compose a system without writing it; a note where the SSD next to it differs. Raises InputError."""
+    """Compose a system without writing it; return a note where the SSD next to it differs. Raises InputError."""
     _, document = compose_file(path)
     ssd = path.with_name(DESCRIPTION)
     if not ssd.exists() or find_difference(document, read_input(ssd, "move it away", bound_of(ssd.name))) is None:
@@ -180,7 +180,7 @@ def _check_short_file(path: Path) -> list[str]:
 
 
 def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
-    """Notes on a variant of a system, or on all. Raises InputError."""
+    """Return notes on a variant of a system, or on all. Raises InputError."""
     notes: list[str] = []
     others = [name for name in open_system(path).variants() if name != DEFAULT_VARIANT] if all_variants else []
     for variant in (options.chosen["variant"], *others):

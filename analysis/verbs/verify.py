@@ -24,7 +24,7 @@ from .common.documented import Documented
 
 @dataclass(frozen=True)
 class Verifications(Documented, Sequence[Verification]):
-    """What was verified, in the order of the paths."""
+    """Verifications in the order of the paths."""
 
     files: tuple[Verification, ...]
 
@@ -43,7 +43,7 @@ class Verifications(Documented, Sequence[Verification]):
         return verification_document(self.files)
 
     def problems(self) -> list[str]:
-        """Problems of all files: not as they were handed on, not reproduced, or compared by too little."""
+        """Return problems of all files: altered, not reproduced, or compared with too little."""
         return verification_problems(self.files)
 
 
@@ -69,7 +69,7 @@ def verify(*paths: FilePath | Sequence[FilePath], **options: Unpack[VerifyOption
 
 
 def _path(text: str, flavour: str | None) -> Path:
-    """The file that a path or the name of an FMU means. Raises InputError for folders and other files."""
+    """Return the file of a path or of an FMU's name. Raises InputError for folders and other files."""
     path = Path(text)
     if names_fmu(path) or path.suffix.lower() == ".ssp":
         return path

@@ -58,7 +58,7 @@ class Search(Conditions, total=False):
 
 @verb(WORST)
 def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions]) -> WorstResult:
-    """The worst case of a metric within a box of a campaign's dispersions: `perilune worst`.
+    """Search for the worst case of a metric within a box of a campaign's dispersions: `perilune worst`.
 
     ``metric`` is an expression over metrics and draws, the larger the worse, by default the margin to the success
     condition. With ``loop`` it is the smallest stability ``margin`` instead, by default the disk margin: of a loop that

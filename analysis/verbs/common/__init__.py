@@ -1,1 +1,1 @@
-"""What verbs share: text of a flight, requirements, remarks on a system."""
+"""Shared by verbs: text of a flight, requirements, remarks on a system."""

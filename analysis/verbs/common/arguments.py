@@ -13,7 +13,7 @@ from ...options.option import FilePath
 
 
 def read_requirements(texts: Sequence[str], known: Collection[str], families: tuple[str, ...] = ()) -> list[Expression]:
-    """Requirements on known numbers, or on those whose names begin like ``families``. Raises InputError."""
+    """Read requirements on known numbers, or on those whose names begin like ``families``. Raises InputError."""
     requirements = [Expression(text, ("`require`", text)) for text in texts]
     for requirement in requirements:
         for name in sorted(requirement.names - set(known)):
@@ -23,7 +23,7 @@ def read_requirements(texts: Sequence[str], known: Collection[str], families: tu
 
 
 def requirement_problems(requirements: Sequence[Expression], values: Mapping[str, float]) -> list[str]:
-    """A line for each requirement that is not met, or whose numbers are missing or not finite."""
+    """Return a line for each requirement that is not met, or whose numbers are missing or not finite."""
     return [
         f"`require`: {requirement.text}: not met"
         for requirement in requirements
@@ -33,7 +33,7 @@ def requirement_problems(requirements: Sequence[Expression], values: Mapping[str
 
 
 def path_list(given: Sequence[FilePath | Sequence[FilePath]]) -> list[str]:
-    """Paths of a call that takes them one by one, or as a list."""
+    """Return the paths of a call that takes them one by one, or as a list."""
     paths: list[str] = []
     for entry in given:
         paths += [os.fspath(entry)] if isinstance(entry, str | os.PathLike) else [os.fspath(path) for path in entry]

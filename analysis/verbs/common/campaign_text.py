@@ -27,7 +27,7 @@ from .arguments import read_requirements, requirement_problems
 
 
 def campaign_problems(result: BatchResult, requirements: Sequence[Expression]) -> list[str]:
-    """A line for each variant with failed or late simulations, and for each requirement that is not met."""
+    """Return a line for each variant with failed or late simulations, and for each requirement that is not met."""
     lines = failure_lines(find_failed([result.rows]), result.plan, result.folder)
     limit = f"{result.plan.watch.timeout:g} s of `timeout`" if result.plan.watch.timeout is not None else ""
     for variant, entry in result.summary.items():
@@ -41,7 +41,7 @@ def campaign_problems(result: BatchResult, requirements: Sequence[Expression]) -
 
 
 class Failures(NamedTuple):
-    """Flights of a variant that did not reach their end: how many, the first one's trial and message."""
+    """Failed flights of a variant: their number, the first one's trial and message."""
 
     flights: int
     trial: int
@@ -49,7 +49,7 @@ class Failures(NamedTuple):
 
 
 def find_failed(parts: Iterable[Mapping[str, TrialTable]]) -> dict[str, Failures]:
-    """Of each variant that has any; ``parts`` are trials by variant, in order of trial."""
+    """Find the failures of each variant that has any; ``parts`` are trials by variant, in order of trial."""
     failures: dict[str, Failures] = {}
     for rows in parts:
         for variant, own in rows.items():
@@ -63,7 +63,7 @@ def find_failed(parts: Iterable[Mapping[str, TrialTable]]) -> dict[str, Failures
 
 
 def failure_lines(failures: Mapping[str, Failures], plan: BatchPlan, folder: Path | None) -> list[str]:
-    """A line for each variant with failed simulations, with the command that replays its first failed trial."""
+    """Return a line for each variant with failed simulations, with the command that replays its first failed trial."""
     variants, lines = plan.campaign.variants(), []
     for variant, (flights, trial, message) in failures.items():
         replay = "" if folder is None else f"; see it: {replay_of_folder(folder, variants, variant, trial)}"
@@ -72,7 +72,7 @@ def failure_lines(failures: Mapping[str, Failures], plan: BatchPlan, folder: Pat
 
 
 def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Iterable[Metric]) -> list[str]:
-    """What one trial of a variant came to: its status, whether it is a success, its metrics."""
+    """Return the result of one trial of a variant: its status, success, and metrics."""
     success = "success" if outcome.success else "no success"
     cells = []
     for metric in metrics:
@@ -84,7 +84,7 @@ def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Itera
 
 
 def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Expression]:
-    """Requirements; those on numbers that the summary will not have are refused before anything flies."""
+    """Read requirements; refuse numbers that the summary will not have, before any simulation. Raises InputError."""
     nothing = np.full(1, np.nan)
     metrics = {f"metric.{metric.name}": nothing for metric in plan.campaign.metrics}
     blank = TrialTable.of({"status": [""], "success": np.zeros(1, dtype=bool), **metrics})

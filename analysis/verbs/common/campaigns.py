@@ -30,7 +30,7 @@ from ...studies.flown import Commands
 
 
 def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, Any]) -> BatchPlan:
-    """The plan of a campaign with the options of a verb. Raises InputError."""
+    """Read the plan of a campaign with the options of a verb. Raises InputError."""
     settings, sweeps = part_sweeps(system_options(options))
     if sweeps and "trials" not in options:  # of a study, which samples the campaign itself
         name, text = next(iter(sweeps.items()))
@@ -61,7 +61,7 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
 
 
 def _read_compare(compare: Mapping[str, FilePath | Sequence[FilePath]]) -> dict[str, list[str]] | None:
-    """The FMUs of each slot that is compared, names or paths; one alone stands for a list of one."""
+    """Return the FMUs of each slot that is compared, names or paths; a single one stands for a list of one."""
     if not compare:
         return None
     return {
@@ -71,7 +71,7 @@ def _read_compare(compare: Mapping[str, FilePath | Sequence[FilePath]]) -> dict[
 
 
 def commands_of(plan: BatchPlan) -> Commands:
-    """Commands for the simulations of a study's plan."""
+    """Return the commands for the simulations of a study's plan."""
     (variant,) = plan.campaign.variants()
 
     def replay(draws: Path, trial: int) -> str:
@@ -85,7 +85,7 @@ def commands_of(plan: BatchPlan) -> Commands:
 
 
 def name_foreign(campaign: PreparedCampaign) -> None:
-    """Say which foreign FMUs a campaign's folder is about to run: whoever wrote it has chosen them."""
+    """Warn of the foreign FMUs that a campaign's folder is about to run: its author has chosen them."""
     fmus = {fmu.digest: fmu for system in campaign.systems.values() for fmu in system.network.fmus.values()}
     foreign = sorted(f"{fmu.name} ({digest[:12]})" for digest, fmu in fmus.items() if not fmu.is_own)
     if foreign:
@@ -96,7 +96,7 @@ def name_foreign(campaign: PreparedCampaign) -> None:
 
 @contextmanager
 def resume_hint(folder: Path | None) -> Iterator[None]:
-    """What ends a campaign early names its folder, and how it is resumed. Raises EndedError."""
+    """Add a campaign's folder and the way to resume it to the error that ends it early. Raises EndedError."""
     home = None if folder is None else folder.absolute()  # an FMU may change the working folder
     try:
         yield

@@ -1,4 +1,4 @@
-"""Results that have a document: how they print, what a notebook shows, what programs read, their page."""
+"""Results that have a document: their text, view in a notebook, JSON and page."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ...options.option import FilePath
 
 
 class Documented:
-    """A result whose `document` says everything that is shown of it."""
+    """Result whose `document` has everything that is shown of it."""
 
     def document(self) -> Document:
         """Return the result as a document."""

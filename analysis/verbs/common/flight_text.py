@@ -1,4 +1,4 @@
-"""What commands say of one flight: its limits, its statuses, whether all is met; notes on its system."""
+"""Text of commands on one flight: limits, statuses, unmet conditions; notes on its system."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ REMEDIES = {
 
 
 def flight_lines(prepared: PreparedSystem, figures: Sequence[Figure], result: Result) -> list[str]:
-    """How a flight ended: status, limits, statuses of components."""
+    """Return the end of a flight: status, limits, statuses of components."""
     lines = [f"{prepared.archive.name}: {result.ending}"]
     for figure in figures:
         if isinstance(figure, Limits):
@@ -34,7 +34,7 @@ def flight_lines(prepared: PreparedSystem, figures: Sequence[Figure], result: Re
 
 
 def flight_problems(prepared: PreparedSystem, figures: Sequence[Figure], result: Result) -> list[str]:
-    """A line for each reason why a flight did not complete, or violates a limit of its SSD."""
+    """Return a line for each reason why a flight did not complete, or violates a limit of its SSD."""
     file, lines = prepared.network.file, []
     if not result.complete:
         remedy = REMEDIES.get(result.status, "see the FMU's message and its documentation")
@@ -58,7 +58,7 @@ def flight_problems(prepared: PreparedSystem, figures: Sequence[Figure], result:
 
 
 def _is_cut_off(prepared: PreparedSystem, result: Flight) -> bool:
-    """Whether a system that says itself when it has finished did not, by a stop time that the user did not choose."""
+    """Return True if a system with an output for its end did not reach it by a stop time that is not the user's."""
     end = prepared.network.nodes.get(FINISHED)
     says_so = end is not None and end.component is None and end.kind == "output"
     return says_so and result.status == "stop_time" and prepared.options.chosen["stop_time"] is None
@@ -69,7 +69,7 @@ INDEX = re.compile(r"\[[\d,]+\]$")
 
 
 def note_lines(prepared: PreparedSystem) -> list[str]:
-    """What `perilune validate` notes of a system, a line for each kind of note.
+    """Return the notes of `perilune validate` on a system, a line for each kind of note.
 
     Of a system of this repository it is what was assumed only: an FMU of another's may fly in it.
     """

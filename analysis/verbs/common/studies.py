@@ -1,4 +1,4 @@
-"""What the verbs of studies share: results with documents and folders, requirements on their numbers, options."""
+"""Shared by verbs of studies: results with documents and folders, requirements on their numbers, options."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ Study = TypeVar("Study", bound=_Writable)
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Stored(Documented):
-    """``folder`` is where a study's result is stored, if it is."""
+    """Result of a study; ``folder`` is where it is stored, if it is."""
 
     folder: Path | None = None
 
@@ -57,12 +57,12 @@ class Required(Stored):
     requirements: Sequence[Expression] = ()
 
     def problems(self: _RequiredOutcome) -> list[str]:
-        """Requirements that are not met."""
+        """Return requirements that are not met."""
         return requirement_problems(self.requirements, self.values())
 
 
 class Conditions(TypedDict):
-    """What a study keeps constant, and its workers."""
+    """Constants of a study, and its workers."""
 
     hold: dict[str, float]
     noise_trial: int | None
@@ -70,7 +70,7 @@ class Conditions(TypedDict):
 
 
 def results_folder(options: ConditionOptions) -> Path | None:
-    """The folder of ``output``, checked before anything is simulated. Raises InputError."""
+    """Return the folder of ``output``, checked before anything is simulated. Raises InputError."""
     output = options["output"]
     folder = None if output is None else Path(output).absolute()  # an FMU may change the working folder
     check_folder("`output`", folder, overwrite=options["overwrite"], otherwise="`overwrite`")
@@ -78,12 +78,12 @@ def results_folder(options: ConditionOptions) -> Path | None:
 
 
 def conditions(options: ConditionOptions) -> Conditions:
-    """What a study keeps constant, and its workers."""
+    """Return the constants of a study, and its workers."""
     return {"hold": dict(options["hold"]), "noise_trial": options["noise_trial"], "workers": options["workers"]}
 
 
 def store_result(kind: Callable[..., Study], result: StudyResult, folder: Path | None, **more: object) -> Study:
-    """A study's result as users have it, of its subclass ``kind``, whose fields ``more`` are, written to its folder.
+    """Return a study's result as its public subclass ``kind``, with the fields ``more``, and write it to its folder.
 
     Raises UnwrittenError, which has the result.
     """

@@ -1,4 +1,4 @@
-"""What a shell offers for an argument: names of systems, campaigns, sets, FMUs, as far as they are cheap to find."""
+"""Candidates of a shell's completion: names of systems, campaigns, sets, FMUs, where finding them is cheap."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def parameter_sets(prefix: str, parsed_args: argparse.Namespace, **_: object) ->
 
 
 def slots_with_fmus(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """``SLOT=`` of the system first, then ``SLOT=FMU``."""
+    """Return ``SLOT=`` of the system first, then ``SLOT=FMU``."""
     slot, equals, remainder = prefix.partition("=")
     if equals:
         return [f"{slot}={name}" for name in fmus(remainder)]
@@ -82,7 +82,7 @@ def block_slots(prefix: str, **_: object) -> list[str]:
 
 
 def _system(parsed_args: argparse.Namespace) -> SystemArchive | None:
-    """The system that the line names so far."""
+    """Return the system that the line names so far."""
     try:
         return open_system(parsed_args.system) if getattr(parsed_args, "system", None) else None
     except InputError:

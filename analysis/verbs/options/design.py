@@ -95,7 +95,7 @@ SEARCH = Verb(
 
 
 def _defaults(name: str, unit: str) -> str:
-    """The unit of a number of the vehicle, and its published values."""
+    """Return the unit of a number of the vehicle, and its published values."""
     values = f"{getattr(HOVER_VEHICLE, name):g} (transfer), {getattr(LANDING_VEHICLE, name):g} (bound)"
     return f", {unit}; default: {values}"
 
