@@ -59,7 +59,6 @@ TAKES_LONG = {
     "lunar_landing --campaign compare --parameters noisy.ssv --output": "6000 flights",
     "lunar_landing --campaign compare --parameters noisy.ssv --trials 50 --output": "300 flights, and their page",
     "lunar_landing --campaign compare --trials 50 --output ours": "300 flights of 320 s",
-    "--campaign compare --trials 100": "100 flights of 320 s",
     "--set guidance.frozen_time_to_go=20": "half a minute; tests/docs/test_descent_laws_stability.py studies it",
     "--campaign laws_": "1800 to 3600 flights each; tests/docs/test_descent_laws_page.py flies rows of them",
     "perilune replay results": "what it is a trial of takes long",
