@@ -44,8 +44,6 @@ ELSEWHERE = {
     "perilune run build/fmus/python/basilisk_orbiter.fmu": "likewise",
     "perilune run StateSpace.fmu": "tests/runtime/fmi3/test_systems.py, with the Reference-FMU",
     "LD_PRELOAD=": "of a host of the reader's own",
-    "perilune run earth_pointing --parameters ideal.ssv": "tests/docs/test_earth_pointing_steps.py flies both",
-    "perilune diff coarse.parquet fine.parquet": "likewise",
 }
 # Commands by what is in them, and why only `make long` carries them out.
 TAKES_LONG = {
