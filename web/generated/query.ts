@@ -7,7 +7,7 @@ export interface Range {
   last: number;
 }
 
-// ``histograms`` and ``grids`` of columns, of the rows that are in all ranges and of the outcome and variants.
+// Query of ``histograms`` and ``grids`` of columns, over the rows in all ranges, of the outcome and variants.
 export interface Query {
   histograms?: number[];
   grids?: [number, number][];

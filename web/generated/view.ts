@@ -25,7 +25,7 @@ export interface JetView<Column = number> {
   along: [number, number, number];
 }
 
-// Which trial of which variant a body is of, and whether that failed.
+// Trial and variant of a body, and whether that trial failed.
 export interface FlightName {
   variant: string;
   trial: number;

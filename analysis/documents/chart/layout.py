@@ -115,7 +115,7 @@ def _rounder(axis: Axis) -> Iterator[Sequence[int]]:
 
 
 def _is_round(step: float) -> bool:
-    """True if a step is one of `STEPS` times a power of ten."""
+    """Return True if a step is one of `STEPS` times a power of ten."""
     if not step:
         return False
     mantissa = abs(step) / 10.0 ** math.floor(math.log10(abs(step)) + CLOSE)
@@ -135,7 +135,7 @@ def _length_for(axis: Axis) -> float:
 def _margins(
     chart: Chart, width: float, height: float, title: str, left: float = 0.0, right: float = 0.0
 ) -> np.ndarray:
-    """The room (pt) left, above, right and below the axes, ``left`` and ``right`` at least."""
+    """Return the room (pt) left, above, right and below the axes, ``left`` and ``right`` at least."""
     room = np.maximum(_room(chart, title), [left, 0.0, right, 0.0])
     for _ in range(2):  # the room for what is placed in fractions of the axes depends on their size
         across, up = width - room[0] - room[2], height - room[1] - room[3]
@@ -152,7 +152,7 @@ def _box(margins: np.ndarray, width: float, height: float) -> tuple[float, float
 
 
 def _room(chart: Chart, title: str) -> tuple[float, float, float, float]:
-    """For ticks, labels and the title: left, top, right, bottom."""
+    """Return the room (pt) for ticks, labels and the title: left, top, right, bottom."""
     x, y = chart.x, chart.y
     widest = max((text_width(text, y.size) for _, text in y.ticks), default=0.0)
     left_label, label = (LABEL_GAP + LINE * LABEL_SIZE if axis.label else 0.0 for axis in (y, x))

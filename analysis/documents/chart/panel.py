@@ -86,7 +86,7 @@ def _is_exact(chart: Chart) -> bool:
 
 
 def _reduce(curve: Curve) -> Curve:
-    """The envelope of a curve of many rows."""
+    """Reduce a curve of many rows to its envelope."""
     assert isinstance(curve.y, np.ndarray)
     x, y = envelope(curve.x, curve.y)
     is_shorter = y.size < curve.y.size

@@ -81,7 +81,7 @@ def plot_area(axes: Axes, area: Area) -> None:
 
 
 def _path(strokes: Sequence[np.ndarray] | np.ndarray) -> Path:
-    """Lines as one path; those that follow each other are joined."""
+    """Return lines as one path, in which those that follow each other are joined."""
     points: list[np.ndarray] = []
     codes: list[np.uint8] = []
     for stroke in strokes:

@@ -30,7 +30,7 @@ def axis_ends(numbers: np.ndarray, margin: float = MARGIN) -> tuple[float, float
 
 
 def _widen(low: float, high: float) -> tuple[float, float]:
-    """A range of some width around one that has none."""
+    """Return a range of nonzero width around one of none."""
     size = max(abs(low), abs(high))
     if size < SMALLEST:
         return -MARGIN, MARGIN
@@ -113,7 +113,7 @@ def text_ticks(low: float, high: float, limit: int) -> list[float]:
 
 
 def _floor(number: float, step: float, offset: float) -> float:
-    """The number of steps in a number, rounded down but for rounding errors."""
+    """Return the number of steps in a number, rounded down but for rounding errors."""
     quotient, remainder = divmod(number, step)
     return quotient + 1 if _is_close(remainder / step, 1.0, step, offset) else quotient
 

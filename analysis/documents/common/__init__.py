@@ -1,1 +1,1 @@
-"""What every page is made of: templates, style, numbers, panels, signals."""
+"""Common elements of all pages: templates, style, numbers, panels, signals."""

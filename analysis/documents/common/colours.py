@@ -100,5 +100,5 @@ class Look(NamedTuple):
 
 
 def look(index: int) -> Look:
-    """The look of the index-th series."""
+    """Return the look of the index-th series."""
     return Look(COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)], MARKERS[index % len(MARKERS)])

@@ -1,4 +1,4 @@
-"""What a notebook shows of a result: a heading, a few tables, one figure; nothing that clashes with its other cells."""
+"""Display of a result in a notebook: a heading, a few tables, one figure; nothing that clashes with its other cells."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Grid(NamedTuple):
 
 
 def notebook_view(title: str, words: Iterable[str], grids: Iterable[Grid], plot: Plot | None) -> str:
-    """The HTML of a result; of long tables the first rows, and how many there are."""
+    """Return the HTML of a result, with the first rows of long tables and their number of rows."""
     displayed = [(grid.head, grid.rows[:MOST_ROWS], len(grid.rows)) for grid in grids if grid.rows]
     picture = None
     if plot is not None:  # as paths, whose identifiers no other figure of the notebook can meet
@@ -36,6 +36,6 @@ def notebook_view(title: str, words: Iterable[str], grids: Iterable[Grid], plot:
 
 
 def value_text(values: Iterable[Any], unit: str | None) -> str:
-    """Numbers with their unit, angles in deg."""
+    """Return numbers with their unit, angles in deg."""
     text = ", ".join(number(in_display_unit(value, unit)) for value in values)
     return f"{text} {display_unit(unit)}".strip()

@@ -21,7 +21,7 @@ FOLDER = Path(__file__).parent
 
 
 def exact(value: Any, unit: str | None = None, digits: int = 4, decimals: int | None = None) -> Markup:
-    """A number for reading in its shown unit, with the exact SI value in the markup for programs.
+    """Return a number for reading in its shown unit, with the exact SI value in the markup for programs.
 
     It has ``digits`` significant digits, or ``decimals``.
     """
@@ -32,17 +32,17 @@ def exact(value: Any, unit: str | None = None, digits: int = 4, decimals: int | 
 
 
 def with_exact(exact_value: str, displayed: str) -> Markup:
-    """A text with the exact SI value in the markup for programs."""
+    """Return a text with the exact SI value in the markup for programs."""
     return Markup('<data value="{}">{}</data>').format(exact_value, displayed)
 
 
 def breakable(name: str) -> Markup:
-    """A variant's name, which may go on in a new line where the next FMU of it begins."""
+    """Return a variant's name that may break into a new line before each of its FMUs."""
     return Markup("__<wbr>").join(name.split("__"))
 
 
 def render_page(template: Path, **content: Any) -> str:
-    """A page from a template, which may use those of this folder and of its own.
+    """Render a page from a template, which may use others of this folder and of its own folder.
 
     A name that the template needs and does not get is an error.
     """
@@ -73,7 +73,7 @@ def render_page(template: Path, **content: Any) -> str:
 
 
 def answering(figure: Drawing, embedded: Embedded) -> Markup:
-    """A figure whose values the page's script shows at the cursor."""
+    """Return a figure whose values the page's script shows at the cursor."""
     svg = figure.svg
     number = embedded.add_figure(figure.charts)
     return svg if number is None else Markup('<svg data-figure="{}" {}').format(number, svg.removeprefix("<svg "))

@@ -30,12 +30,12 @@ class Panel(NamedTuple):
 
 
 def far(values: np.ndarray) -> tuple[float, str]:
-    """Factor and unit in which lengths in m are shown together: km where one is long, else m."""
+    """Return the factor and the unit in which lengths in m are shown together: km where one is long, else m."""
     return (1e-3, "km") if values.size and np.nanmax(np.abs(values)) >= KILOMETRES else (1.0, "m")
 
 
 def swatch(look: Look) -> Markup:
-    """A look as a short line for legends in text."""
+    """Return a look as a short line for legends in text."""
     lengths = " ".join(f"{1.7 * length:g}" for length in look.lengths)
     return Markup(
         '<svg class="swatch" viewBox="0 0 26 8" aria-hidden="true">'
@@ -44,7 +44,7 @@ def swatch(look: Look) -> Markup:
 
 
 def mark_swatch(marker: Marker) -> Markup:
-    """A mark for legends in text."""
+    """Return a mark for legends in text."""
     scale = SWATCH / marker.size
     paint = f'fill="{marker.fill or "none"}" stroke="{marker.edge or "none"}" stroke-width="{scale * marker.width:g}"'
     lines = [np.reshape(each, (-1, 2)) * [SWATCH, -SWATCH] for each in marker.outline]

@@ -14,7 +14,7 @@ MISMATCH = 1e-3  # m, and this fraction of 1e6 of the distance: altitudes furthe
 
 
 def radius_of(position: np.ndarray, altitude: np.ndarray) -> float | None:
-    """The radius (m) of the sphere above which positions, [3, n], have these altitudes, [n]; None if there is none.
+    """Return the radius (m) of the sphere above which positions, [3, n], have these altitudes, [n], or None.
 
     With the centre at (0, 0, -R) and |p - centre| = R + a, |p|^2 - a^2 = 2 R (a - z): a line through the origin, whose
     slope is fitted by least squares. None too where nothing moves far enough for the curvature to be seen.
@@ -33,7 +33,7 @@ def radius_of(position: np.ndarray, altitude: np.ndarray) -> float | None:
 
 
 def altitude_over(position: np.ndarray, radius: float) -> np.ndarray:
-    """Altitudes (m) of positions, [3, n], above a sphere of this radius (m)."""
+    """Return altitudes (m) of positions, [3, n], above a sphere of this radius (m)."""
     x, y, z = position
     return np.sqrt(x**2 + y**2 + (z + radius) ** 2) - radius
 
@@ -41,10 +41,10 @@ def altitude_over(position: np.ndarray, radius: float) -> np.ndarray:
 def track_angles(
     position: np.ndarray, radius: float, target: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Angles (rad) at the body's centre along and across the great circle through the target that fits a track best.
+    """Return angles (rad) along and across the great circle through the target that best fits a track.
 
     ``position``, [3, n]; ``target``, [3], the origin of the frame if None. Along is 0 at the target, grows in the
-    direction of flight, and goes on beyond half the circumference; the row nearest to the target is within half of
+    direction of flight, continuously beyond half the circumference; the row nearest to the target is within half of
     it. nan for what is not finite. A track without a direction, straight up or at rest, is taken as one along x.
     """
     centre = np.array([0.0, 0.0, -radius])
@@ -65,7 +65,7 @@ def track_angles(
 
 
 def downrange(position: np.ndarray, radius: float, target: np.ndarray | None = None) -> np.ndarray:
-    """How far (m) along the ground positions, [3, n], are past the target, as `track_angles` has it.
+    """Return the distance (m) of positions, [3, n], along the ground past the target, as in `track_angles`.
 
     In figures it grows to the right: flights begin at the left, where it is negative, and end near 0.
     """
@@ -73,7 +73,7 @@ def downrange(position: np.ndarray, radius: float, target: np.ndarray | None = N
 
 
 def track_normal(position: np.ndarray, centre: Sequence[float]) -> np.ndarray:
-    """The unit normal, [3], of the great circle that fits a track of positions, [3, n], around a ``centre`` best.
+    """Return the unit normal, [3], of the great circle that best fits a track, [3, n], around a ``centre``.
 
     The circle goes through the point straight up from the centre, along z. About the normal the track turns in the
     direction of flight. One without a direction is taken as one along x.
@@ -83,7 +83,7 @@ def track_normal(position: np.ndarray, centre: Sequence[float]) -> np.ndarray:
 
 
 def _normal(direction: np.ndarray, up: np.ndarray) -> np.ndarray:
-    """The unit normal of the great circle through ``up`` that fits directions from the body's centre, [3, n], best."""
+    """Return the unit normal of the great circle through ``up`` that best fits directions, [3, n], from the centre."""
     turning = np.sum(np.cross(direction[:, :-1], direction[:, 1:], axis=0), axis=1)
     normal = turning - (turning @ up) * up
     if np.linalg.norm(normal) < 1e-12:

@@ -24,23 +24,23 @@ INDEXED = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 
 
 def vector_of(name: str) -> str:
-    """The vector that a signal is an element of: ``plant.position`` of ``plant.position[1]``; else the signal."""
+    """Return the vector of which a signal is an element: ``plant.position`` of ``plant.position[1]``, else itself."""
     indexed = INDEXED.fullmatch(name)
     return indexed[1] if indexed else name
 
 
 def axes_of(result: Result) -> Mapping[str, str]:
-    """The names of axes by signal, as the system of a run declares them."""
+    """Return the names of axes by signal, as the system of a run declares them."""
     return result.provenance.get("axes", {})
 
 
 def displayed_name(name: str, axes: Mapping[str, str]) -> str:
-    """A signal as pages name it: ``plant.position north`` for an element along a named axis, else by its own name."""
+    """Return a signal's name on pages: ``plant.position north`` for an element along a named axis, else unchanged."""
     return f"{vector_of(name)} {axes[name]}" if name in axes else name
 
 
 def names_of_elements(names: Sequence[str], axes: Mapping[str, str]) -> tuple[str, ...]:
-    """The axes along which these elements are; none where one of them has no name."""
+    """Return the axes along which these elements are; none where one of them has no name."""
     return tuple(axes[name] for name in names) if all(name in axes for name in names) else ()
 
 
@@ -83,12 +83,12 @@ class SignalGroup:
         return self.type == "Real"
 
     def values(self, result: Result) -> np.ndarray:
-        """The values in SI, [elements, samples]."""
+        """Return the values in SI, [elements, samples]."""
         return np.stack([result[name] for name in self.names])
 
 
 def signal_groups(result: Result) -> list[SignalGroup]:
-    """All signals in their order, elements of vectors grouped."""
+    """Return all signals in their order, elements of vectors grouped."""
     components, axes = result.provenance["fmus"], axes_of(result)
     by_key: dict[tuple[str, str, str | None, str, bool], list[tuple[str, str]]] = {}
     for name in result.signals:
@@ -107,7 +107,7 @@ def signal_groups(result: Result) -> list[SignalGroup]:
 
 
 def distinct(groups: Iterable[SignalGroup], result: Result) -> dict[SignalGroup, SignalGroup]:
-    """Each group with the first group of the same unit and values, itself if there is none before it.
+    """Map each group to the first group of the same unit and values, itself if there is none before it.
 
     A connected input repeats the output that drives it and needs no plot of its own.
     """
@@ -118,7 +118,7 @@ def distinct(groups: Iterable[SignalGroup], result: Result) -> dict[SignalGroup,
 
 
 def states_and_commands(groups: Iterable[SignalGroup], result: Result) -> list[SignalGroup]:
-    """States and commands, by the names of variables: of each the first signal that changes."""
+    """Select states and commands, by the names of variables: of each the first signal that changes."""
     first: dict[str, SignalGroup] = {}
     for group in groups:
         if group.component and group.is_real and group.variable in STATES + COMMANDS:
@@ -129,7 +129,7 @@ def states_and_commands(groups: Iterable[SignalGroup], result: Result) -> list[S
 
 
 def position_groups(result: Result) -> list[SignalGroup]:
-    """Distinct signals COMPONENT.position[1..3] in m: the paths of a trajectory plot."""
+    """Return distinct signals COMPONENT.position[1..3] in m: the paths of a trajectory plot."""
     groups = [
         group
         for group in signal_groups(result)

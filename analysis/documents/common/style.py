@@ -53,7 +53,7 @@ SETTINGS: Any = {
 
 @contextmanager
 def house_style() -> Iterator[None]:
-    """Figures made inside have the house style, whatever the user's matplotlibrc says."""
+    """Apply the house style to figures created inside, whatever the user's matplotlibrc says."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(SETTINGS)
@@ -61,12 +61,12 @@ def house_style() -> Iterator[None]:
 
 
 def new_figure(height: float, width: float = WIDTH) -> Picture:
-    """An empty figure, sizes in inches."""
+    """Return an empty figure, sizes in inches."""
     return Picture(figsize=(width, height), layout="constrained")
 
 
 def plain_ticks(axes: Axes, *, x: int | None = None, y: int | None = None, whole_y: bool = False) -> None:
-    """At most so many intervals on an axis, with plain numbers at them."""
+    """Limit the number of intervals on axes, and label them with plain numbers."""
     if x is not None:
         axes.xaxis.set_major_locator(MaxNLocator(x, steps=[1, 2, 2.5, 5, 10]))
         axes.xaxis.set_major_formatter(FuncFormatter(tick))

@@ -22,7 +22,7 @@ class Picture(Figure):
 
 
 def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
-    """A figure as an SVG document without date or version; ``name`` salts its identifiers."""
+    """Return a figure as an SVG document without date or version; ``name`` salts its identifiers."""
     buffer = io.BytesIO()
     settings: Any = {"svg.hashsalt": name, "svg.fonttype": "path" if text_as_paths else "none"}
     with matplotlib.rc_context(settings), _lay_out(figure) as canvas:
@@ -32,7 +32,7 @@ def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
 
 @contextmanager
 def _lay_out(figure: Figure) -> Iterator[FigureCanvasSVG]:
-    """The figure's SVG, with its layout made: savefig would draw the whole once more to have it made."""
+    """Yield the canvas of a figure with its layout computed: savefig would draw the whole once more for that."""
     before, dpi, engine = figure.canvas, figure.dpi, figure.get_layout_engine()
     canvas = FigureCanvasSVG(figure)  # whose text the layout measures
     try:

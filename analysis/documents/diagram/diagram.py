@@ -1,4 +1,4 @@
-"""What a page shows of the structure of a system: its block diagram, and tables of blocks and connections."""
+"""Structure of a system on a page: its block diagram, and tables of blocks and connections."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Diagram:
 
 
 def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diagram:
-    """The diagram of a prepared system, with the faults that its run has. No FMU is loaded."""
+    """Return the diagram of a prepared system, with the faults that its run has. No FMU is loaded."""
     system = read_graph(prepared, faults)
     blocks = sum(1 for _ in system.all_blocks()) - 1
     parameters = sum(len(block.parameters) for block in system.all_blocks())
@@ -63,7 +63,7 @@ def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diag
 
 
 def _lay_out(system: Block) -> Placement | None:
-    """None where the engine was not built. Raises LayoutError."""
+    """Lay out a system; return None where the engine was not built. Raises LayoutError."""
     engine = Engine.load()
     if engine is None:
         return None
@@ -72,7 +72,7 @@ def _lay_out(system: Block) -> Placement | None:
 
 
 def _outside_loops(call: Callable[[], Result]) -> Result:
-    """What a call returns, in a thread of its own where an event loop runs, as in notebooks: there V8 would wait."""
+    """Return the result of a call, in a separate thread where an event loop runs, as in notebooks: V8 would wait."""
     try:
         asyncio.get_running_loop()
     except RuntimeError:
@@ -82,7 +82,7 @@ def _outside_loops(call: Callable[[], Result]) -> Result:
 
 
 def block_table(system: Block) -> Table:
-    """The blocks with their FMUs, and their other outputs, which are not drawn since nothing is connected to them."""
+    """Return the blocks with their FMUs and their unconnected outputs, which are not drawn."""
     rows: list[list[Markup | str]] = []
     for block in system.all_blocks():
         if block is system:
@@ -97,7 +97,7 @@ def block_table(system: Block) -> Table:
 
 
 def connection_table(system: Block) -> Table:
-    """The edges of the diagram: from where to where, how many connections, unit, what happens on the way."""
+    """Return the edges of the diagram: ends, number of connections, unit, conversion on the way."""
     ports = {key: port for block in system.all_blocks() for key, port in block.ports.items()}
     rows = []
     for edge in system.all_edges():
@@ -107,7 +107,7 @@ def connection_table(system: Block) -> Table:
 
 
 def parameter_table(prepared: PreparedSystem, system: Block) -> Table:
-    """The parameters that a system gives to its blocks, with their values; a dash where no value is set."""
+    """Return the parameters that a system gives to its blocks, with their values; a dash where no value is set."""
     targets: dict[str, list[str]] = defaultdict(list)
     for block in system.all_blocks():
         for source, target in (pair for edge in block.parameters for pair in edge.pairs):

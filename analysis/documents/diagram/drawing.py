@@ -42,7 +42,7 @@ TO_LABEL = 10.0  # from a port to its label
 
 
 def draw(system: Block, placement: Placement) -> Markup:
-    """The <svg> element of a laid-out system."""
+    """Return the <svg> element of a laid-out system."""
     width, height = placement.width + 2.0 * BORDER, placement.height + 2.0 * BORDER
     count = sum(1 for block in system.all_blocks() if not block.blocks)
     edges = sum(1 for _ in system.all_edges())
@@ -97,7 +97,7 @@ def _draw_frame(parent: etree._Element, placed: Placed, colour: str) -> None:
 
 
 def _draw_edge(parent: etree._Element, route: Route, earlier: Iterable[Segment], colour: str) -> None:
-    """An edge: its line without what ``earlier`` lines of its port cover, and the whole of it to be pointed at."""
+    """Draw an edge: its line where ``earlier`` lines of its port do not cover it, and the whole for the pointer."""
     attributes = {"class": "edge", "data-signals": _json(a for a, _ in route.edge.pairs)}
     group = etree.SubElement(parent, "g", attributes | {"data-targets": _json(b for _, b in route.edge.pairs)})
     _title(group, edge_text(route.edge))
@@ -116,7 +116,7 @@ def _path(points: Sequence[Point]) -> str:
 
 
 def _draw_text(parent: etree._Element, placed: Placed) -> None:
-    """What is written in a block."""
+    """Draw the texts of a block."""
     block, shape = placed.block, placed.shape
     signals = [signal for key, port in block.ports.items() if not key.entry for signal in port.signals]
     group = etree.SubElement(parent, "g", {"class": "block", "data-block": block.path, "data-signals": _json(signals)})
@@ -168,7 +168,7 @@ def _draw_terminal(parent: etree._Element, terminal: Terminal) -> None:
 
 
 def edge_text(edge: Edge) -> str:
-    """An edge in a line: from where to where, and what happens on the way."""
+    """Describe an edge in one line: its ends, and the conversion on the way."""
     ends = []
     for key, names in zip((edge.source, edge.target), zip(*edge.pairs, strict=True), strict=True):
         owner = f"{key.block}." if key.block else ""
@@ -192,7 +192,7 @@ def _text(
     is_bold: bool = False,
     is_right: bool = False,
 ) -> None:
-    """A line of text as wide as it was measured, whatever font the reader has."""
+    """Draw a line of text with its measured width, whatever font the reader has."""
     if not text:
         return
     width = text_width(text, size, is_bold=is_bold)
@@ -212,5 +212,5 @@ def _json(names: Iterable[str]) -> str:
 
 
 def _number(length: float) -> str:
-    """A length to hundredths of a px."""
+    """Format a length to hundredths of a px."""
     return f"{round(length, 2) + 0.0:g}" if abs(length) < 1e4 else f"{length:.2f}"

@@ -48,7 +48,7 @@ class Engine:
 
     @classmethod
     def load(cls) -> Engine | None:
-        """The engine; None where its bundle was not built."""
+        """Return the engine, or None where its bundle was not built."""
         script = read_bundle("layout")
         return None if script is None else cls(script)
 
@@ -59,7 +59,7 @@ class Engine:
         self.context.close()
 
     def lay_out(self, nodes: list[dict[str, Any]], edges: list[dict[str, Any]]) -> dict[str, Any]:
-        """A graph of ELK's JSON with the positions of its nodes and ports, and the points of its edges.
+        """Return a graph of ELK's JSON with the positions of its nodes and ports, and the points of its edges.
 
         Raises LayoutError.
         """

@@ -11,7 +11,7 @@ MAX_OPEN = 30  # ports of a side that are drawn though nothing is connected to t
 
 
 class Side(StrEnum):
-    """Where a port is: values enter on the left and leave on the right."""
+    """Side of a block that has a port: values enter on the left and leave on the right."""
 
     IN = "in"
     OUT = "out"
@@ -91,19 +91,19 @@ class Block:
     edges: list[Edge] = field(default_factory=list)
 
     def add_entry(self, key: PortKey, number: int) -> PortKey:
-        """The key of the entry of this number to a port, which gets it if it has not."""
+        """Return the key of a port's entry with this number, which is added if it is missing."""
         entry = key._replace(entry=number)
         self.ports.setdefault(entry, replace(self.ports[key]))
         return entry
 
     def all_blocks(self) -> Iterator[Block]:
-        """The block, and those inside it."""
+        """Yield the block, and those inside it."""
         yield self
         for block in self.blocks:
             yield from block.all_blocks()
 
     def all_edges(self) -> Iterator[Edge]:
-        """The edges of the system and of those inside it."""
+        """Yield the edges of the system and of those inside it."""
         for block in self.all_blocks():
             yield from block.edges
 
@@ -113,7 +113,7 @@ class Block:
         return self.kind.removesuffix("s")
 
     def visible_ports(self) -> dict[PortKey, Port]:
-        """The ports that the diagram shows: those connected, and some inputs that are not.
+        """Return the ports that the diagram shows: those connected, and some inputs that are not.
 
         Of a block to which nothing is connected they are the first ones of both sides.
         """

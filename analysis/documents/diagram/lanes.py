@@ -23,7 +23,7 @@ ROW_GAP = 16.0  # between a lane and the next row
 
 
 class Way(Enum):
-    """How an edge is at its port: it leaves, or it enters from a lane below or above, or from the channel."""
+    """Way of an edge at its port: it leaves, or it enters from a lane below or above, or from the channel."""
 
     LEAVES = "leaves"
     FROM_BELOW = "from below"
@@ -47,7 +47,7 @@ class _Group:
 
 
 def join_rows(rows: Sequence[Placement], edges: Sequence[Edge]) -> Placement:
-    """One placement of all rows, with the edges that are not in any of them."""
+    """Join all rows into one placement, with the edges that are not in any of them."""
     return _Lanes(rows, edges).join()
 
 
@@ -66,7 +66,7 @@ class _Lanes:
         self.tops = self.add_lanes()
 
     def join(self) -> Placement:
-        """Everything in one placement."""
+        """Join all rows into one placement."""
         routes = [Route(edge, self.line(edge, group)) for group in self.groups for edge in group.edges]
         joined = Placement(max(row.width for row in self.rows) - self.left, self.tops[-1])
         for row, top in zip(self.rows, self.tops, strict=False):
@@ -79,14 +79,14 @@ class _Lanes:
         return joined
 
     def way_in(self, edge: Edge) -> Way:
-        """How an edge enters its target."""
+        """Return the way in which an edge enters its target."""
         source, target = self.homes[edge.source], self.homes[edge.target]
         if edge.target in self.first and target not in (source, source + 1):
             return Way.FROM_CHANNEL
         return Way.FROM_ABOVE if target > source else Way.FROM_BELOW
 
     def lane_row(self, edge: Edge) -> int:
-        """The row below which the last lane of an edge is: the target's own, or that above it."""
+        """Return the row below which the last lane of an edge is: the target's own, or that above it."""
         return self.homes[edge.target] - (self.way_in(edge) is Way.FROM_ABOVE)
 
     def widen(self, number: int) -> None:
@@ -174,7 +174,7 @@ class _Lanes:
         return tops
 
     def line(self, edge: Edge, group: _Group) -> list[Point]:
-        """The points of an edge."""
+        """Return the points of an edge."""
         (x0, y0), (x9, y9) = self.ports[edge.source], self.ports[edge.target]
         y0, y9 = y0 + self.tops[self.homes[edge.source]], y9 + self.tops[self.homes[edge.target]]
         x1, lane = self.stubs[edge.source, Way.LEAVES], group.y[group.row]
@@ -189,6 +189,6 @@ class _Lanes:
 
 
 def _nearness(stub: Stub, ports: dict[PortKey, Point]) -> tuple[bool, float]:
-    """The order of vertical lines from their block outwards."""
+    """Return the sort key of vertical lines from their block outwards."""
     is_above, height = stub[1] is Way.FROM_ABOVE, ports[stub[0]][1]
     return is_above, height if is_above else -height

@@ -9,7 +9,7 @@ MUCH = 2  # times as many loops back as another order has: then the description'
 
 
 def order_blocks(count: int, arcs: Sequence[Arc]) -> list[int]:
-    """Positions of blocks numbered from 0; an arc for each edge, from block to block.
+    """Return positions of blocks numbered from 0; an arc for each edge, from block to block.
 
     The order of the description, which is how its author thinks of the system, unless it has at fewest `MUCH` times as
     many loops back as that of `short_loops`.
@@ -21,12 +21,12 @@ def order_blocks(count: int, arcs: Sequence[Arc]) -> list[int]:
 
 
 def loops_back(positions: Sequence[int], arcs: Sequence[Arc]) -> int:
-    """The number of edges that lead back."""
+    """Return the number of edges that lead back."""
     return sum(positions[source] >= positions[target] for source, target in arcs)
 
 
 def short_loops(count: int, arcs: Sequence[Arc]) -> list[int]:
-    """Positions by the heuristic of Eades, Lin and Smyth, Information Processing Letters 47 (1993), p. 319.
+    """Return positions by the heuristic of Eades, Lin and Smyth, Information Processing Letters 47 (1993), p. 319.
 
     Sinks go to the end and sources to the beginning; where there are neither, the block with the most edges out over
     edges in goes to the beginning.

@@ -72,7 +72,7 @@ class Route:
     points: list[Point]
 
     def segments(self) -> Iterator[Segment]:
-        """The straight spans of the line."""
+        """Yield the straight spans of the line."""
         return pairwise(self.points)
 
 
@@ -88,11 +88,11 @@ class Placement:
 
     @property
     def boxes(self) -> list[Placed | Terminal]:
-        """What lines go around."""
+        """Obstacles of lines: blocks and terminals."""
         return [*self.blocks, *self.terminals]
 
     def ports(self) -> dict[PortKey, Point]:
-        """The points at which edges end."""
+        """Return the points at which edges end."""
         return {key: point for box in self.boxes for key, point in box.ports.items()}
 
     def move(self, x: float, y: float) -> None:
@@ -117,7 +117,7 @@ class Placement:
         self.width += sum(width for _, width in strips)
 
     def junctions(self) -> Iterator[tuple[PortKey, Point]]:
-        """The points at which lines from one port part, or those into one port meet, with the port they are from."""
+        """Yield the points at which lines from one port part, or lines into one port meet, with their source port."""
         seen: dict[Point, PortKey] = {}
         for end in ("source", "target"):
             groups: dict[PortKey, list[Route]] = defaultdict(list)
@@ -133,7 +133,7 @@ class Placement:
 
 
 def _ways(point: Point, segment: Segment) -> Iterator[Point]:
-    """The directions, as signs, in which a segment leads away from a point on it."""
+    """Yield the directions, as signs, in which a segment leads away from a point on it."""
     (x0, y0), (x1, y1) = segment
     x, y = point
     if min(x0, x1) <= x <= max(x0, x1) and min(y0, y1) <= y <= max(y0, y1):

@@ -27,7 +27,7 @@ Vectors = dict[str, list[str]]  # the indices of a vector's elements, in their o
 
 
 def read_graph(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Block:
-    """The whole system as a block with its components inside."""
+    """Read the whole system as a block with its components inside."""
     return _Reader(prepared, faults).system(prepared.network.description.system, "", prepared.archive.name)
 
 
@@ -39,7 +39,7 @@ class _Reader:
         self.vectors: dict[str, Vectors] = {}
 
     def system(self, system: System, path: str, name: str) -> Block:
-        """A system; ``path`` ends with a dot, or is empty for the whole."""
+        """Read a system; ``path`` ends with a dot, or is empty for the whole."""
         block = Block(path.removesuffix("."), name, SYSTEM)
         self.add_ports(block, system, path)
         for element in system.elements.values():
@@ -97,7 +97,7 @@ class _Reader:
         return split_name(fault.name, self.network.fmus)[0]
 
     def add_ports(self, block: Block, element: Element, path: str) -> None:
-        """The connectors of an element, on both sides for a dictionary's signals; an FMU's other outputs, too."""
+        """Add the connectors of an element, on both sides for a dictionary's signals; an FMU's other outputs, too."""
         sizes = self.sizes(block, element)
         self.vectors[block.path] = sizes
         declared = {name: self.kind_and_unit(connector, path) for name, connector in element.connectors.items()}
@@ -120,12 +120,12 @@ class _Reader:
         return node.kind, node.unit.name if node.unit else connector.unit
 
     def sizes(self, block: Block, element: Element) -> Vectors:
-        """The vectors of an element: of all variables of an FMU, not only of those that are declared connectors."""
+        """Return the vectors of an element: of all variables of an FMU, not only of its declared connectors."""
         fmu = self.network.fmus.get(block.path) if isinstance(element, Component) else None
         return vectors_of(element.connectors if fmu is None else fmu.variables)
 
     def key(self, block: Block, inner: dict[str, Block], point: Point, node: Node, side: Side) -> PortKey:
-        """The port that one end of a connection is; seen from inside, a system's inputs are sources."""
+        """Return the port at one end of a connection; seen from inside, a system's inputs are sources."""
         element, connector = point
         name, is_vector = base_name(connector)
         if element is None:
@@ -133,7 +133,7 @@ class _Reader:
         return PortKey(block.path if element is None else inner[element].path, side, f"{name}[]" if is_vector else name)
 
     def elements(self, source: PortKey, target: PortKey, nodes: Sequence[tuple[Node, Node]]) -> tuple[str, str]:
-        """The elements of two ports that are connected; empty where they are all of both, in their order."""
+        """Return the connected elements of two ports, empty where all of both are connected in their order."""
         texts, is_whole = [], True
         for key, variables in zip((source, target), zip(*nodes, strict=True), strict=True):
             indices = [match[2] for node in variables if (match := ELEMENT.fullmatch(node.variable))]
@@ -143,13 +143,13 @@ class _Reader:
 
 
 def base_name(variable: str) -> tuple[str, bool]:
-    """The name without indices, and whether it had some."""
+    """Return the name without indices, and whether it had some."""
     match = ELEMENT.fullmatch(variable)
     return (match[1], True) if match else (variable, False)
 
 
 def vectors_of(names: Iterable[str]) -> Vectors:
-    """The indices of each vector's elements."""
+    """Return the indices of each vector's elements."""
     vectors: Vectors = {}
     for name in names:
         if match := ELEMENT.fullmatch(name):
@@ -158,7 +158,7 @@ def vectors_of(names: Iterable[str]) -> Vectors:
 
 
 def size_text(indices: Sequence[str]) -> str:
-    """The size of a vector with these elements: ``3``, ``2,3``; ``0..2`` where it is not counted from 1."""
+    """Return the size of a vector with these elements: ``3``, ``2,3``; ``0..2`` where it is not counted from 1."""
     if "," in indices[0]:
         rows = [tuple(map(int, index.split(","))) for index in indices]
         return ",".join(str(max(column)) for column in zip(*rows, strict=False))
@@ -167,7 +167,7 @@ def size_text(indices: Sequence[str]) -> str:
 
 
 def ranges(indices: Sequence[str]) -> str:
-    """Indices with neighbours joined: ``1..3, 5``; only their number where these are many."""
+    """Return indices with neighbours joined: ``1..3, 5``, or only their number where there are many."""
     joined: list[tuple[int, int] | str] = []
     for index in indices:
         if "," in index:
@@ -187,7 +187,7 @@ def ranges(indices: Sequence[str]) -> str:
 
 
 def _change(connection: Connection, source: Node, target: Node, *, is_sum: bool) -> str:
-    """What happens to a value on its way; empty where it arrives as it is."""
+    """Describe the conversion of a value on its way, empty where it arrives unchanged."""
     units = ""
     if source.unit and target.unit and not source.unit.is_same(target.unit):
         units = f"{declared_unit(source.unit.name)} → {declared_unit(target.unit.name)}"

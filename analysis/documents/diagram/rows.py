@@ -21,7 +21,7 @@ class Column:
 
 
 def columns_of(boxes: Iterable[Placed | Terminal]) -> list[Column]:
-    """The columns that boxes are in, from left to right."""
+    """Return the columns that boxes are in, from left to right."""
     columns: list[Column] = []
     for box in sorted(boxes, key=lambda box: box.x):
         if columns and box.x < columns[-1].right:
@@ -33,7 +33,7 @@ def columns_of(boxes: Iterable[Placed | Terminal]) -> list[Column]:
 
 
 def cut_into_rows(columns: Sequence[Column], arcs: Sequence[tuple[int, int]]) -> list[range]:
-    """The columns of each row: as few rows as `WIDEST` allows, with as many edges as possible inside rows.
+    """Return the columns of each row: as few rows as `WIDEST` allows, with as many edges as possible inside rows.
 
     ``arcs`` are the columns that each edge connects. Of equally good cuts the one with rows of the most equal widths
     is taken. Dynamic programming over the end of each row.
@@ -63,7 +63,7 @@ def cut_into_rows(columns: Sequence[Column], arcs: Sequence[tuple[int, int]]) ->
 
 
 def _edges_inside(count: int, arcs: Sequence[tuple[int, int]]) -> list[list[int]]:
-    """[begin][end]: how many edges are between columns from begin to before end."""
+    """Return, by [begin][end], the number of edges between columns from begin to before end."""
     table = [[0] * (count + 1) for _ in range(count + 1)]
     for arc in arcs:
         table[min(arc)][max(arc) + 1] += 1

@@ -58,12 +58,12 @@ class Shape:
 
 
 def plain(text: str, longest: int = LONGEST) -> str:
-    """A name as it is drawn: on one line, without marks that turn the writing, and not too long."""
+    """Return a name as it is drawn: on one line, without marks that turn the writing, and not too long."""
     return shorten(on_one_line(visible(text)), longest)
 
 
 def shape_of(block: Block, notes: dict[PortKey, str]) -> Shape:
-    """The shape of a component; ``notes`` are the remarks on what enters a port."""
+    """Return the shape of a component; ``notes`` are the remarks on what enters a port."""
     labels = {key: port_label(key, port, notes.get(key, "")) for key, port in block.visible_ports().items()}
     widths = {side: max((labels[key].width for key in labels if key.side is side), default=0.0) for side in Side}
     both = sum(widths.values()) + (GAP if all(widths.values()) else 0.0)
@@ -79,18 +79,18 @@ def shape_of(block: Block, notes: dict[PortKey, str]) -> Shape:
 
 
 def port_label(key: PortKey, port: Port, note: str) -> Label:
-    """What is written at a port: its unit where values leave or nothing is connected, else what happens to them."""
+    """Return the label of a port: its unit where values leave or nothing is connected, else what happens to them."""
     has_unit = key.side is Side.OUT or not port.is_connected
     return Label(plain(port.label), plain(note or (declared_unit(port.unit) if has_unit else "")))
 
 
 def fault_text(fault: str) -> str:
-    """A fault as its block shows it."""
+    """Return a fault as its block shows it."""
     return plain(f"fault: {fault}", 2 * LONGEST)
 
 
 def parameter_text(edge: Edge) -> str:
-    """A parameter that another one gives: its name, and the other's where it differs."""
+    """Return a parameter that another one gives: its name, and the other's where it differs."""
     source, target = (
         key.name.removesuffix("[]") + elements
         for key, elements in zip((edge.source, edge.target), edge.elements, strict=True)
@@ -100,7 +100,7 @@ def parameter_text(edge: Edge) -> str:
 
 
 def _items(block: Block, width: float) -> Iterable[Item]:
-    """Faults, a line each, then parameters, as many in a line as fit."""
+    """Return faults, a line each, then parameters, as many in a line as fit."""
     line = -1
     for fault in block.faults:
         line += 1

@@ -9,7 +9,7 @@ from .placement import Point, Segment
 
 
 def uncovered(points: Sequence[Point], earlier: Iterable[Segment]) -> list[list[Point]]:
-    """The stretches of an orthogonal line that no segment of an earlier line covers, each as its corners."""
+    """Return the stretches of an orthogonal line that no segment of an earlier line covers, each as its corners."""
     known = list(earlier)
     stretches: list[list[Point]] = []
     for segment in pairwise(points):
@@ -22,7 +22,7 @@ def uncovered(points: Sequence[Point], earlier: Iterable[Segment]) -> list[list[
 
 
 def _free(segment: Segment, earlier: Iterable[Segment]) -> Iterator[Segment]:
-    """What is left of a segment, from its start to its end."""
+    """Yield the uncovered stretches of a segment, from its start to its end."""
     axis = 0 if segment[0][1] == segment[1][1] else 1
     start, end = segment[0][axis], segment[1][axis]
     across = segment[0][1 - axis]

@@ -28,12 +28,12 @@ class Signal:
     offsets: tuple[float, ...]
 
     def values(self, flight: Flight) -> np.ndarray:
-        """Values in ``unit``, [elements, samples]; nan and infinite values unchanged."""
+        """Return values in ``unit``, [elements, samples]; nan and infinite values unchanged."""
         recorded = np.stack([flight[name] for name in self.names])
         return self.factor * recorded + np.array(self.offsets)[:, None]
 
     def plot_values(self, flight: Flight) -> np.ndarray:
-        """Values to be plotted: angles in deg, nan where not finite."""
+        """Return values to be plotted: angles in deg, nan where not finite."""
         values = self.values(flight)
         return np.where(np.isfinite(values), values, np.nan) * display_factor(self.unit_name)
 
@@ -61,7 +61,7 @@ class Arc:
         return "m"
 
     def plot_values(self, flight: Flight) -> np.ndarray:
-        """Values to be plotted, in m, as of a scalar; nan where not finite."""
+        """Return values to be plotted, in m, as of a scalar; nan where not finite."""
         return downrange(self.position.plot_values(flight), self.radius)[None]
 
 
@@ -94,7 +94,7 @@ class Rows:
     high: float | None
 
     def select(self, flight: Flight) -> np.ndarray:
-        """Whether each sample is selected."""
+        """Return True for each selected sample."""
         values = self.signal.values(flight)[0]
         low, high = (-np.inf if self.low is None else self.low), (np.inf if self.high is None else self.high)
         return (values >= low) & (values <= high)
@@ -131,7 +131,7 @@ class Band(Figure):
     against: tuple[Signal, ...] = ()
 
     def values(self, flight: Flight) -> np.ndarray:
-        """Values to be compared with the band, in the signal's unit, [elements, samples]."""
+        """Return values to be compared with the band, in the signal's unit, [elements, samples]."""
         values = self.signal.values(flight)
         return values if self.less is None else values - self.less.values(flight)
 
@@ -144,7 +144,7 @@ class Band(Figure):
         return (self.signal.label if is_signal else f"{self.title} {self.labels[0]}".rstrip(),)
 
     def plot_values(self, flight: Flight) -> np.ndarray:
-        """The same values to be plotted: angles in deg, nan where not finite."""
+        """Return the values to be plotted: angles in deg, nan where not finite."""
         values = self.values(flight)
         return np.where(np.isfinite(values), values, np.nan) * display_factor(self.signal.unit_name)
 
@@ -268,7 +268,7 @@ class Limit:
     measure: str | None = None
 
     def value(self, flight: Flight) -> float:
-        """The value at the last sample; the flight has one."""
+        """Return the value at the last sample of a flight that has one."""
         last = self.signal.values(flight)[:, -1]
         if self.less is not None:
             last = last - self.less.values(flight)[:, -1]
@@ -283,7 +283,7 @@ class Limits(Figure):
     when: Signal | None = None
 
     def obstacle(self, flight: Flight) -> str:
-        """Why the limits of a flight cannot be evaluated; empty where they can."""
+        """Return the reason why the limits of a flight cannot be evaluated; empty where they can."""
         if not flight.complete:
             return f"the flight did not reach its end: {flight.status}"
         if self.when is not None and not self.when.values(flight)[0, -1]:

@@ -32,7 +32,7 @@ READERS: Mapping[str, Callable[[SignalReader, etree._Element], Figure]] = {
 
 
 def read_figures(prepared: PreparedSystem) -> list[Figure]:
-    """The figures of the SSD in their order. Raises InputError with the line.
+    """Read the figures of the SSD in their order. Raises InputError with the line.
 
     Where an FMU substituted by ``use`` lacks a signal, its figure is `Unavailable`, or leaves an optional signal out.
     """
@@ -53,7 +53,7 @@ def read_figures(prepared: PreparedSystem) -> list[Figure]:
 
 
 def _elements(reader: SignalReader, report: etree._Element) -> Iterator[tuple[etree._Element, Group | None]]:
-    """The elements of figures in their order, each with its group."""
+    """Yield the elements of figures in their order, each with its group."""
     reader.parts(report, (*READERS, BUDGET, GROUP))
     for element in report.iterchildren(etree.Element):
         if tag(element) != GROUP:

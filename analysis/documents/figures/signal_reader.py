@@ -27,7 +27,7 @@ class MissingSignalError(Exception):
 
 
 class SignalReader(AnnotationReader):
-    """What the readers of all figures share; ``notes`` belong to the figure being read."""
+    """Common reader of the elements of all figures; ``notes`` belong to the figure being read."""
 
     def __init__(self, prepared: PreparedSystem) -> None:
         super().__init__(prepared.network.file)
@@ -41,18 +41,18 @@ class SignalReader(AnnotationReader):
         return element.get("title", "").strip() or otherwise
 
     def truth(self, element: etree._Element, attribute: str) -> bool:
-        """A Boolean attribute, false if it is missing."""
+        """Read a Boolean attribute, false if it is missing."""
         text = element.get(attribute, "false").strip()
         if text not in TRUTHS:
             raise self.refuse(element, f"{attribute} {text!r} is neither true nor false", "write one of them")
         return TRUTHS[text]
 
     def parameter(self, element: etree._Element, attribute: str) -> float:
-        """The value that the parameter of an attribute has in this system, in its FMU's unit."""
+        """Return the value that the parameter of an attribute has in this system, in its FMU's unit."""
         return self.parameter_value(element, attribute, element.get(attribute, "").strip())
 
     def parameter_value(self, element: etree._Element, attribute: str, name: str) -> float:
-        """The value of a parameter by its name, of one element where it is a vector's."""
+        """Return the value of a parameter by its name, of one element where it is a vector's."""
         component, variable = split_name(name, self.network.fmus)
         fmu = self.network.fmus.get(component)
         if fmu is None or variable not in fmu.variables or fmu.variables[variable].causality != "parameter":
@@ -70,7 +70,7 @@ class SignalReader(AnnotationReader):
         return int(value)
 
     def words(self, element: etree._Element, attribute: str) -> tuple[str, ...]:
-        """Names of an attribute, separated by commas, none of them empty or repeated."""
+        """Read the names of an attribute, separated by commas, none of them empty or repeated."""
         names = (
             tuple(token.strip() for token in element.get(attribute, "").split(","))
             if attribute in element.attrib
@@ -83,14 +83,14 @@ class SignalReader(AnnotationReader):
         return names
 
     def limits(self, element: etree._Element, low: str, high: str) -> tuple[float | None, float | None]:
-        """Two attributes that bound something, of which either may be missing."""
+        """Read two attributes that bound something, of which either may be missing."""
         minimum, maximum = self.number(element, low), self.number(element, high)
         if minimum is not None and maximum is not None and not minimum < maximum:
             raise self.refuse(element, f"{low} {minimum:g} is not below {high} {maximum:g}", "swap them")
         return minimum, maximum
 
     def rows(self, element: etree._Element) -> Rows | None:
-        """The samples of a figure, from the attributes `ROWS`; None for all."""
+        """Read the samples of a figure, from the attributes `ROWS`; None for all."""
         if "where" not in element.attrib:
             for name in ROWS[1:]:
                 if name in element.attrib:
@@ -104,7 +104,7 @@ class SignalReader(AnnotationReader):
         return Rows(self.scalar(element, "where"), low, high)
 
     def labels(self, element: etree._Element, signal: Signal) -> tuple[str, ...]:
-        """The names of the elements of a vector: of the figure or its frame, else by index; empty for a scalar."""
+        """Return the names of a vector's elements: of the figure or its frame, else indices; empty for a scalar."""
         labels = tuple(element.get("labels", "").split())
         if not labels and self.displayed(signal.names[0]) == signal.label:
             return ("",)
@@ -121,11 +121,11 @@ class SignalReader(AnnotationReader):
             raise self.unfit(element, signal.label, problem, "give as many")
 
     def displayed(self, name: str) -> str:
-        """A signal's name as figures have it."""
+        """Return a signal's name as figures show it."""
         return displayed_name(name, self.network.axes)
 
     def optional(self, element: etree._Element, attribute: str, read: Callable[[str], Signal]) -> Signal | None:
-        """An optional signal; None with a note where a substituted FMU lacks it."""
+        """Read an optional signal; None with a note where a substituted FMU lacks it."""
         if attribute not in element.attrib:
             return None
         try:
@@ -135,7 +135,7 @@ class SignalReader(AnnotationReader):
             return None
 
     def find_signal(self, element: etree._Element, attribute: str, name: str) -> Signal:
-        """One scalar of several in an attribute."""
+        """Find one scalar of several in an attribute."""
         if name not in self.types or self.types[name] not in NUMBERS:
             raise self.unfit(element, name, f"{attribute} {name}: no such scalar", suggestion(name, self.types))
         return Signal(self.displayed(name), (name,), self.network.unit_of(name), 1.0, (0.0,))
@@ -163,7 +163,7 @@ class SignalReader(AnnotationReader):
         like: Signal | None = None,
         types: Collection[str] = NUMBERS,
     ) -> Signal:
-        """The recorded signal named by an attribute, in its own unit or in ``unit``.
+        """Read the recorded signal named by an attribute, in its own unit or in ``unit``.
 
         With ``like`` it must have as many elements as that signal, and gets its unit.
         """
@@ -184,7 +184,7 @@ class SignalReader(AnnotationReader):
         return signal if unit is None and like is None else self.convert_limits(element, what, signal, unit)
 
     def about(self, element: etree._Element, signal: Signal) -> Signal:
-        """A signal minus the numbers of the attribute ``about``, which are in its own unit."""
+        """Return a signal minus the numbers of the attribute ``about``, which are in its own unit."""
         numbers = self.numbers(element, "about")
         if not numbers:
             return signal
@@ -192,7 +192,7 @@ class SignalReader(AnnotationReader):
         return replace(signal, offsets=tuple(-signal.factor * value for value in numbers))
 
     def less(self, element: etree._Element, signal: Signal) -> tuple[Signal, Signal | None]:
-        """The signal of the attribute ``less``; parameters go into the offsets of the first signal instead."""
+        """Read the signal of the attribute ``less``; parameters go into the offsets of the first signal instead."""
         name = element.get("less", "").strip()
         component, variable = split_name(name, self.network.fmus)
         fmu = self.network.fmus.get(component)
@@ -220,14 +220,14 @@ class SignalReader(AnnotationReader):
         return Signal(signal.label, signal.names, unit, factor, (offset,) * len(signal.names))
 
     def unfit(self, element: etree._Element, name: str, problem: str, remedy: str) -> Exception:
-        """The error for a signal: an input error, unless its FMU was substituted."""
+        """Return the error for a signal: an input error, unless its FMU was substituted."""
         component, _ = split_name(name, self.network.fmus)
         if component in self.substituted:
             return MissingSignalError(f"{problem}, with {self.network.fmus[component].name} as {component}")
         return self.refuse(element, problem, remedy)
 
     def unit(self, element: etree._Element, name: str, signal: str) -> Unit:
-        """A unit by its name, of the SSD or of the signal's FMU."""
+        """Return a unit by its name, of the SSD or of the signal's FMU."""
         component, _ = split_name(signal, self.network.fmus)
         known = self.network.fmus[component].units if component else {}
         known = known | self.network.description.units

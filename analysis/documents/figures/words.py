@@ -9,14 +9,14 @@ from .declared import Rows
 
 
 def condition_text(rows: Rows) -> Markup:
-    """The condition of a selection of samples."""
+    """Return the condition of a selection of samples."""
     unit = rows.signal.unit_name
     condition = exact(rows.low, unit) if rows.low == rows.high else range_text(rows.low, rows.high, unit)
     return Markup("{} is {}").format(rows.signal.label, condition)
 
 
 def range_text(low: float | None, high: float | None, unit: str | None) -> Markup:
-    """The range between two limits of which at most one is None, without the unit."""
+    """Return the range between two limits of which at most one is None, without the unit."""
     if low is None or high is None:
         token, limit = ("at least", low) if high is None else ("at most", high)
         return Markup("{} {}").format(token, exact(limit, unit))
@@ -24,15 +24,15 @@ def range_text(low: float | None, high: float | None, unit: str | None) -> Marku
 
 
 def seconds(time: float) -> Markup:
-    """A time with its unit."""
+    """Return a time with its unit."""
     return Markup("{} s").format(exact(float(time), digits=6))
 
 
 def sentence(words: Markup) -> Markup:
-    """A text as a sentence: with a capital first and a full stop last."""
+    """Return a text as a sentence: with a capital first and a full stop last."""
     return Markup("{}.").format(Markup(capital(words)))
 
 
 def capital(words: str) -> str:
-    """A text with a capital first."""
+    """Return a text with a capital first."""
     return words[:1].upper() + words[1:]

@@ -1,4 +1,4 @@
-"""How wide text is: DejaVu Sans by its own metrics, as the figures of a page have it."""
+"""Width of text in DejaVu Sans by its metrics, as in the figures of a page."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ Advances = dict[str, list[int]]  # by the code of the first of consecutive chara
 
 @cache
 def _advances(weight: str) -> dict[int, int]:
-    """The widths of characters by their code, in units of the font."""
+    """Return the widths of characters by their code, in units of the font."""
     table: dict[str, Advances] = json.loads(TABLE.read_text(encoding="utf-8"))
     return {int(first) + step: width for first, widths in table[weight].items() for step, width in enumerate(widths)}
 
 
 def _advance(character: str, is_bold: bool) -> int:
-    """In units of the font; a character that the table lacks is as wide as it is high."""
+    """Return the width of a character in units of the font; one that the table lacks is as wide as it is high."""
     if unicodedata.category(character) in ZERO_WIDTH:
         return 0
     return _advances("bold" if is_bold else "regular").get(ord(character), EM)
 
 
 def text_width(text: str, size: float, *, is_bold: bool = False) -> float:
-    """The width of a line in the unit of ``size``."""
+    """Return the width of a line in the unit of ``size``."""
     return sum(_advance(character, is_bold) for character in text) * size / EM
 
 
 def shorten(text: str, longest: int) -> str:
-    """At most so many characters, with an ellipsis for those in the middle."""
+    """Shorten a text to at most ``longest`` characters, with an ellipsis for those in the middle."""
     if len(text) <= longest:
         return text
     end = (longest - 1) // 2

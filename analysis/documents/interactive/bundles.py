@@ -13,13 +13,13 @@ MISSING = "The scripts of pages are not built (npm was not available): run `make
 
 
 def read_bundle(name: str) -> str | None:
-    """The script ``name``; None where none was built."""
+    """Return the script ``name``, or None where none was built."""
     path = BUNDLES / f"{name}.js"
     return path.read_text(encoding="utf-8").strip() if path.is_file() else None
 
 
 def policy(scripts: Iterable[str], *, requests: bool = False) -> str:
-    """A Content-Security-Policy: of scripts these alone, from the network nothing; ``requests``: of its own server."""
+    """Return a Content-Security-Policy: these scripts alone, no network; with ``requests`` the page's own server."""
     hashes = [base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts]
     sources = " ".join(["'wasm-unsafe-eval'", *(f"'sha256-{each}'" for each in hashes)]) if hashes else "'none'"
     connect = "; connect-src 'self'" if requests else ""

@@ -58,7 +58,7 @@ class Columns:
     _bytes: tuple[bytearray, bytearray] = field(default_factory=lambda: (bytearray(), bytearray()))
 
     def add(self, numbers: np.ndarray, *, coarse: bool = False) -> int:
-        """The index of a column of these numbers, [rows]; equal columns share one.
+        """Add a column of these numbers, [rows], and return its index; equal columns share one.
 
         They are rounded to float32, ``coarse``: to 16 bits over their range, where infinite ones become nan.
         """
@@ -78,20 +78,20 @@ class Columns:
 
 
 def has_enough_digits(ends: tuple[float, float], numbers: np.ndarray) -> bool:
-    """True if numbers between the ends of a linear axis keep their places once they are float32."""
+    """Return True if numbers between the ends of a linear axis keep their places once they are float32."""
     inside = numbers[(numbers >= min(ends)) & (numbers <= max(ends))]
     rounded = np.abs(inside - inside.astype(np.float32))
     return not np.any(rounded > ROUNDING * abs(ends[1] - ends[0]))
 
 
 def _ordered(column: np.ndarray) -> np.ndarray:
-    """float32 as uint32 of the same order, so that neighbours have neighbouring numbers."""
+    """Return float32 as uint32 of the same order, so that neighbours have neighbouring numbers."""
     bits = column.view("<u4")
     return np.where(bits >> 31 == 1, ~bits, bits | np.uint32(1 << 31))
 
 
 def _coarse(column: np.ndarray) -> tuple[Scale, np.ndarray]:
-    """The range of a column, and its steps in it as integers."""
+    """Return the range of a column, and its steps in it as integers."""
     finite = column[np.isfinite(column)].astype(float)
     knee = knee_of(finite, float(np.abs(finite).max(initial=0.0)))
     bent = np.arcsinh(finite / knee) if knee else finite
@@ -102,7 +102,7 @@ def _coarse(column: np.ndarray) -> tuple[Scale, np.ndarray]:
 
 
 def knee_of(finite: np.ndarray, greatest: float) -> float:
-    """Below which a range of such numbers is linear; 0 where it is linear up to the ``greatest`` magnitude."""
+    """Return the magnitude below which a range of such numbers is linear; 0 if it is up to the ``greatest``."""
     sizes = np.abs(finite[finite != 0.0])
     rank = int(SMALL * sizes.size)
     small = float(np.partition(sizes, rank)[rank]) if sizes.size else greatest
@@ -110,7 +110,7 @@ def knee_of(finite: np.ndarray, greatest: float) -> float:
 
 
 def _planes(numbers: np.ndarray) -> bytes:
-    """The second differences of unsigned integers of one size, their bytes grouped by significance."""
+    """Return the second differences of unsigned integers of one size, their bytes grouped by significance."""
     differences = numbers
     for _ in range(2):
         differences = differences - np.concatenate([np.zeros(1, numbers.dtype), differences[:-1]])[: numbers.size]

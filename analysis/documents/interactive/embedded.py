@@ -1,4 +1,4 @@
-"""What is embedded in a page for its scripts: one JSON document."""
+"""Data embedded in a page for its scripts: one JSON document."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .columns import Coarse, Columns
 
 
 class Embedded:
-    """What the scripts of one page get: columns, the charts of its figures, further documents by name."""
+    """Data for the scripts of one page: columns, the charts of its figures, further documents by name."""
 
     def __init__(self) -> None:
         self._columns = Columns()
@@ -45,7 +45,7 @@ class Embedded:
         return True
 
     def use(self, bundle: str) -> bool:
-        """Have a script in the page; False where it was not built."""
+        """Add a script to the page; return False where it was not built."""
         if bundle not in self._bundles and (text := read_bundle(bundle)) is not None:
             self._bundles[bundle] = text
         return bundle in self._bundles
@@ -55,11 +55,11 @@ class Embedded:
         self._requests = True
 
     def policy(self) -> str:
-        """The page's Content-Security-Policy."""
+        """Return the page's Content-Security-Policy."""
         return policy(self._bundles.values(), requests=self._requests)
 
     def elements(self) -> Markup:
-        """The document and the scripts as elements for the end of a page; nothing where it has none."""
+        """Return the document and the scripts as elements for the end of a page, empty where it has none."""
         if not self._bundles:
             return Markup("")
         document = {**self._columns.document(), "figures": self._figures, **self._documents}
@@ -70,7 +70,7 @@ class Embedded:
         return Markup(content + scripts)
 
     def _plain(self, node: Any) -> Any:
-        """As JSON: arrays are numbers of columns; what `is_optional` and empty is left out of objects."""
+        """Return a node as JSON: arrays become numbers of columns; empty fields that are `is_optional` are omitted."""
         if isinstance(node, np.ndarray):
             return self._columns.add(node)
         if isinstance(node, Coarse):
@@ -93,7 +93,7 @@ def page_fields(declared: type) -> list[Field[Any]]:
 
 
 def is_optional(declared: Field[Any]) -> bool:
-    """True if a page leaves a field of a dataclass out where it is empty: its default is."""
+    """Return True if a page omits a field of a dataclass where it is empty, as its default is."""
     return _is_empty(declared.default)
 
 

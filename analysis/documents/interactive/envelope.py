@@ -8,7 +8,7 @@ SPANS = 1000  # of rows, equally many in each but for one
 
 
 def envelope(x: np.ndarray, y: np.ndarray, spans: int = SPANS) -> tuple[np.ndarray, np.ndarray]:
-    """First abscissa of each span, twice, and its minimum and maximum in turn; nan where none is finite.
+    """Return the first abscissa of each span, twice, and its minimum and maximum in turn; nan where none is finite.
 
     A line of at most two rows a span is its own envelope.
     """

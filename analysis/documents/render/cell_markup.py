@@ -103,7 +103,7 @@ def _inline_markup(part: Inline) -> Markup:
 
 
 def is_number(cell: Cell) -> bool:
-    """True if a cell is a number, whose column is aligned to the right."""
+    """Return True if a cell is a number, whose column is aligned to the right."""
     match cell:
         case Strong(inner) | Faint(inner):
             return is_number(inner)

@@ -28,16 +28,16 @@ class Camera:
     tangent: float
 
     def look(self, points: np.ndarray) -> np.ndarray:
-        """Points (m), [n, 3], from the eye along its axes, [n, 3]; the third component is the depth."""
+        """Convert points (m), [n, 3], to components along the eye's axes, [n, 3], of which the third is the depth."""
         return np.asarray((points - self.eye) @ self.axes.T)
 
     def project(self, seen: np.ndarray) -> np.ndarray:
-        """Points of `look` on the picture, [n, 2]: right of its middle and below it, over the picture's height."""
+        """Project points of `look`, [n, 2]: right of the picture's middle and below it, over the picture's height."""
         return np.asarray(seen[:, :2] * [0.5, -0.5] / (self.tangent * seen[:, 2:]))
 
 
 def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | None:
-    """The camera at a sample; None where the position of the first body is unknown then."""
+    """Return the camera at a sample, or None where the position of the first body is unknown then."""
     body, start = scene.bodies[0], scene.camera
     target = position_at(body, row)
     if not np.all(np.isfinite(target)):

@@ -39,7 +39,7 @@ class FlightsView:
 
 
 def flights_view(scene: Scene, flights: Sequence[RecordedFlight]) -> FlightsView | None:
-    """The scene of all flights; None where they recorded no position of a body.
+    """Return the scene of all flights, or None where they recorded no position of a body.
 
     Flights have samples at times of their own; between these, positions are on straight lines. After its end a flight
     stays where it was.
@@ -122,12 +122,12 @@ def _body_view(
 
 
 def _resample(values: np.ndarray, times: np.ndarray, time: np.ndarray) -> np.ndarray:
-    """Values at a flight's own times, [k, n], at other times; beyond its ends those of its ends."""
+    """Resample values, [k, n], of a flight at other times; beyond its ends with those of its ends."""
     return np.stack([np.interp(time, times, row) for row in values])
 
 
 def _position_of(site: Site, flights: Sequence[RecordedFlight]) -> np.ndarray | None:
-    """Where a site is, [3], if it is there at all times of all flights."""
+    """Return the position of a site, [3], or None if it is not constant in all flights."""
     if not isinstance(site.position, Signal):
         return np.array(site.position)
     if not all(set(site.position.names) <= set(each.flight.signals) for each in flights):

@@ -23,13 +23,13 @@ class Ground:
     normal: np.ndarray
 
     def height(self, point: np.ndarray) -> float:
-        """The height (m) of a point, [3]."""
+        """Return the height (m) of a point, [3]."""
         if math.isinf(self.radius):
             return float(point[2] - self.centre[2])
         return float(np.linalg.norm(point - self.centre)) - self.radius
 
     def level(self, point: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Unit vectors up, and along the grid, below a point, [3]."""
+        """Return unit vectors up, and along the grid, below a point, [3]."""
         if math.isinf(self.radius):
             return np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
         up = (point - self.centre) / np.linalg.norm(point - self.centre)
@@ -37,7 +37,7 @@ class Ground:
         return up, along / np.linalg.norm(along)
 
     def hides(self, eye: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """True for each of the points, [n, 3], that the ground hides from the eye, [3]."""
+        """Return True for each of the points, [n, 3], that the ground hides from the eye, [3]."""
         if math.isinf(self.radius):
             return (points[:, 2] - self.centre[2]) * self.height(eye) < 0.0
         start, way = eye - self.centre, points - eye
@@ -45,7 +45,7 @@ class Ground:
         return np.linalg.norm(start + fraction[:, None] * way, axis=1) < self.radius - SUNK
 
     def horizon(self, eye: np.ndarray) -> np.ndarray:
-        """The edge of what the eye sees of the ground, [n, 3]: of a sphere, where tangents from the eye touch it."""
+        """Return the edge of the ground visible from the eye, [n, 3]: of a sphere, the points of tangency."""
         up, along = self.level(eye)
         across = np.cross(up, along)
         if math.isinf(self.radius):
@@ -59,7 +59,7 @@ class Ground:
 
 
 def ground_of(scene: SceneView) -> Ground | None:
-    """The ground of a view; None where it has none."""
+    """Return the ground of a view, or None where it has none."""
     if scene.ground is None:
         return None
     origin = np.array(scene.origin)

@@ -21,7 +21,7 @@ AXIS = 22.0  # length
 def draw_names(
     scene: SceneView, arrows: Iterable[ArrowStrokes], camera: Camera, ground: Ground | None, row: int
 ) -> Iterator[Markup]:
-    """Names of small bodies, sites and arrows, and rings around what is too small to be seen."""
+    """Draw names of small bodies, sites and arrows, and rings around those too small to be visible."""
     points: list[BodyView | SiteView] = [*scene.bodies, *scene.sites]
     for point in points:
         extent = 0.0
@@ -53,7 +53,7 @@ def _on_picture(camera: Camera, ground: Ground | None, point: np.ndarray) -> tup
 
 
 def draw_axes(scene: SceneView, camera: Camera) -> Iterator[Markup]:
-    """The axes of the frame with their names, as the camera sees them; fainter where they point away."""
+    """Draw the axes of the frame with their names, as the camera sees them; fainter where they point away."""
     for name, axis, colour, (x, y, depth) in zip(scene.axes, "xyz", AXES, camera.axes.T, strict=True):
         opacity = 0.55 if depth > 0.2 else 1.0
         markup = Markup('<path d="M{:g} {:g}l{:.1f} {:.1f}" style="stroke:{}" stroke-width="1.6" opacity="{:g}"/>')

@@ -1,4 +1,4 @@
-"""What a scene shows to scale, what it does not, and what is unknown, in sentences."""
+"""Sentences on a scene: what is to scale, what is not, and what is unknown."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..figures.scene.declared import Arrow, Body, Scene, Thrust, ThrustAxis
 
 
 def scene_notes(scene: Scene, result: Result) -> list[str]:
-    """The sentences below a view, and those on what was left out of it."""
+    """Return the sentences below a view, and those on its omissions."""
     return [
         frame_note(scene),
         size_note(scene.bodies),
@@ -25,13 +25,13 @@ def scene_notes(scene: Scene, result: Result) -> list[str]:
 
 
 def frame_note(scene: Scene) -> str:
-    """What the axes of the scene are."""
+    """Describe the axes of the scene."""
     axes = ", ".join(f"{axis} {name}" if axis != name else axis for axis, name in zip("xyz", scene.axes, strict=True))
     return f"Frame: {scene.frame or 'of the signals'}; {axes}."
 
 
 def size_note(bodies: Iterable[Body]) -> str:
-    """The extents of bodies."""
+    """Describe the extents of bodies."""
     sizes = "; ".join(f"{body.name} {' x '.join(number(extent) for extent in body.size)} m" for body in bodies)
     return f"To scale, along the body's axes: {sizes}."
 
@@ -64,10 +64,10 @@ def _plume(body: Body, thrust: Thrust, result: Result) -> str:
 
 
 def plume_length(body: Body) -> float:
-    """How long (m) the plume of the largest thrust of a run is drawn."""
+    """Return the drawn length (m) of the plume of the largest thrust of a run."""
     return 2.0 * max(body.size)
 
 
 def largest_magnitude(values: np.ndarray) -> float:
-    """The largest magnitude of finite values, 0 without any."""
+    """Return the largest magnitude of finite values, 0 without any."""
     return float(np.max(np.abs(values), where=np.isfinite(values), initial=0.0))

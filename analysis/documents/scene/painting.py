@@ -28,7 +28,7 @@ class Stroke(NamedTuple):
 
 
 def in_order(strokes: list[Stroke]) -> list[Stroke]:
-    """The strokes, each after those that it may hide; by depth alone where they hide each other in a circle."""
+    """Return the strokes, each after those that it may hide; by depth alone where they hide each other in a circle."""
     by_depth = sorted(strokes, key=lambda stroke: -stroke.depth)
     flat = [stroke.points[:, :2] / stroke.points[:, 2:] for stroke in by_depth]
     boxes = [(points.min(axis=0), points.max(axis=0)) for points in flat]
@@ -49,12 +49,12 @@ def in_order(strokes: list[Stroke]) -> list[Stroke]:
 
 
 def _lies_behind(stroke: Stroke, other: Stroke) -> bool:
-    """True if a plane of one of the two has the stroke on the far side and the other one on the eye's side."""
+    """Return True if a plane of one of the two has the stroke on the far side and the other one on the eye's side."""
     if other.normal is not None and np.all(_heights(stroke, other) <= SAME * other.depth):
         return True
     return stroke.normal is not None and bool(np.all(_heights(other, stroke) >= -SAME * stroke.depth))
 
 
 def _heights(stroke: Stroke, facet: Stroke) -> np.ndarray:
-    """The heights (m) of a stroke's points over the plane of a facet, [n]."""
+    """Return the heights (m) of a stroke's points over the plane of a facet, [n]."""
     return np.asarray((stroke.points - facet.points[0]) @ facet.normal)

@@ -14,23 +14,23 @@ AXES = ("light-dark(#d9480f, #ff922b)", "light-dark(#2b8a3e, #69db7c)", "light-d
 
 
 def to_units(points: np.ndarray) -> np.ndarray:
-    """Points of `Camera.project`, [n, 2], in units of the picture."""
+    """Convert points of `Camera.project`, [n, 2], in units of the picture."""
     return np.asarray(points * HEIGHT + [WIDTH / 2.0, HEIGHT / 2.0])
 
 
 def path(points: np.ndarray) -> str:
-    """The commands of a line through points of `Camera.project`, [n, 2]."""
+    """Return the commands of a line through points of `Camera.project`, [n, 2]."""
     return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in to_units(points))
 
 
 def text(label: str, x: float, y: float, kind: str = "name", colour: str = INK) -> Markup:
-    """A name, centred, with an edge in the colour of the sky."""
+    """Return a name, centred, with an edge in the colour of the sky."""
     markup = Markup('<text class="{}" x="{:.1f}" y="{:.1f}" style="fill:{};stroke:{}">{}</text>')
     return markup.format(kind, x, y, colour, SKY, label)
 
 
 def lighter(colour: str) -> str:
-    """A colour that is a quarter lighter where the page is dark."""
+    """Return a colour that is a quarter lighter where the page is dark."""
     light = "#" + "".join(f"{round(0.75 * int(colour[k : k + 2], 16) + 0.25 * 255):02x}" for k in (1, 3, 5))
     return f"light-dark({colour}, {light})"
 

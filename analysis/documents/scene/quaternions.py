@@ -11,14 +11,14 @@ AXES = "xyz"
 
 
 def multiply(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """The product of quaternions: the turn ``second`` about the axes that ``first`` has rotated."""
+    """Return the product of quaternions: the turn ``second`` about the axes that ``first`` has rotated."""
     a, u = first[0], first[1:]
     b, v = second[0], second[1:]
     return np.concatenate([(a * b - np.sum(u * v, axis=0))[None], a * v + b * u + np.cross(u, v, axis=0)])
 
 
 def turn(turns: Iterable[tuple[str, np.ndarray]], size: int) -> np.ndarray:
-    """Turns by angles (rad), [n], one after the other about the axes x, y or z as the turns before have left them."""
+    """Compose turns by angles (rad), [n], each about the axis x, y or z as the turns before have left it."""
     total = np.zeros((4, size))
     total[0] = 1.0
     for axis, angle in turns:
@@ -30,20 +30,20 @@ def turn(turns: Iterable[tuple[str, np.ndarray]], size: int) -> np.ndarray:
 
 
 def rotate(quaternion: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    """Vectors, [3, n], of body axes in axes of the reference."""
+    """Rotate vectors, [3, n], from body axes to axes of the reference."""
     u = quaternion[1:]
     across = 2.0 * np.cross(u, vector, axis=0)
     return vector + quaternion[0] * across + np.cross(u, across, axis=0)
 
 
 def normalise(vector: np.ndarray) -> np.ndarray:
-    """Vectors or quaternions of length 1; nan for those without length."""
+    """Scale vectors or quaternions to length 1, with nan for those of length 0."""
     length = np.sqrt(np.sum(vector**2, axis=0))
     return vector / np.where(length > 0.0, length, np.nan)
 
 
 def make_continuous(quaternion: np.ndarray) -> np.ndarray:
-    """The same attitudes, each with the sign that is nearer to the sample before; nan stays nan."""
+    """Return the same attitudes, each with the sign that is nearer to the sample before; nan stays nan."""
     finite = np.flatnonzero(np.all(np.isfinite(quaternion), axis=0))
     chosen = quaternion[:, finite]
     signs = np.where(np.sum(chosen[:, 1:] * chosen[:, :-1], axis=0) < 0.0, -1.0, 1.0)
@@ -53,7 +53,7 @@ def make_continuous(quaternion: np.ndarray) -> np.ndarray:
 
 
 def carry_axis(axis: np.ndarray) -> np.ndarray:
-    """Attitudes whose z axis has these directions, [3, n], and which do not turn about it from sample to sample.
+    """Return attitudes whose z axis has these directions, [3, n], without a turn about it from sample to sample.
 
     The first turns z there the shortest way. Between samples the turn is the shortest one, too, so that roll, which is
     unknown, brings no turning of its own, wherever the axis points. nan where an axis is not finite or has no length.
@@ -71,7 +71,7 @@ def carry_axis(axis: np.ndarray) -> np.ndarray:
 
 
 def _shortest(start: tuple[float, ...], end: tuple[float, ...]) -> tuple[float, ...]:
-    """The shortest turn from one unit vector to another; about any axis across where they are opposite."""
+    """Return the shortest turn from one unit vector to another; about any axis across where they are opposite."""
     x, y, z = start
     cosine = x * end[0] + y * end[1] + z * end[2]
     if cosine < -1.0 + 1e-12:
@@ -84,7 +84,7 @@ def _shortest(start: tuple[float, ...], end: tuple[float, ...]) -> tuple[float, 
 
 
 def _product(first: tuple[float, ...], second: tuple[float, ...]) -> tuple[float, float, float, float]:
-    """The product of two quaternions, as `multiply`."""
+    """Return the product of two quaternions, as `multiply`."""
     a, b, c, d = first
     e, f, g, h = second
     return (

@@ -1,4 +1,4 @@
-"""What a page's script gets of a scene: the poses of its bodies and all that is drawn with them.
+"""Data of a scene for a page's script: the poses of its bodies and all that is drawn with them.
 
 Positions are relative to `SceneView.origin`, so that float32 is exact to less than a millimetre where a flight ends.
 Arrays are columns of the page, [samples].
@@ -66,7 +66,7 @@ class JetView:
 
 @dataclass(frozen=True)
 class FlightName:
-    """Which trial of which variant a body is of, and whether that failed."""
+    """Trial and variant of a body, and whether that trial failed."""
 
     variant: str
     trial: int
@@ -175,7 +175,7 @@ class SceneView:
 
 
 def scene_view(scene: Scene, result: Result) -> SceneView | None:
-    """The scene of a flight; None for one without samples."""
+    """Return the scene of a flight, or None for one without samples."""
     if not result.time.size:
         return None
     poses = compute_poses(scene, result)
@@ -211,13 +211,13 @@ def position_at(point: BodyView | SiteView, row: int) -> np.ndarray:
 
 
 def find_origin(position: np.ndarray) -> np.ndarray:
-    """What a view's positions are relative to: the last finite position, [3]."""
+    """Find the origin of a view's positions: the last finite position, [3]."""
     finite = position[:, np.all(np.isfinite(position), axis=0)]
     return finite[:, -1] if finite.size else np.zeros(3)
 
 
 def ground_view(scene: Scene, position: np.ndarray) -> GroundView | None:
-    """The ground of a scene below a flight with these positions (m), [3, n]; None where it has none."""
+    """Return the ground of a scene below a flight with these positions (m), [3, n], or None where it has none."""
     surface = scene.surface
     if surface is None:
         return None
@@ -263,7 +263,7 @@ def _jets(jets: Jets, result: Result) -> list[JetView]:
 
 
 def remaining_pulses(time: np.ndarray, lengths: np.ndarray, count: np.ndarray | None) -> np.ndarray:
-    """What is left (s) of signed pulses at each sample, [jets, n]; 0 where none is fired.
+    """Return the remaining time (s) of signed pulses at each sample, [jets, n]; 0 where none is fired.
 
     A pulse of ``lengths``, [jets, n], starts at its sample; with ``count``, [n], only where that differs from the
     sample before.
@@ -290,7 +290,7 @@ def _line(line: Line, result: Result) -> LineView:
 
 
 def _arrow(arrow: Arrow, frame: np.ndarray | None, colour: str, flight: Result) -> ArrowView:
-    """An arrow whose components are in axes of this attitude, [4, n], or in those of the scene."""
+    """Return an arrow whose components are in axes of this attitude, [4, n], or in those of the scene."""
     direction = normalise(arrow.signal.values(flight))
     return ArrowView(
         name=arrow.name,

@@ -44,7 +44,7 @@ def draw_axes(frame: FluidFrame) -> Iterator[str]:
 
 
 def _abscissa(frame: FluidFrame, ticks: list[tuple[float, str]], grid: str, edges: str) -> str:
-    """Some ticks of the abscissa: their texts and strokes, their lines as those of a ``grid``."""
+    """Return ticks of the abscissa as SVG: texts, strokes, and lines that extend those of a ``grid``."""
     x = frame.across(np.array([at for at, _ in ticks]))
     grid += "".join(f"M{at:.2f} {frame.height:g}V0" for at in x[_have_lines(frame.x, ticks)])
     strokes = "".join(f"M{at:.2f} 0v{STROKE:g}" for at in x if frame.x.marked)

@@ -62,7 +62,7 @@ def opaque(kind: str, opacity: float) -> str:
 
 
 def _joined(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The strokes between each two points as lines, interrupted by nan."""
+    """Return strokes between pairs of points as lines, separated by nan."""
     points, gap = np.stack([x, y]), np.full((2, 1), np.nan)
     begins, ends = points[:, ::2], points[:, 1::2]
     breaks = np.flatnonzero(np.any(begins[:, 1:] != ends[:, :-1], axis=0)) + 1

@@ -31,13 +31,13 @@ def path_of(x: np.ndarray, y: np.ndarray, *, steps: bool, width: float | None = 
 
 
 def _finite_runs(finite: np.ndarray) -> list[slice]:
-    """The rows between those that are not finite."""
+    """Return the rows between those that are not finite."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], finite, [False]]).astype(np.int8)))
     return [slice(int(first), int(end)) for first, end in zip(edges[::2], edges[1::2], strict=True)]
 
 
 def _thin(points: np.ndarray) -> np.ndarray:
-    """Points [2, rows] without those that lie on the chord of their neighbours."""
+    """Return points [2, rows] without those that lie on the chord of their neighbours."""
     for _ in range(PASSES):
         before, here, after = points[:, :-2:2], points[:, 1:-1:2], points[:, 2::2]
         size = min(here.shape[1], after.shape[1])

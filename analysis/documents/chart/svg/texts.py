@@ -51,7 +51,7 @@ def _width(note: Note) -> float:
 
 
 def _backing(note: Note, x: float, y: float) -> str:
-    """A rectangle as high as the tallest letters, so that it is equal for all texts."""
+    """Return a rectangle as high as the tallest letters, so that it is equal for all texts."""
     if note.backing is None:
         return ""
     margin, width = note.backing.margin, _width(note)

@@ -38,7 +38,7 @@ def read_arrow(
 
 
 def _read_frame(reader: SignalReader, element: etree._Element, bodies: Sequence[Body]) -> str | None:
-    """The body along whose axes the components are; None for the axes of the scene."""
+    """Read the body along whose axes the components are; None for the axes of the scene."""
     if "frame" not in element.attrib:
         return None
     name = element.get("frame", "").strip()

@@ -20,7 +20,7 @@ Value = TypeVar("Value")
 def read_available(
     reader: SignalReader, children: Sequence[etree._Element], read: Callable[[etree._Element], Value]
 ) -> list[Value]:
-    """What can be read of elements without which a scene is still shown; notes on the others."""
+    """Read the available elements of those that a scene can omit, with notes on the others."""
     readable = []
     for item in children:
         try:
@@ -33,7 +33,7 @@ def read_available(
 def read_signal(
     reader: SignalReader, element: etree._Element, attribute: str, size: int, unit: Unit | None = None
 ) -> Signal:
-    """The signal of an attribute, of this many elements, in ``unit`` if one is given."""
+    """Read the signal of an attribute, of this many elements, in ``unit`` if one is given."""
     signal = reader.signal(element, attribute, unit=unit)
     check_length(reader, element, attribute, signal, size)
     return signal
@@ -48,7 +48,7 @@ def check_length(reader: SignalReader, element: etree._Element, attribute: str, 
 def read_vector(
     reader: SignalReader, element: etree._Element, attribute: str, default: Vector = (0.0, 0.0, 0.0)
 ) -> Vector:
-    """The three numbers of an attribute, the default where it is missing."""
+    """Read the three numbers of an attribute, the default where it is missing."""
     if attribute not in element.attrib:
         return default
     numbers = reader.numbers(element, attribute)
@@ -59,7 +59,7 @@ def read_vector(
 
 
 def read_direction(reader: SignalReader, element: etree._Element, attribute: str) -> Vector:
-    """A unit vector along the three numbers of an attribute, the z axis where it is missing."""
+    """Read a unit vector along the three numbers of an attribute, the z axis where it is missing."""
     vector = read_vector(reader, element, attribute, (0.0, 0.0, 1.0))
     length = math.hypot(*vector)
     if length == 0.0:

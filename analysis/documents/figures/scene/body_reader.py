@@ -57,7 +57,7 @@ def read_body(reader: SignalReader, element: etree._Element, surface: Surface | 
 
 
 def _read_size(reader: SignalReader, element: etree._Element) -> Vector:
-    """The extents (m) of a body or a panel, all of them positive."""
+    """Read the extents (m) of a body or a panel, all of them positive."""
     size = read_vector(reader, element, "size")
     if not all(extent > 0.0 for extent in size):
         raise reader.refuse(element, f"size {element.get('size')} is not positive", "give three lengths in m")
@@ -106,7 +106,7 @@ def _attitude(reader: SignalReader, element: etree._Element, position: Position 
 
 
 def _angles(reader: SignalReader, element: etree._Element) -> Angles:
-    """Angles of an attitude: a vector, or scalars separated by spaces."""
+    """Read the angles of an attitude: a vector, or scalars separated by spaces."""
     sequence, names = element.get("sequence", "").strip(), element.get("angles", "").split()
     if not 0 < len(sequence) <= 3 or not set(sequence) <= {"x", "y", "z"}:
         raise reader.refuse(element, f"sequence {sequence!r} is not of one to three axes", 'write for instance "zyx"')

@@ -24,7 +24,7 @@ LOCAL_FRAME, LOCAL_AXES = "local, at the ground below the last sample", ("east",
 
 
 def read_scene(reader: SignalReader, element: etree._Element) -> Scene:
-    """The scene; raises InputError with the line, and MissingSignalError for a body whose FMU was substituted."""
+    """Read the scene. Raises InputError with the line, and MissingSignalError for a body whose FMU was substituted."""
     reader.attributes(element, (), SCENE)
     children = reader.parts(element, ("Surface", "Body", "Site", "Line", "Arrow"))
     if any(tag(item) == tag(element) for item in element.itersiblings(preceding=True)):
@@ -69,7 +69,7 @@ def read_scene(reader: SignalReader, element: etree._Element) -> Scene:
 def _axes(
     reader: SignalReader, element: etree._Element, local: bool, surface: Surface | None
 ) -> tuple[AxisNames, AxisLetter]:
-    """The names of the axes, and which of them is up."""
+    """Read the names of the axes, and the letter of the one that is up."""
     frame, frames = element.get("frame", "").strip(), reader.network.frames
     axes, up = tuple(element.get("axes", "x y z").split()), element.get("up", "z").strip()
     for name in ("frame", "axes"):

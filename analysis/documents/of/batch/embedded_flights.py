@@ -60,7 +60,7 @@ class RecordedDocument(TypedDict):
 
 @dataclass(frozen=True)
 class EmbeddedFlights:
-    """What scripts get of flights, ``document``, the ``scene`` where there is one, and the sentences about both."""
+    """Data of flights for scripts: ``document``, the ``scene`` where there is one, and the sentences about both."""
 
     document: RecordedDocument
     scene: FlightsView | None
@@ -68,7 +68,7 @@ class EmbeddedFlights:
 
 
 def embedded_flights(batch: BatchResult) -> EmbeddedFlights | None:
-    """The recorded flights of a batch for its page; None where it recorded none."""
+    """Return the recorded flights of a batch for its page, or None where it recorded none."""
     chosen = choose_flights(batch)
     if not chosen:
         return None
@@ -98,7 +98,7 @@ def embedded_flights(batch: BatchResult) -> EmbeddedFlights | None:
 
 
 def _declared_scene(batch: BatchResult) -> Scene | None:
-    """The scene that the system declares, as its first variant has it. Raises InputError."""
+    """Return the scene that the system declares, as its first variant has it. Raises InputError."""
     prepared = batch.plan.prepare(next(iter(batch.plan.campaign.variants())))
     return next((figure for figure in read_figures(prepared) if isinstance(figure, Scene)), None)
 
@@ -111,7 +111,7 @@ def _scene_names(scene: Scene | None) -> set[str]:
 
 
 def _document(provenance: Provenance, names: Sequence[str], flights: Sequence[RecordedFlight]) -> RecordedDocument:
-    """Panels with a line for each signal of a vector, and by flight a column for each line."""
+    """Return panels with a line for each signal of a vector, and by flight a column for each line."""
     panels = [(base, list(lines)) for base, lines in groupby(names, key=vector_of)]
     return {
         "panels": [

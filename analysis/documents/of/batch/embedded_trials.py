@@ -50,7 +50,7 @@ class TrialsDocument(TypedDict):
 
 
 def trials_document(batch: BatchResult) -> TrialsDocument:
-    """All that the page's script needs: quantities with their units, and the trials of each variant.
+    """Return all data for the page's script: quantities with their units, and the trials of each variant.
 
     Draws and metrics are in 16 bits over the range of their column; of the first failures, and of the trials with the
     least and the greatest value of a metric, they are exact. Beyond `NUMBER_LIMIT` the last trials are left out.
@@ -68,7 +68,7 @@ def trials_document(batch: BatchResult) -> TrialsDocument:
 
 
 def trials_notes(batch: BatchResult) -> list[str]:
-    """What a page says of the numbers at its marks."""
+    """Return the notes of a page on the numbers at its marks."""
     notes = [
         "A mark, or a point of a distribution, names its trial; a click pins it with its replay command, a drag "
         f"selects trials in all figures. Numbers of the first {EXACT_LIMIT} failures of each variant and of trials "
@@ -88,7 +88,7 @@ def _column_names(batch: BatchResult) -> list[str]:
 
 
 def _row_limit(batch: BatchResult) -> int:
-    """The number of trials of a variant that a page has at most."""
+    """Return the number of trials of a variant that a page has at most."""
     return NUMBER_LIMIT // max(1, len(_column_names(batch)) * len(batch.rows))
 
 
@@ -114,7 +114,7 @@ def _variant(batch: BatchResult, variant: str, names: list[str], limit: int) -> 
 
 
 def _exact_rows(success: np.ndarray, metrics: Iterable[np.ndarray], limit: int) -> list[int]:
-    """The rows of the first failures, and of the extremes of metrics."""
+    """Return the rows of the first failures, and of the extremes of metrics."""
     rows = set(np.flatnonzero(~success[:limit])[:EXACT_LIMIT].tolist())
     for column in metrics:
         finite = np.flatnonzero(np.isfinite(column))
@@ -124,7 +124,7 @@ def _exact_rows(success: np.ndarray, metrics: Iterable[np.ndarray], limit: int) 
 
 
 def _command_around(batch: BatchResult, variant: str) -> tuple[str, str]:
-    """The replay command before and after the number of a trial."""
+    """Return the replay command before and after the number of a trial."""
     any_command = _command(batch, variant, 0)
     mark = next(number for number in count(10**9) if str(number) not in any_command)
     before, after = _command(batch, variant, mark).split(str(mark))

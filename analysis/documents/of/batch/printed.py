@@ -42,7 +42,7 @@ def worst_lines(batch: BatchResult) -> list[str]:
 
 
 def status_meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
-    """What each status that a trial reported means, once, as its FMU says."""
+    """Return the meaning of each status that a trial reported, once, as its FMU states it."""
     meanings: dict[str, None] = {}
     for variant in plan.campaign.variants():
         texts = dict.fromkeys(text for text in result.summary[variant.name].statuses if worst_statuses(text))

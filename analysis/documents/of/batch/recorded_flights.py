@@ -17,7 +17,7 @@ ROW_LIMIT = 500  # of a flight
 
 
 def choose_flights(batch: BatchResult) -> dict[str, list[int]]:
-    """Trials with recorded signals by variant, an equal quota of `FLIGHT_LIMIT` each.
+    """Choose trials with recorded signals by variant, an equal quota of `FLIGHT_LIMIT` each.
 
     Half of a quota are failures, where there are as many, the others successes; each in order of trial.
     """
@@ -36,7 +36,7 @@ def choose_flights(batch: BatchResult) -> dict[str, list[int]]:
 def read_flights(
     batch: BatchResult, chosen: dict[str, list[int]], names: Collection[str]
 ) -> tuple[list[RecordedFlight], int]:
-    """What the chosen trials recorded of some signals, each ``stride``-th row and the last; the stride.
+    """Read some signals of the chosen trials, each ``stride``-th row and the last; return them and the stride.
 
     All have the same stride, so that their times are common but for their ends. Trials that ended before their first
     sample are left out.

@@ -32,12 +32,12 @@ TAIL = 0.01  # on a logarithmic axis, the fraction of values drawn at its left e
 
 
 def metric_values(batch: BatchResult, metric: str) -> dict[str, np.ndarray]:
-    """A metric by variant, one value for each plotted trial, nan and inf included."""
+    """Return a metric by variant, one value for each plotted trial, nan and inf included."""
     return {name: sample.first.metrics[metric] for name, sample in batch.plotted.items()}
 
 
 def sort_metrics(batch: BatchResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
-    """Metrics that vary; constant ones with their value; those without a finite value."""
+    """Sort metrics into those that vary; constant ones with their value; those without a finite value."""
     varying, constant, empty = [], [], []
     for metric in batch.plan.campaign.metrics:
         statistics = [entry.metrics_all[metric.name] for entry in batch.summary.values()]
@@ -90,7 +90,7 @@ def distribution_chart(
 
 
 def _ends(numbers: np.ndarray) -> tuple[float, float, bool]:
-    """Low and high end of an axis, True if it is logarithmic."""
+    """Return the low and the high end of an axis, and True if it is logarithmic."""
     minimum, maximum = float(numbers.min()), float(numbers.max())
     positive = numbers[numbers > 0.0]
     if minimum >= 0.0 and positive.size:
@@ -170,5 +170,5 @@ def rates_chart(batch: BatchResult, published: Mapping[str, float]) -> Chart:
 
 
 def _above(lane: int, text: str, x: float, side: str) -> Note:
-    """A text above a lane, at a fraction of the abscissa."""
+    """Return a text above a lane, at a fraction of the abscissa."""
     return Note(text, (x, lane - 0.32), (True, False), (0.0, 0.0), (side, "bottom"), INK, TICK_SIZE)

@@ -1,4 +1,4 @@
-"""Which signals over time a batch recorded that a page plots, by names and units alone; nothing is of one system."""
+"""Recorded signals of a batch that a page plots over time, by names and units alone, for any system."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ KNOWN = (*COMMANDS, *DIRECTIONS, *MOTION, *CONSISTENCY, "position", "velocity", 
 
 
 def names_of_record(provenance: Provenance) -> list[str]:
-    """Signals over time that a page can use: those that the campaign lists, or of full traces the known ones.
+    """Return signals over time that a page can use: those that the campaign lists, or of full traces the known ones.
 
     Of a variable that several components have, as inputs repeat outputs, the first component's is taken.
     """
@@ -39,38 +39,38 @@ def names_of_record(provenance: Provenance) -> list[str]:
 
 
 def owner_of(provenance: Provenance, name: str) -> str:
-    """The component of a signal; empty for a connector of the system."""
+    """Return the component of a signal; empty for a connector of the system."""
     return split_name(name, _components(provenance))[0]
 
 
 def variable_of(provenance: Provenance, name: str) -> str:
-    """``plant.position[1]`` and ``plant.position``: ``position``."""
+    """Return the variable of a signal: of ``plant.position[1]`` and ``plant.position``: ``position``."""
     return vector_of(split_name(name, _components(provenance))[1])
 
 
 def unit_of(provenance: Provenance, name: str) -> str | None:
-    """The unit of a recorded signal; None where none is declared."""
+    """Return the unit of a recorded signal, or None where none is declared."""
     return provenance["signals"].get(name, {}).get("unit")
 
 
 def axis_of(provenance: Provenance, name: str) -> str:
-    """The name of the axis that a recorded element is along; empty where there is none."""
+    """Return the name of the axis that a recorded element is along; empty where there is none."""
     return provenance["signals"].get(name, {}).get("axis", "")
 
 
 def axes_of(provenance: Provenance, vector: tuple[str, str, str]) -> AxisNames:
-    """The names of the axes that the elements of a vector are along, x, y and z where one has none."""
+    """Return the names of the axes that the elements of a vector are along, x, y and z where one has none."""
     x, y, z = (axis_of(provenance, name) for name in vector)
     return (x, y, z) if x and y and z else LETTERS
 
 
 def is_real(provenance: Provenance, name: str) -> bool:
-    """Whether a recorded signal is a Real; others are constant between samples."""
+    """Return True if a recorded signal is a Real; others are constant between samples."""
     return provenance["signals"].get(name, {}).get("type", "Real") == "Real"
 
 
 def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
-    """Names of elements 1 to 3 by the vector's name, for all that have exactly these."""
+    """Return the names of elements 1 to 3 by the vector's name, for all that have exactly these."""
     elements: dict[str, dict[str, str]] = {}
     for name in names:
         indexed = INDEXED.fullmatch(name)
@@ -82,7 +82,7 @@ def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
 def find_vector(
     provenance: Provenance, names: Iterable[str], variable: str, unit: str, owner: str = ""
 ) -> tuple[str, str, str] | None:
-    """The first vector called ``variable`` with that unit, if there is one of the component ``owner``."""
+    """Return the first vector called ``variable`` with that unit, if there is one of the component ``owner``."""
     candidates = {
         base: elements
         for base, elements in vectors(names).items()

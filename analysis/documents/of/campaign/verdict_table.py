@@ -79,7 +79,7 @@ def verdict_table(
 
 
 def axis_start(intervals: Iterable[Interval]) -> float:
-    """Where the axis of intervals of rates begins: at the tenth below the lowest."""
+    """Return the start of the axis of intervals of rates: the tenth below the lowest."""
     return min(0.9, math.floor(10.0 * min((low for low, _ in intervals), default=1.0)) / 10.0)
 
 
@@ -92,7 +92,7 @@ def _column(judged: JudgedMetric, summary: Summary, worst: Worst) -> dict[str, C
 
 
 def _best(numbers: Mapping[str, float | None], better: int) -> set[str]:
-    """The variants with the best number; none where all have the same, or neither less nor more is better."""
+    """Return the variants with the best number; none where all have the same, or neither less nor more is better."""
     known = {name: better * number for name, number in numbers.items() if number is not None}
     if not better or len(set(known.values())) < 2:
         return set()

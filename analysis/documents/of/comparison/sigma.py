@@ -49,7 +49,7 @@ class SigmaRow:
 
 
 def is_over_sigma(metric: Metric) -> bool:
-    """True if a metric is an error over the filter's standard deviation, by its name."""
+    """Return True if a metric is an error over the filter's standard deviation, by its name."""
     return metric.unit == "1" and metric.name.endswith(SUFFIXES)
 
 

@@ -79,7 +79,7 @@ def law_chart(law: Law) -> tuple[Chart, float, float]:
 
 
 def _trace(points: list[Point], offset: float) -> np.ndarray:
-    """A smooth line through the points, level at each of them, [points, 2].
+    """Return a smooth line through the points, level at each of them, [points, 2].
 
     It begins ``offset`` columns right of the first, and ends at the rim of the last node.
     """
@@ -96,7 +96,7 @@ def _trace(points: list[Point], offset: float) -> np.ndarray:
 
 
 def _edge(trace: np.ndarray) -> list[Curve]:
-    """Its line, and the head of an arrow at its end."""
+    """Return the line of an edge, and the head of an arrow at its end."""
     step = (trace[-1] - trace[-2]) * (COLUMN, -ROW)
     angle = math.atan2(step[1], step[0])
     begin = trace[-1] - HEAD * np.array([math.cos(angle) / COLUMN, -math.sin(angle) / ROW])
@@ -105,7 +105,7 @@ def _edge(trace: np.ndarray) -> list[Curve]:
 
 
 def _label_points(traces: dict[Edge, np.ndarray], labelled: list[Edge], nodes: list[Point]) -> dict[Edge, Point]:
-    """The centres of the labels of edges: each on its edge, as far as can be from nodes, labels and other edges."""
+    """Return the centres of the labels of edges: each on its edge, as far as possible from other items."""
     sizes = np.array([COLUMN / LABEL[0], ROW / LABEL[1]])
     positions: dict[Edge, Point] = {}
     for edge in sorted(labelled, key=lambda edge: (len(traces[edge]), edge)):
@@ -124,7 +124,7 @@ def _label_points(traces: dict[Edge, np.ndarray], labelled: list[Edge], nodes: l
 
 
 def _columns(trace: np.ndarray) -> np.ndarray:
-    """Abscissae at which a label may stand: not close to either end."""
+    """Return abscissae at which a label may stand: not close to either end."""
     return np.linspace(trace[0, 0] + 0.3, trace[-1, 0] - 0.3, 9 * int(np.ceil(trace[-1, 0] - trace[0, 0])))
 
 
@@ -133,12 +133,12 @@ def _source(node: Node) -> str:
 
 
 def _half_width(node: Node) -> float:
-    """That of the box of a source that gathers nothing, 0 of other nodes; in columns."""
+    """Return half the width of the box of a source that gathers nothing, 0 for other nodes; in columns."""
     return 0.0 if node.terms or not node.source else (text_width(_source(node), TEXT) / 2.0 + ROOM) / COLUMN
 
 
 def _box(node: Node, at: Point) -> list[Area]:
-    """The box of a source that gathers nothing."""
+    """Return the box of a source that gathers nothing."""
     across, down = _half_width(node), (TEXT / 2.0 + ROOM) / ROW
     if not across:
         return []
@@ -148,7 +148,7 @@ def _box(node: Node, at: Point) -> list[Area]:
 
 
 def _circle(node: Node, at: Point) -> list[Curve]:
-    """The circle of a node that gathers, or is an output."""
+    """Return the circle of a node that gathers, or is an output."""
     if node.source and not node.terms:
         return []
     colour = VERMILION if node.number in OUTPUT_NAMES else INK
@@ -156,7 +156,7 @@ def _circle(node: Node, at: Point) -> list[Curve]:
 
 
 def _names(node: Node, at: Point) -> Iterator[Note]:
-    """The name of a source in its box; or the operation in a circle, and below it the node's number."""
+    """Yield the name of a source in its box; or the operation in a circle, and below it the node's number."""
     source = _source(node)
     if source and not node.terms:
         yield _note(source, at, INK, TEXT)

@@ -186,7 +186,7 @@ def path_chart(
 
 
 def _arrows(path: PlannedPath, rows: np.ndarray, factors: tuple[float, float]) -> list[charts.Curve]:
-    """Thrust at even times, its angle as it is whatever the scales; an engine at its least has a short arrow."""
+    """Return thrust at even times, its angle as it is whatever the scales; an engine at its least has a short arrow."""
     times = (np.arange(ARROWS) + 0.5) * path.duration / ARROWS
     interval = np.minimum(np.searchsorted(path.time, times, side="right") - 1, path.throttle.size - 1)
     angles, throttles = rows[2][interval], np.maximum(path.throttle[interval], 0.25)

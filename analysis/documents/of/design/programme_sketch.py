@@ -78,13 +78,13 @@ def sketch_chart(programme: Programme) -> Chart:
 
 
 def _dimension(begin: float, end: float, at: float) -> list[Curve]:
-    """A line between two abscissas with an arrow's head at either end."""
+    """Return a line between two abscissas with an arrow's head at either end."""
     heads = [mark(x, at, marker(kind, HEAD, INK, width=0.0), beyond=True) for kind, x in (("<", begin), (">", end))]
     return [line(np.array([begin, end]), np.full(2, at), INK, width=0.8), *heads]
 
 
 def _text(text: str, at: tuple[float, float], colour: str, side: str) -> Note:
-    """A text above a point, over a pale background."""
+    """Return a text above a point, over a pale background."""
     return Note(
         text, at, (False, False), (0.0, 3.0), (side, "baseline"), colour.lower(), TICK_SIZE,
         backing=Backing("#ffffff", 0.7, 0.5),

@@ -71,7 +71,7 @@ def time_notes(
 
 
 def _candidates(path: np.ndarray, rows: np.ndarray, row: int, *, is_left: bool) -> list[tuple[float, float]]:
-    """Offsets (pt) of a label from its mark, those next to the line before those over it."""
+    """Return offsets (pt) of a label from its mark, those next to the line before those over it."""
     if row == rows[-1]:
         side, below = 8.0 if is_left else -8.0, path[1, rows[max(0, rows.size - 2)]] >= path[1, -1]
         return [(across, up) for across in (side, -side) for up in ((-13.0, 6.0) if below else (6.0, -13.0))]
@@ -95,7 +95,7 @@ def _extent(note: Note, mark: np.ndarray) -> Extent:
 
 
 def _is_free(text: Extent, marks: np.ndarray, occupied: Sequence[Extent], area: np.ndarray) -> bool:
-    """True if a text lies within the axes and covers neither a mark nor another text."""
+    """Return True if a text lies within the axes and covers neither a mark nor another text."""
     covered = (marks[0] > text.left - RADIUS) & (marks[0] < text.right + RADIUS)
     covered &= (marks[1] > text.bottom - RADIUS) & (marks[1] < text.top + RADIUS)
     is_apart = all(

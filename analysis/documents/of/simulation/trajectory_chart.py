@@ -86,5 +86,5 @@ def _curves(view: View, paths: Sequence[np.ndarray], rows: np.ndarray) -> list[C
 
 
 def _is_legible_to_scale(width: float, height: float) -> bool:
-    """True if equal scales of both axes leave the path legible."""
+    """Return True if equal scales of both axes leave the path legible."""
     return height > 0.0 and 1.0 / MAXIMUM_RATIO <= width / height <= MAXIMUM_RATIO

@@ -1,4 +1,4 @@
-"""How to read the figures and tables of a loop."""
+"""Guide to the figures and tables of a loop."""
 
 from ...common.quantities import MINUS
 

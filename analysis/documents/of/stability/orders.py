@@ -1,4 +1,4 @@
-"""What a study in both orders of FMUs with undeclared dependencies says in words, on the page and in the terminal."""
+"""Sentences of a study in both orders of FMUs with undeclared dependencies, on the page and in the terminal."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from ....stability.results.requirement import Requirement, Verdict
 
 
 def order_loops(report: StabilityReport) -> tuple[LoopReport, ...]:
-    """The loops in the other order, none where there is one order only."""
+    """Return the loops in the other order, none where there is one order only."""
     return () if report.orders is None or report.orders.report is None else report.orders.report.loops
 
 
 def order_sentences(report: StabilityReport) -> list[str]:
-    """What was assumed, and what the other order is; nothing where every FMU on a loop declares its dependencies."""
+    """Return the assumption and the other order in words, none where every FMU on a loop declares its dependencies."""
     orders = report.orders
     if orders is None:
         return []
@@ -39,7 +39,7 @@ def order_sentences(report: StabilityReport) -> list[str]:
 
 
 def withheld_line(report: StabilityReport, subject: LoopReport | JointReport, item: Requirement) -> str:
-    """Why a requirement is withheld, and what decides it."""
+    """Return the reason why a requirement is withheld, and what decides it."""
     assert report.orders is not None
     assert item.as_feedthrough is not None
     names = report.orders.direct
@@ -52,7 +52,7 @@ def withheld_line(report: StabilityReport, subject: LoopReport | JointReport, it
 
 
 def order_note(item: Requirement) -> str:
-    """What a table says next to a requirement: its own note, or why it is withheld."""
+    """Return the note of a table on a requirement: its own, or the reason why it is withheld."""
     if item.verdict is not Verdict.WITHHELD or item.as_feedthrough is None:
         return item.note
     return f"{_value(item.as_feedthrough)} as feedthrough"

@@ -1,4 +1,4 @@
-"""What a stability study was of: facts, limits, parameters, hashes."""
+"""Subject of a stability study: facts, limits, parameters, hashes."""
 
 from __future__ import annotations
 

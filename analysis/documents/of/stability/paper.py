@@ -1,4 +1,4 @@
-"""What is printed of a stability study: of a few loops everything, of many what a board asks for first."""
+"""Printout of a stability study: of a few loops everything, of many what a board asks for first."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Paper:
         return [replace(figure, is_printed=self.kinds is None or kind_of(figure) in self.kinds) for figure in figures]
 
     def prints(self, part: str, shared: Shared) -> bool:
-        """True if the table of a part is printed."""
+        """Return True if the table of a part is printed."""
         return draws(shared) and (self.kinds is None or part in ("classical", "robust"))
 
 
@@ -49,7 +49,7 @@ def kind_of(figure: Figure) -> str:
 
 
 def draws(shared: Shared) -> bool:
-    """True if a loop has figures of its own and does not share another one's."""
+    """Return True if a loop has separate figures instead of another one's."""
     return FIRST in [kind_of(figure) for figures in shared.figures.values() for figure in figures]
 
 

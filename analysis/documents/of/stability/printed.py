@@ -13,7 +13,7 @@ from .orders import order_loops, order_sentences, withheld_line
 
 
 def stability_lines(report: StabilityReport) -> list[str]:
-    """A study in lines of text: loops, notes on feedthrough, sweeps, the verdict."""
+    """Return a study in lines of text: loops, notes on feedthrough, sweeps, the verdict."""
     lines, others = list[str](), {(loop.name, loop.point): loop for loop in order_loops(report)}
     for loop in report.loops:
         lines += _lines(loop)
@@ -26,7 +26,7 @@ def stability_lines(report: StabilityReport) -> list[str]:
 
 
 def stability_problems(report: StabilityReport) -> list[str]:
-    """A line for each requirement that is not met or withheld, and for everything that could not be studied."""
+    """Return a line for each requirement that is not met or withheld, and for everything that could not be studied."""
     judged = list(report.judgements())
     failures = [item for item in judged if item.requirement.verdict is Verdict.FAIL]
     lines = [
@@ -47,7 +47,7 @@ def stability_problems(report: StabilityReport) -> list[str]:
 
 
 def _verdict_line(lost: Unstudied) -> str:
-    """A loop without margins that has a verdict all the same."""
+    """Describe a loop that has a verdict though no margins."""
     verdict = f": {lost.verdict}" if lost.verdict is Verdict.FAIL else ""
     return f"{lost.name} at {lost.point}: {lost.text}{verdict}"
 
@@ -64,7 +64,7 @@ def _unit(item: Requirement) -> str:
 
 
 def _words(sizes: Mapping[Quantity, float], sides: Mapping[Quantity, str] | None = None) -> str:
-    """Sizes of margins, ``gain margin 12.39 dB, phase margin 44.28 deg``, and which of them are one-sided."""
+    """Return sizes of margins, ``gain margin 12.39 dB, phase margin 44.28 deg``, and which of them are one-sided."""
     words = []
     for quantity, size in sizes.items():
         if size == UNLIMITED:
@@ -86,7 +86,7 @@ def _margins(loop: LoopReport) -> str:
 
 
 def _lines(loop: LoopReport) -> Iterator[str]:
-    """A loop's line, and below it one for each thing that could not be had, and one for the campaign."""
+    """Yield a loop's line, and below it one for each quantity that is not available, and one for the campaign."""
     words = _margins(loop)
     if loop.agreement is not None:
         words += (

@@ -25,7 +25,7 @@ ByPart = dict[str, list[Figure]]  # by the part of a loop's section that they be
 
 @dataclass(frozen=True)
 class Picture:
-    """What a figure shows: everything but points, and the points (pt)."""
+    """Content of a figure: everything but points, and the points (pt)."""
 
     strokes: Sequence[object]
     points: np.ndarray
@@ -100,7 +100,7 @@ def _fractions(axis: Axis, values: object, of_axes: bool) -> np.ndarray:
 
 
 def alike(one: Picture, other: Picture) -> bool:
-    """True if nobody could tell two pictures apart."""
+    """Return True if two pictures are indistinguishable."""
     if one.strokes != other.strokes or one.points.size != other.points.size:
         return False
     return np.allclose(one.points, other.points, rtol=0.0, atol=TOLERANCE, equal_nan=True)

@@ -1,4 +1,4 @@
-"""What all studies state: the conditions of their numbers, dispersed parameters, replays, provenance."""
+"""Common statements of all studies: the conditions of their numbers, dispersed parameters, replays, provenance."""
 
 from __future__ import annotations
 

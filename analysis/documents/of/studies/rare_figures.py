@@ -85,7 +85,7 @@ def number_above(text: str, at: float) -> Note:
 
 
 def limits_of(values: np.ndarray) -> tuple[float, float]:
-    """Ends of an axis that shows all limit-state values but the smallest few, and 0."""
+    """Return ends of an axis that shows all limit-state values but the smallest few, and 0."""
     finite = values[np.isfinite(values)]
     low = min(float(quantiles(finite, [CUT])[0]), 0.0) if finite.size else -1.0
     high = max(float(finite.max()), 0.0) if finite.size else 1.0

@@ -38,7 +38,7 @@ class Bar(NamedTuple):
 
 
 def bars_of(study: SensitivityResult, metric: str) -> list[Bar]:
-    """A bar for each parameter, by total index, the largest first."""
+    """Return a bar for each parameter, by total index, the largest first."""
     bars = [
         Bar(
             name,
@@ -55,7 +55,7 @@ def bars_of(study: SensitivityResult, metric: str) -> list[Bar]:
 
 
 def _ends(interval: list[float | None]) -> tuple[float, float]:
-    """The ends of an interval, nan where JSON has none."""
+    """Return the ends of an interval, nan where JSON has none."""
     low, high = (math.nan if end is None else end for end in interval)
     return low, high
 

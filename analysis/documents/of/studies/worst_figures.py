@@ -142,7 +142,7 @@ def trials_chart(study: WorstResult) -> Chart:
 
 
 def _fresh_levels(study: WorstResult) -> list[Level]:
-    """The realisations' quantile, their worst, and the value of the search."""
+    """Return the realisations' quantile, their worst, and the value of the search."""
     assert study.fresh is not None
     assert study.over is not None
     middle = () if study.fresh.quantile == 1.0 else ((study.fresh.at_quantile, BLUE, f"their {study.over.name}"),)

@@ -30,7 +30,7 @@ class Objective(NamedTuple):
     random: int
 
     def limits(self) -> tuple[float, float]:
-        """Ends of an axis with the worst value on it, and all but a few of the others."""
+        """Return ends of an axis with the worst value on it, and all but a few of the others."""
         finite = self.values[np.isfinite(self.values)]
         if not finite.size:
             return -1.0, 1.0
@@ -41,12 +41,12 @@ class Objective(NamedTuple):
         return low - margin, high + margin
 
     def worst_so_far(self) -> np.ndarray:
-        """The worst value up to each point; nan before the first."""
+        """Return the worst value up to each point; nan before the first."""
         return np.fmax.accumulate(self.values) if self.rising else np.fmin.accumulate(self.values)
 
 
 def point_values(study: WorstResult) -> np.ndarray:
-    """The objective (points,) of every point of the search, the larger the worse; fresh noise is left out.
+    """Return the objective (points,) of every point of the search, the larger the worse; fresh noise is left out.
 
     Each point flies the realisations of the noise in a row; where noise does not matter, one after the random trials.
     """
@@ -63,7 +63,7 @@ def point_values(study: WorstResult) -> np.ndarray:
 
 
 def objective_of(study: WorstResult) -> Objective:
-    """The objective of all points in the order in which they were flown, angles in degrees."""
+    """Return the objective of all points in the order in which they were flown, angles in degrees."""
     values = point_values(study)
     displayed = select_values(study, values)
     label = label_with_unit(study.badness.text, study.unit)
@@ -74,7 +74,7 @@ def objective_of(study: WorstResult) -> Objective:
 
 
 def select_values(study: WorstResult, values: np.ndarray) -> np.ndarray:
-    """What values of the objective stand for, in the unit that is shown; nan where there is no such number."""
+    """Return the numbers that values of the objective stand for, in the unit that is shown; nan where there is none."""
     sizes = np.array([study.badness.size(float(value)) for value in values])
     known = np.isfinite(sizes) & (np.abs(sizes) < MOST)
     return np.where(known, sizes * display_factor(study.unit), np.nan)
@@ -95,12 +95,12 @@ class Lane(NamedTuple):
         return label_with_unit(self.name, self.unit)
 
     def at(self, value: float) -> float:
-        """A value as a fraction of the box."""
+        """Return a value as a fraction of the box."""
         return (value - self.low) / (self.high - self.low)
 
 
 def box_lanes(study: WorstResult) -> list[Lane]:
-    """A lane for every dispersed parameter."""
+    """Return a lane for every dispersed parameter."""
     plotted, (worst, random) = study.flown.draws, study.places
     return [
         Lane(name, study.units.get(name, ""), low, high, float(plotted[name][worst]), float(plotted[name][random]))

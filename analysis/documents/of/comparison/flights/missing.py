@@ -61,7 +61,7 @@ def missing_statements(
 
 
 def is_biased(comparison: Comparison, flights: Mapping[str, list[Flight]]) -> bool:
-    """True if what is displayed over time is not the same trials of every variant, or failed ones only."""
+    """Return True if the trials displayed over time differ between variants, or are failed ones only."""
     trials = {tuple(flight.trial for flight in retained) for retained in flights.values() if retained}
     records = [batch.document["record"] for batch in comparison.batches.values()]
     return len(trials) > 1 or any(record["every"] is None and record["traces"] == "failures" for record in records)

@@ -16,7 +16,7 @@ from .words import value_range
 
 
 class Verdict(StrEnum):
-    """Whether a run meets a limit."""
+    """Verdict on a run against a limit."""
 
     MET = "met"
     VIOLATED = "violated"

@@ -52,7 +52,7 @@ def bode_charts(loop: LoopReport) -> tuple[Chart, Chart]:
 
 
 def _gain_chart(loop: LoopReport, crossings: Classical) -> Chart:
-    """Every crossing of -180 deg, a bar to the nearest, and the gain at which its margin would be the one required."""
+    """Chart the gain: every crossing of -180 deg, a bar to the nearest, and the gain at the required margin."""
     curve, gain, limit = loop.curve, crossings.gain_margin, limits_of(loop).gain
     abscissa = frequency_axis(float(curve.frequency[0]), float(curve.frequency[-1]))
     curves = [line(curve.frequency, in_db(curve.value), BLUE)]
@@ -80,7 +80,7 @@ def _gain_chart(loop: LoopReport, crossings: Classical) -> Chart:
 
 
 def _phase_chart(loop: LoopReport, crossings: Classical) -> Chart:
-    """Every crossing of 0 dB, a bar to the nearest, and the phase at which its margin would be the one required."""
+    """Chart the phase: every crossing of 0 dB, a bar to the nearest, and the phase at the required margin."""
     curve, phase, limit = loop.curve, crossings.phase_margin, limits_of(loop).phase
     centre = phase or crossings.gain_margin
     degrees = phase_of(curve, None if centre is None else centre.frequency)
@@ -119,18 +119,18 @@ def _phase_chart(loop: LoopReport, crossings: Classical) -> Chart:
 
 
 def _crossovers(crossings: Classical) -> list[Rule]:
-    """The frequencies at which the decisive margins are read."""
+    """Return the frequencies at which the decisive margins are read."""
     decisive = [each for each in (crossings.gain_margin, crossings.phase_margin) if each is not None]
     return [instant(each.frequency, FAINT, 0.7, DOTS) for each in decisive]
 
 
 def _within(axis: Axis, frequency: float) -> float:
-    """A frequency that the axis has: a crossing lies at 0 where L is real at its start."""
+    """Return a frequency within the axis: a crossing lies at 0 where L is real at its start."""
     return min(max(frequency, axis.ends[0]), axis.ends[1])
 
 
 def _requirement(axis: Axis, frequency: float, height: float, words: str, *, to_right: bool) -> tuple[Curve, Note]:
-    """A margin that is required, as a short dashed line at its crossover, with its size on the right or the left.
+    """Return a required margin as a short dashed line at its crossover, with its size on the right or the left.
 
     A response falls: where it lies below the line it has passed it on the left, where above it does so on the right.
     """
@@ -151,7 +151,7 @@ def _requirement(axis: Axis, frequency: float, height: float, words: str, *, to_
 
 
 def _gain_ends(gain: np.ndarray, marked: float) -> tuple[float, float]:
-    """Ends of the gain's axis (dB): all of it, but a zero or a pole of the response does not squeeze the rest."""
+    """Return ends of the gain's axis (dB): all of it, except where a zero or a pole would squeeze the rest."""
     low, high = float(np.min(gain)), max(min(float(np.max(gain)), NEAR), marked, 0.0)
     low = max(min(low, marked, 0.0), min(-FAR, marked - 0.5 * FAR))
     return low - 0.05 * (high - low) - 1.0, high + 0.05 * (high - low) + 1.0

@@ -38,19 +38,19 @@ BEHIND = Backing(WHITE, 0.8, 0.8)  # of words over a line
 
 
 def in_db(values: np.ndarray) -> np.ndarray:
-    """Sizes in dB; what is zero is far down."""
+    """Convert magnitudes to dB, with a floor for zero."""
     return decibels(np.maximum(np.abs(values), FLOOR))
 
 
 def phase_of(curve: Curve, at: float | None) -> np.ndarray:
-    """The unwrapped phase (deg) of a curve, on the branch that at the frequency ``at`` is in (-360, 0]."""
+    """Return the unwrapped phase (deg) of a curve, on the branch that at the frequency ``at`` is in (-360, 0]."""
     phase = np.degrees(np.unwrap(np.angle(curve.value)))
     reference = phase[len(phase) // 2] if at is None else float(np.interp(at, curve.frequency, phase))
     return phase - 360.0 * math.ceil(reference / 360.0)
 
 
 def nearest_phase(curve: Curve, phase: np.ndarray, measured: Curve) -> np.ndarray:
-    """The phase (deg) of measured points, each on the branch nearest to the curve's."""
+    """Return the phase (deg) of measured points, each on the branch nearest to the curve's."""
     expected = np.interp(measured.frequency, curve.frequency, phase)
     degrees = np.degrees(np.angle(measured.value))
     return degrees + 360.0 * np.round((expected - degrees) / 360.0)
@@ -72,14 +72,14 @@ def phase_mark(*, is_decisive: bool) -> Marker:
 
 
 def has_measurement(loop: LoopReport) -> Curve | None:
-    """The response of the frequency-response test where the curve is the linearisation's."""
+    """Return the response of the frequency-response test where the curve is the linearisation's."""
     if loop.linearised is None or loop.measured_response is None:
         return None
     return loop.measured_response.curve
 
 
 def margin_crossings(loop: LoopReport) -> Classical:
-    """The crossings that are margins: none where the closed loop is unstable."""
+    """Return the crossings that are margins: none where the closed loop is unstable."""
     return replace(loop.classical, gain=(), phase=()) if loop.margins.unstable else loop.classical
 
 
@@ -107,7 +107,7 @@ def sensitivity_chart(loop: LoopReport) -> Chart:
 
 
 def margin_words(loop: LoopReport) -> str:
-    """The classical margins in words, for those who cannot see the figure."""
+    """Return the classical margins in words, for those who cannot see the figure."""
     if loop.margins.unstable:
         return "the closed loop is unstable, hence no margins"
     gain, phase = loop.classical.gain_margin, loop.classical.phase_margin
@@ -120,7 +120,7 @@ def margin_words(loop: LoopReport) -> str:
 
 
 def gain_words(loop: LoopReport) -> str:
-    """The gain margin and its frequency, as it stands over a diagram."""
+    """Return the gain margin and its frequency, as it stands over a diagram."""
     gain = margin_crossings(loop).gain_margin
     if gain is None:
         return "unstable: no margins" if loop.margins.unstable else "no phase crossover"
@@ -129,7 +129,7 @@ def gain_words(loop: LoopReport) -> str:
 
 
 def phase_words(loop: LoopReport) -> str:
-    """The phase margin and the gain crossover, as they stand over a diagram."""
+    """Return the phase margin and the gain crossover, as they stand over a diagram."""
     phase = margin_crossings(loop).phase_margin
     if phase is None:
         return "" if loop.margins.unstable else "no gain crossover"
@@ -152,6 +152,6 @@ class Limits:
 
 
 def limits_of(loop: LoopReport) -> Limits:
-    """The limits among a loop's requirements."""
+    """Return the limits among a loop's requirements."""
     limits = {item.quantity: item.limit for item in loop.requirements}
     return Limits(limits.get(Quantity.GAIN), limits.get(Quantity.PHASE), limits.get(Quantity.MODULUS))

@@ -88,12 +88,12 @@ def balance_chart(loop: LoopReport, element: Nonlinearity) -> Chart:
 
 
 def _circle(radius: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Curve:
-    """A circle about the critical point."""
+    """Return a circle about the critical point."""
     return line(-1.0 + radius * np.cos(ANGLES), radius * np.sin(ANGLES), colour, width=width, dashes=dashes)
 
 
 def _complex_plane(curves: Sequence[Curve], left: float, right: float) -> Chart:
-    """The plane between two real parts, symmetric about the real axis, with the critical point."""
+    """Return the plane between two real parts, symmetric about the real axis, with the critical point."""
     half = (right - left) / SHAPE / 2.0
     return Chart(
         NO_BOX,
@@ -106,7 +106,7 @@ def _complex_plane(curves: Sequence[Curve], left: float, right: float) -> Chart:
 
 
 def _direction(value: np.ndarray, left: float, right: float) -> list[Curve]:
-    """The head of an arrow along the curve towards higher frequencies, in the middle of its visible part."""
+    """Return the head of an arrow along the curve towards higher frequencies, in the middle of its visible part."""
     half = (right - left) / SHAPE / 2.0
     visible = np.flatnonzero((value.real > left) & (value.real < right) & (np.abs(value.imag) < half))
     if visible.size < 4:
@@ -150,7 +150,7 @@ def nichols_chart(loop: LoopReport) -> Chart:
 
 
 def _zone(limits: Limits) -> tuple[list[Area], list[Note]]:
-    """The diamond with its corners at the required margins (dB, deg), and their sizes; nothing where one is missing."""
+    """Return a diamond with corners at the required margins (dB, deg), and their sizes, empty where one is missing."""
     gain, phase = limits.gain, limits.phase
     if gain is None or phase is None:
         return [], []
@@ -186,7 +186,7 @@ def _margins(crossings: Classical) -> list[Curve]:
 
 
 def _phase_at(crossing: Crossing) -> float:
-    """Where a gain crossover lies (deg, -360 to 0)."""
+    """Return the phase of a gain crossover (deg, -360 to 0)."""
     return math.degrees(math.remainder(crossing.value, 2.0 * math.pi)) - 180.0
 
 
@@ -199,7 +199,7 @@ def _modulus_words(loop: LoopReport) -> str:
 
 
 def _wrap_phase(value: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Phase (deg, -360 to 0) and gain (dB) with gaps where the phase wraps."""
+    """Return phase (deg, -360 to 0) and gain (dB) with gaps where the phase wraps."""
     phase, gain = np.degrees(np.angle(-value)) - 180.0, in_db(value)
     jumps = np.flatnonzero(np.abs(np.diff(phase)) > 180.0) + 1
     return np.insert(phase, jumps, np.nan), np.insert(gain, jumps, np.nan)

@@ -26,12 +26,12 @@ SIZE, EDGE = 5.5, 1.3  # pt, of a mark and its strokes
 
 
 def poles_of(loop: LoopReport) -> np.ndarray:
-    """All closed-loop poles, from the modes where no more are given."""
+    """Return all closed-loop poles, from the modes where no more are given."""
     return loop.poles_z if loop.poles_z.size else np.array([mode.z for mode in loop.modes], dtype=complex)
 
 
 def are_crowded(poles: np.ndarray) -> bool:
-    """True if poles lie so close to each other near z = 1 that a map of the unit circle does not separate them."""
+    """Return True if poles near z = 1 are too close to be separated on a map of the unit circle."""
     return bool(np.sum(np.abs(poles - 1.0) < NEAR) >= 2)
 
 
@@ -88,7 +88,7 @@ def thin(poles: np.ndarray, extent: float) -> np.ndarray:
 
 
 def _plane(curves: Sequence[Curve], centre: float, half: float, shape: float, notes: Sequence[Note]) -> Chart:
-    """The plane about a centre on the real axis, with its grid and the ``notes`` of that."""
+    """Return the plane about a centre on the real axis, with its grid and the ``notes`` of that."""
     return Chart(
         NO_BOX,
         linear_axis((centre - shape * half, centre + shape * half), intervals(2.0 * shape * half), label="real"),
@@ -100,7 +100,7 @@ def _plane(curves: Sequence[Curve], centre: float, half: float, shape: float, no
 
 
 def _grid() -> list[Curve]:
-    """The unit circle and lines of constant damping, z = exp(-(d +- j sqrt(1 - d^2)) w) for w T up to pi."""
+    """Return the unit circle and lines of constant damping, z = exp(-(d +- j sqrt(1 - d^2)) w) for w T up to pi."""
     angle = np.linspace(0.0, np.pi, 181)
     curves = []
     for sign in (1.0, -1.0):
@@ -116,7 +116,7 @@ def _damping_notes(poles: np.ndarray) -> list[Note]:
 
 
 def _damping_note(damping: float, poles: np.ndarray) -> Note:
-    """The number of a line of constant damping, at the first of some angles at which it covers no pole."""
+    """Return the number of a line of constant damping, at the first of some angles at which it covers no pole."""
     positions = np.exp((1j - damping / math.sqrt(1.0 - damping**2)) * np.pi * NOTES)
     distances = np.abs(poles[np.newaxis] - positions[:, np.newaxis]).min(axis=1, initial=np.inf)
     at = complex(positions[int(np.argmax(distances > CLEAR))])
@@ -131,7 +131,7 @@ def intervals(width: float) -> int:
 
 
 def _near_one(poles: np.ndarray, near: float = NEAR, shape: float = SHAPE) -> tuple[float, float]:
-    """Centre and half height of a frame that holds the poles near z = 1, and a little beyond the circle."""
+    """Return the centre and half the height of a frame that holds the poles near z = 1 and a little outside it."""
     close = poles[np.abs(poles - 1.0) < near]
     reach = max(float(np.max(np.abs(close - 1.0))), 1e-6)
     left, right = float(np.min(close.real)) - 0.12 * reach, max(1.0, float(np.max(close.real))) + 0.12 * reach

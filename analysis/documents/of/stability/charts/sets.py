@@ -85,7 +85,7 @@ def margin_chart(dispersion: Dispersion, quantity: Quantity, limit: float | None
 
 
 def _hatched(left: float, right: float, height: float | None = None) -> list[Area]:
-    """A hatched bar, or a band as high as the axes, where loops are unstable."""
+    """Return a hatched bar, or a band as high as the axes, where loops are unstable."""
     of_axes = (False, height is None)
     x, y = left + (right - left) * SQUARE[:, 0], (1.0 if height is None else height) * SQUARE[:, 1]
     strokes = (hatch(x, y, VERMILION, 1.0), outline(x, y, VERMILION, 1.0))
@@ -111,14 +111,14 @@ def amplitude_charts(loop: LoopReport) -> tuple[Chart, Chart]:
 
 
 def _ordinate(y: np.ndarray) -> Axis:
-    """An axis of at least the length `FLAT`."""
+    """Return an axis of at least the length `FLAT`."""
     middle = 0.5 * float(np.min(y) + np.max(y))
     ends = (middle - FLAT / 2.0, middle + FLAT / 2.0) if np.ptp(y) < FLAT / 1.5 else axis_ends(y)
     return linear_axis(ends, 4)
 
 
 def _marked(x: np.ndarray, y: np.ndarray, size: float) -> Curve:
-    """A line with its samples as dots."""
+    """Return a line with its samples as dots."""
     return replace(line(x, y, BLUE), marker=marker("o", size, BLUE))
 
 
@@ -140,7 +140,7 @@ def describing_chart(element: Nonlinearity) -> Chart:
 
 
 def _abscissa(x: np.ndarray, label: str) -> Axis:
-    """The axis of ascending numbers, logarithmic where they span more than `DECADES`."""
+    """Return the axis of ascending numbers, logarithmic where they span more than `DECADES`."""
     ends = (float(np.min(x)), float(np.max(x))) if np.ptp(x) > 0.0 else axis_ends(x)
     is_logarithmic = ends[0] > 0.0 and ends[1] > DECADES * ends[0]
     return fine_axis(ends, label=label) if is_logarithmic else linear_axis(ends, 5, label=label)
@@ -179,7 +179,7 @@ def _sweep_chart(
 
 
 def _runs(unstable: np.ndarray, values: np.ndarray, edges: list[float]) -> list[tuple[float, float]]:
-    """From where to where the loop is unstable: between the edges found, or the ends of the sweep."""
+    """Return the ranges in which the loop is unstable: between the edges found, or the ends of the sweep."""
     bounds = [float(values[0]), *edges, float(values[-1])]
     middles = [(low, high) for low, high in itertools.pairwise(bounds) if high > low]
     return [(low, high) for low, high in middles if np.any(unstable & (values >= low) & (values <= high))]
