@@ -6,7 +6,7 @@ import argparse
 import json
 from pathlib import Path
 
-from . import likeness, names, prose, size, structure
+from . import likeness, names, prose, repeated, size, structure
 from .sources import ROOT, Checkout
 
 # Measure, its function, and its goal.
@@ -21,6 +21,9 @@ MEASURES = (
     ("--flag outside of the command line", structure.flags, "0"),
     ("module functions used once with six lines or fewer", structure.used_once, "a verdict each"),
     ("files of 35 lines or fewer (with __init__)", size.small_files, "< 60"),
+    ("class names that occur again", repeated.classes, "< 15"),
+    ("files of one name, three times and more", repeated.files, "<= 3 of a name"),
+    ("functions over 50 lines", repeated.long_functions, "< 8"),
     ("circles of files", structure.circles, "0"),
     ("pictures in git", size.pictures, "under 100 kB each"),
     ("campaign TOML", size.campaigns, "<= 3000 lines"),
