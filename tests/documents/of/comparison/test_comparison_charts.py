@@ -145,7 +145,7 @@ def test_one_scale_whatever_lies_outside():
     arrow = charts[1].curves[-2]
     assert (arrow.x[0], arrow.y[0]) == pytest.approx((0.9 * limits[0], 0.0), abs=1e-6)  # to the trial at (1000, 0) m
     (together,) = overlaid_ends({"one": one, "two": other}, STYLES, "x")
-    assert together.chart.notes[0].text.startswith("1 of 2 reach outside, farthest ")
+    assert together.chart.notes[0].text.startswith("1 of 2 outside, to ")
 
 
 def test_a_lone_trial_far_away_does_not_stretch_the_scale():

@@ -168,6 +168,6 @@ def _overlaid_chart(
     note = ""
     if outside:
         farthest = number(max(float(np.hypot(*points.T).max()) for _, points in outside), 3)
-        note = f"{len(outside)} of {len(ellipses)} reach outside, farthest {farthest} {unit}"
+        note = f"{len(outside)} of {len(ellipses)} outside, to {farthest} {unit}"
     arrows = [_arrow_out(points, colour, x_ends, y_ends) for colour, points in outside]
     return _chart([*ellipses, *means, *arrows], across, x_ends, y_ends, note)

@@ -32,13 +32,16 @@ class FigureGroup(NamedTuple):
 
 
 def figure_groups(figures: Sequence[Figure], result: Result, system: str) -> tuple[list[Group], list[FigureGroup]]:
-    """Return the tables of limits, and other figures by group, without one under the ``system``'s name."""
+    """Return the tables of limits, which a header counts, and other figures by group.
+
+    Figures without a group stand under the ``system``'s name.
+    """
     limits: list[Group] = []
     by_group: dict[DeclaredGroup, list[Group]] = {}
     for figure, subsection in _subsections(figures, result):
         judges = isinstance(figure, Limits) or (isinstance(figure, Unavailable) and figure.has_limits)
         members = limits if judges else by_group.setdefault(figure.group or DeclaredGroup(system, is_folded=False), [])
-        members.append(subsection)
+        members.append(limit_section(figure, result, is_counted=False) if isinstance(figure, Limits) else subsection)
     return limits, [FigureGroup(group.title, group.is_folded, members) for group, members in by_group.items()]
 
 
@@ -92,8 +95,8 @@ def joint_findings(figures: Sequence[Figure], result: Result) -> list[Rich]:
     return findings
 
 
-def limit_section(limits: Limits, result: Result) -> Group:
-    """Return the table of limits, with those that are violated, or why none is evaluated."""
+def limit_section(limits: Limits, result: Result, *, is_counted: bool = True) -> Group:
+    """Return the table of limits, how many are met and which not if ``is_counted``, or why none is evaluated."""
     violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is Verdict.VIOLATED]
     obstacle = limits.obstacle(result)
     total = len(limits.limits)
@@ -103,6 +106,6 @@ def limit_section(limits: Limits, result: Result) -> Group:
     return figure_group(
         limits.title,
         table=Table(("", "final value", "limit", "unit", ""), limit_rows(limits, result), style=""),
-        findings=[f"not evaluated: {obstacle}" if obstacle else verdicts],
+        findings=[f"not evaluated: {obstacle}"] if obstacle else [verdicts] if is_counted else [],
         notes=limits.notes,
     )
