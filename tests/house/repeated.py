@@ -13,22 +13,22 @@ LONG = 50  # lines
 
 def classes(checkout: Checkout) -> Measure:
     """Count the names that more than one class of the product has, of all names of its classes."""
-    places = defaultdict(list)
+    owners = defaultdict(list)
     for source in checkout.below(*PRODUCT):
         for node in source.nodes:
             if isinstance(node, ast.ClassDef):
-                places[node.name].append(f"{source.path}:{node.lineno}")
-    entries = [f"{name}: {', '.join(where)}" for name, where in sorted(places.items()) if len(where) > 1]
-    return f"{len(entries)} of {len(places)}", entries
+                owners[node.name].append(f"{source.path}:{node.lineno}")
+    entries = [f"{name}: {', '.join(where)}" for name, where in sorted(owners.items()) if len(where) > 1]
+    return f"{len(entries)} of {len(owners)}", entries
 
 
 def files(checkout: Checkout) -> Measure:
     """Count the names that three files of the product or more have, `__init__` apart."""
-    places = defaultdict(list)
+    owners = defaultdict(list)
     for source in checkout.below(*PRODUCT):
         if source.path.name != "__init__.py":
-            places[source.path.name].append(str(source.path.parent))
-    entries = [f"{name}: {', '.join(where)}" for name, where in sorted(places.items()) if len(where) > 2]
+            owners[source.path.name].append(str(source.path.parent))
+    entries = [f"{name}: {', '.join(where)}" for name, where in sorted(owners.items()) if len(where) > 2]
     return str(len(entries)), entries
 
 
