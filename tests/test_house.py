@@ -10,7 +10,7 @@ from pathlib import PurePosixPath
 
 import pytest
 
-from tests.house import likeness, names, prose, structure
+from tests.house import likeness, names, prose, repeated, structure
 from tests.house.sources import Checkout, Source
 
 LIMITS = {"words": {"told": 2}, "names": {"place": 3}, "plain": {"data": 10}}
@@ -109,6 +109,21 @@ def test_circles_hide_neither_below_type_checking_nor_in_functions():
 
 def test_no_files_import_each_other_in_a_circle():
     assert structure.circles(Checkout()) == ("0", [])
+
+
+def test_names_that_occur_again_and_long_functions():
+    long = 'def f():\n    """A docstring does not count."""\n' + "    x = 1\n" * 51
+    files = Files(
+        texts={
+            "analysis/one/page.py": "class A: pass\nclass B: pass",
+            "analysis/two/page.py": "class A: pass",
+            "common/page.py": long,
+            "common/short.py": long.replace("    x = 1\n", "", 1),
+        }
+    )
+    assert repeated.classes(files) == ("1 of 2", ["A: analysis/one/page.py:1, analysis/two/page.py:1"])
+    assert repeated.files(files) == ("1", ["page.py: analysis/one, analysis/two, common"])
+    assert repeated.long_functions(files) == ("1", ["common/page.py:1 f"])
 
 
 def test_a_run_of_like_lines_is_one_pair():
