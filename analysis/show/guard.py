@@ -59,15 +59,15 @@ class Guard:
             return PlainTextResponse("the path is too long", 414)
         if scope["method"] not in METHODS:
             return PlainTextResponse("read-only", 405, {"allow": ", ".join(METHODS)})
-        given = parse_qs(scope["query_string"].decode("latin-1")).get("token")
-        if scope["path"] == "/" and given is not None:
-            return self._admit(given)
+        tokens = parse_qs(scope["query_string"].decode("latin-1")).get("token")
+        if scope["path"] == "/" and tokens is not None:
+            return self._admit(tokens)
         if not any(self._is_token(text) for text in self._cookies(headers)):
             return PlainTextResponse("open the address that perilune show has printed", 403)
         return None
 
-    def _admit(self, given: list[str]) -> Response:
-        if len(given) != 1 or not self._is_token(given[0]):
+    def _admit(self, tokens: list[str]) -> Response:
+        if len(tokens) != 1 or not self._is_token(tokens[0]):
             return PlainTextResponse("wrong token", 403)
         response = RedirectResponse("/", 303)
         response.set_cookie(self.cookie, self.token, path="/", httponly=True, samesite="strict")

@@ -45,11 +45,11 @@ class Scale:
         """Return the bin of each number (rows,) as uint16; `NAN`, `ABOVE` or `BELOW` where it is not finite."""
         codes = np.empty(numbers.size, dtype=np.uint16)
         for first in range(0, numbers.size, CHUNK):
-            part = numbers[first : first + CHUNK]
-            bins = np.searchsorted(self.edges[1:-1], part, side="right")
-            infinite = ~np.isfinite(part)
+            chunk = numbers[first : first + CHUNK]
+            bins = np.searchsorted(self.edges[1:-1], chunk, side="right")
+            infinite = ~np.isfinite(chunk)
             if infinite.any():
-                bins[infinite] = np.where(np.isnan(part), NAN, np.where(part > 0.0, ABOVE, BELOW))[infinite]
+                bins[infinite] = np.where(np.isnan(chunk), NAN, np.where(chunk > 0.0, ABOVE, BELOW))[infinite]
             codes[first : first + CHUNK] = bins
         return codes
 

@@ -94,9 +94,9 @@ def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
         return OneFmu(slots, options["expose"], options["faults"], system)
     defaults = defaults_of(ExportOptions)
     for name in (*options_of(AssemblyOptions), "slots", "expose", "faults"):
-        given = options[name]  # type: ignore[literal-required]
-        if given != defaults[name]:
-            text = ", ".join(map(str, given)) if isinstance(given, Mapping | list | tuple) else str(given)
+        value = options[name]  # type: ignore[literal-required]
+        if value != defaults[name]:
+            text = ", ".join(map(str, value)) if isinstance(value, Mapping | list | tuple) else str(value)
             raise InputError(f"`{name}`", text, "is of a system as one FMU", "give `as_fmu`, or leave it out")
     return None
 
@@ -142,9 +142,9 @@ def _archive_name(name: str) -> str:
 def _export(request: ExportRequest) -> Written:
     text = request.name
     is_system = _names_system(text) and (text in system_names() or text not in catalogue())
-    for option, given in (("ssp", request.ssp), ("studies", ", ".join(request.studies))):
-        if given and not is_system:
-            raise InputError(f"`{option}`", given, f"{text} is no system, which it is for", "leave it out")
+    for option, value in (("ssp", request.ssp), ("studies", ", ".join(request.studies))):
+        if value and not is_system:
+            raise InputError(f"`{option}`", value, f"{text} is no system, which it is for", "leave it out")
     if text.endswith(".py"):
         check_there(Path(text))
         return export_file(Path(text), request)

@@ -39,8 +39,8 @@ def plot_results(results: Mapping[str, FilePath | Results], metrics: Sequence[st
     if not results:
         raise InputError("plot_results", "", "no results", "give folders that batch(..., output=...) wrote, by labels")
     opened = {
-        label: OpenedResults(read_folder(Path(given))) if isinstance(given, str | os.PathLike) else given
-        for label, given in results.items()
+        label: OpenedResults(read_folder(Path(source))) if isinstance(source, str | os.PathLike) else source
+        for label, source in results.items()
     }
     return distributions(opened, metrics)
 

@@ -169,5 +169,5 @@ def _replay(source: FilePath, trial: int, options: Mapping[str, Any]) -> Replaye
         if name not in OF_A_FOLDER:
             problem = "a campaign's folder has its own"
             raise InputError(f"`{name}`", "", problem, "leave it out, or give a system and `campaign`")
-    given = {name: options[name] for name in ("log", "timeout")}
-    return replay_trial(Path(source), trial, options["configuration"], trust=trust_of(options), **given)
+    watch = {name: options[name] for name in ("log", "timeout")}
+    return replay_trial(Path(source), trial, options["configuration"], trust=trust_of(options), **watch)

@@ -58,8 +58,8 @@ def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]
     for name, value in {**options, **files}.items():
         needed = everything[name].option.needs
         if needed and {**options, **files}.get(needed) is None:
-            given = "" if value is True else str(value)
-            raise InputError(f"`{name}`", given, f"without effect unless `{needed}` is given", "give both or neither")
+            text = "" if value is True else str(value)
+            raise InputError(f"`{name}`", text, f"without effect unless `{needed}` is given", "give both or neither")
     if "open" in files:
         require_browser("`open`")
 

@@ -93,20 +93,20 @@ def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpac
     name_foreign(campaign)
     if options["retry_crashed"]:
         campaign.discard_lost(shards)
-    wanted = campaign.check_campaign(shards)
+    incomplete = campaign.check_campaign(shards)
     workers, engine = options["workers"], options["engine"]
     with (
         chdir(Path.cwd()),  # an FMU may change the folder
         resume_hint(Path(folder)),
         cluster(options["scheduler"], workers=workers, engine=engine) as elsewhere,
     ):
-        fly_campaign(campaign, wanted, workers=workers, engine=engine, elsewhere=elsewhere)
+        fly_campaign(campaign, incomplete, workers=workers, engine=engine, elsewhere=elsewhere)
     missing = campaign.missing()
-    complete = sorted(set(wanted) - set(missing))
+    complete = sorted(set(incomplete) - set(missing))
     failures = find_failed(campaign.shard_rows(number) for number in complete)
     return ShardResult(
-        len(wanted),
-        len(shards) - len(wanted),
+        len(incomplete),
+        len(shards) - len(incomplete),
         len(missing),
         campaign.numbering.count,
         tuple(failure_lines(failures, campaign.plan, Path(folder))),

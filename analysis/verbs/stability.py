@@ -26,7 +26,7 @@ from ..stability.results.report import LoopReport
 from ..stability.study import study
 from .common.documented import Documented
 
-if TYPE_CHECKING:  # plots are imported where they are made: matplotlib takes as long as all the rest
+if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes as long as all the rest
     from matplotlib.figure import Figure as Plot
 
 

@@ -59,13 +59,13 @@ def verify(*paths: FilePath | Sequence[FilePath], **options: Unpack[VerifyOption
     """
     system = SystemOptions(**trust_of(options).trust)
     watch = Watch(options["timeout"])
-    made = [
+    verifications = [
         verify_archive(
             open_system(_path(path, options["flavour"])), system, relative=options["tolerance"], timeout=watch.timeout
         )
         for path in path_list(paths)
     ]
-    return Verifications(tuple(made))
+    return Verifications(tuple(verifications))
 
 
 def _path(text: str, flavour: str | None) -> Path:

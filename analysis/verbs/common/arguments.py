@@ -32,9 +32,9 @@ def requirement_problems(requirements: Sequence[Expression], values: Mapping[str
     ]
 
 
-def path_list(given: Sequence[FilePath | Sequence[FilePath]]) -> list[str]:
+def path_list(entries: Sequence[FilePath | Sequence[FilePath]]) -> list[str]:
     """Return the paths of a call that takes them one by one, or as a list."""
     paths: list[str] = []
-    for entry in given:
+    for entry in entries:
         paths += [os.fspath(entry)] if isinstance(entry, str | os.PathLike) else [os.fspath(path) for path in entry]
     return paths

@@ -75,8 +75,8 @@ def commands_of(plan: BatchPlan) -> Commands:
     (variant,) = plan.campaign.variants()
 
     def replay(draws: Path, trial: int) -> str:
-        given = GivenDraws({}, {ALL: np.zeros(trial + 1, dtype=np.int64)}, str(draws))
-        return replay_command(plan.of_samples(given), variant, trial)
+        samples = GivenDraws({}, {ALL: np.zeros(trial + 1, dtype=np.int64)}, str(draws))
+        return replay_command(plan.of_samples(samples), variant, trial)
 
     def monte_carlo(trials: int) -> str:
         return campaign_command(replace(plan, campaign=replace(plan.campaign, trials=trials)), variant)
