@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ...authoring.block import Written
 from ..cell import Code, CommandLine
 from ..model import Document, Listing, Node, Text
+
+if TYPE_CHECKING:  # templates need an engine that a verb without any does not
+    from ...authoring.block import Written
 
 
 def exported_document(paths: Iterable[Path], flavours: Iterable[str], platforms: Iterable[str], fmi: int) -> Document:

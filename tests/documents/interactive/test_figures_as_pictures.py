@@ -130,9 +130,12 @@ PAGES = either(KINDS | SHIPPED, KINDS)
 
 
 TEMPLATES = {
-    "run_report.html": [write_run, write_own, write_mission, write_landing],
-    "comparison.html": [write_comparison],
     "document.html": [
+        write_run,
+        write_own,
+        write_mission,
+        write_landing,
+        write_comparison,
         write_stability,
         write_batch,
         write_many_trials,

@@ -179,7 +179,7 @@ def test_matrices_records_and_enumerations(tmp_path: Path) -> None:
     assert (variables["motion.position"].unit, variables["motion.speed"].unit) == ("m", "m/s")
     assert (variables["wanted"].type, variables["wanted"].start) == ("Enumeration", "3")
     (phase,) = new.typeDefinitions
-    assert (phase.name, phase.description) == ("Phase", "What it does.")
+    assert (phase.name, phase.description) == ("Phase", "Its activity.")
     items = [(each.name, each.value, each.description) for each in phase.items]
     assert items == [("CLIMB", "2", "upwards"), ("FALL", "3", "down & out")]
     text = fmi3.model_description(Everything, token="", origin={})

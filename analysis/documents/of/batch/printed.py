@@ -18,7 +18,7 @@ from ....runtime.flight.results import with_meaning
 
 def printed_lines(batch: BatchResult, metrics: Sequence[str]) -> list[str]:
     """Return the summary with ``metrics``, by default those of success and requirements, and the lines below it."""
-    return [batch.text(metrics), *worst_lines(batch), *status_meanings(batch.plan, batch)]
+    return [*batch.text(metrics).splitlines(), *worst_lines(batch), *status_meanings(batch.plan, batch)]
 
 
 def worst_lines(batch: BatchResult) -> list[str]:

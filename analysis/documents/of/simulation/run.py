@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ....runtime.flight.results import Result
 from ...cell import Code, Digest, Quantity
-from ...diagram.diagram import Diagram
 from ...figures.declared import Figure
 from ...figures.scene.declared import Scene as SceneDeclared
 from ...model import (
@@ -39,6 +38,9 @@ from .final_values import final_values, signal_table
 from .histories import time_histories
 from .nodes import trajectory_nodes
 from .summary import notebook_nodes
+
+if TYPE_CHECKING:  # the layout of diagrams starts a JavaScript engine
+    from ...diagram.diagram import Diagram
 
 ENDINGS = {
     "finished": "Nominal termination: end-of-run flag raised",

@@ -71,4 +71,4 @@ def test_a_good_end_on_the_command_line(tmp_path, capsys):
     actual = capsys.readouterr()
     assert "odd: terminated at t = 0.6 s, 4 samples" in actual.out
     assert actual.err == ""
-    assert "Terminated by an FMU." in (tmp_path / "page.html").read_text()
+    assert "Terminated by an FMU (status" in (tmp_path / "page.html").read_text()
