@@ -71,9 +71,9 @@ def sensitivity(
         return SensitivityResult(
             base=base,
             space=space,
-            told=tuple(reported),
+            with_indices=tuple(reported),
             indices=computed,
-            untold=_untold(metrics, reported),
+            without_indices=_reasons(metrics, reported),
             ranks=ranks,
             flown=flown.whole(),
             facts=flights.facts,
@@ -83,11 +83,11 @@ def sensitivity(
         )
 
 
-def _untold(metrics: Mapping[str, np.ndarray], told: list[str]) -> dict[str, str]:
+def _reasons(metrics: Mapping[str, np.ndarray], with_indices: list[str]) -> dict[str, str]:
     """Return the reasons of numbers without indices."""
     reasons = {}
     for name, values in metrics.items():
-        if name not in told:
+        if name not in with_indices:
             lacking = int(np.sum(~np.isfinite(values)))
             reasons[name] = f"not finite in {lacking} flights" if lacking else f"{values[0]:g} in all flights"
     return reasons
@@ -106,7 +106,9 @@ class InputIndices(TypedDict, total=False):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SensitivityResult(StudyResult):
-    """Sobol' ``indices`` of the numbers ``told`` (None where there are none), and the reasons of others, ``untold``.
+    """Sobol' ``indices`` of metrics and success, in the order of ``with_indices``; None where no number has any.
+
+    ``without_indices`` has the reason of each number without them.
 
     ``ranks`` are rank correlations by number and draw; the noise, one input more where it is random, has none.
     """
@@ -114,9 +116,9 @@ class SensitivityResult(StudyResult):
     DRAWS = "draws.parquet"
 
     base: int
-    told: tuple[str, ...]
+    with_indices: tuple[str, ...]
     indices: Indices | None
-    untold: Mapping[str, str]
+    without_indices: Mapping[str, str]
     ranks: Mapping[str, Mapping[str, float | None]]
 
     @property
@@ -127,8 +129,8 @@ class SensitivityResult(StudyResult):
     def of(self, number: str) -> dict[str, InputIndices]:
         """Return the effect of each input on a metric or on ``success``."""
         rows: dict[str, InputIndices] = {name: {"rank": self.ranks[number].get(name)} for name in self.inputs}
-        if self.indices is not None and number in self.told:
-            row = self.told.index(number)
+        if self.indices is not None and number in self.with_indices:
+            row = self.with_indices.index(number)
             for index, name in enumerate(self.inputs):
                 rows[name] |= {
                     "first": float(self.indices.first[row, index]),
@@ -150,7 +152,7 @@ class SensitivityResult(StudyResult):
             "flights": self.flights,
             "confidence": CONFIDENCE,
             "sensitivity": {name: self.of(name) for name in self.ranks},
-            "without_indices": dict(self.untold),
+            "without_indices": dict(self.without_indices),
             **({"replay": replay} if replay else {}),
         }
 

@@ -41,13 +41,13 @@ class SensitivityResult(Stored, study.SensitivityResult):
         Raises KeyError for a metric that has no indices, ValueError where none has any.
         """
         for name in metrics:
-            if name not in self.told:
-                raise KeyError(f"no indices of {name}; {suggestion(name, self.told)}")
-        if not self.told:
+            if name not in self.with_indices:
+                raise KeyError(f"no indices of {name}; {suggestion(name, self.with_indices)}")
+        if not self.with_indices:
             raise ValueError("no metric has indices")
         from ..documents.render.notebook import plot_figures
 
-        return plot_figures(index_figures(self, metrics or self.told))
+        return plot_figures(index_figures(self, metrics or self.with_indices))
 
 
 @verb(SENSITIVITY)

@@ -13,6 +13,7 @@ from ..documents.model import Document
 from ..documents.of.stability.figures import SIZE, Diagram, loop_charts
 from ..documents.of.stability.printed import stability_problems
 from ..documents.of.stability.study import decisive_loop, stability_document
+from ..options.command import write_command
 from ..options.declared.studies import STABILITY, StabilityOptions
 from ..options.option import FilePath
 from ..options.verb import verb
@@ -32,7 +33,12 @@ if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes a
 
 @dataclass(repr=False)
 class StabilityReport(Documented, report.StabilityReport):
-    """A study: ``loops``, ``points``, ``sweeps``, ``joint`` and a ``verdict``; gains as factors, angles in rad."""
+    """A study: ``loops``, ``points``, ``sweeps``, ``joint`` and a ``verdict``; gains as factors, angles in rad.
+
+    ``command`` repeats it.
+    """
+
+    command: str = ""
 
     def __repr__(self) -> str:
         verdicts = ", ".join(f"{loop.name} at {loop.point}: {loop.verdict}" for loop in self.loops)
@@ -51,7 +57,7 @@ class StabilityReport(Documented, report.StabilityReport):
 
     def document(self) -> Document:
         """Return the study with its verdict, margins, operating points and loops."""
-        return stability_document(self)
+        return stability_document(self, self.command)
 
     def problems(self) -> list[str]:
         """Return requirements that are not met or withheld, and what could not be studied."""
@@ -126,11 +132,12 @@ def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> Stabilit
     fails.
     """
     at, campaign, draws = options["at"], options["campaign"], options["draws"]
+    times = (at,) if isinstance(at, int | float) else tuple(at)
     request = read_request(
         os.fspath(system),
         system_options(options),
         loops=options["loops"],
-        at=(at,) if isinstance(at, int | float) else tuple(at),
+        at=times,
         campaign=None if campaign is None else os.fspath(campaign),
         configuration=options["configuration"],
         trials=options["trials"],
@@ -138,4 +145,6 @@ def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> Stabilit
         trial=options["trial"],
         draws=None if draws is None else Path(draws),
     )
-    return StabilityReport(**vars(study(request, study_command, options["workers"])))
+    done = study(request, study_command, options["workers"])
+    texts = {name: value for name, value in {**options, "at": times}.items() if name != "workers"}  # changes no number
+    return StabilityReport(**vars(done), command=write_command(STABILITY, {"system": system}, texts))

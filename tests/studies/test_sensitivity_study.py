@@ -58,7 +58,7 @@ def test_the_shares_of_a_sum(linear, tmp_path):
         for name, fraction in zip("abc", SHARES, strict=True):
             low, high = total[f"{name}.gain"][f"{order}_interval"]
             assert low < fraction < high
-    assert result.untold == {"same": "-1 in all flights", "success": "1 in all flights"}
+    assert result.without_indices == {"same": "-1 in all flights", "success": "1 in all flights"}
     assert result.flights == 256 * 5
     assert json.loads((tmp_path / "out" / "sensitivity.json").read_text()) == result.json_document(tmp_path / "out")
     assert pyarrow.parquet.read_table(tmp_path / "out" / "flights.parquet").num_rows == 1280

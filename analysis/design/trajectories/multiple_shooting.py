@@ -97,7 +97,7 @@ def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
 
 
 def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float, float]:
-    """Return propellant fraction and duration (s) by multiple shooting in throttle and direction, on so many intervals.
+    """Return propellant fraction and duration (s) by multiple shooting on ``intervals`` intervals.
 
     States: place, velocity, propellant over the initial mass; raises `PlanError`.
     """

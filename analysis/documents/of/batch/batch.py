@@ -9,10 +9,11 @@ from ....campaigns.execute.results import BatchResult
 from ...cell import Code
 from ...model import Document, Group, Medium, Missing, Node, Note, Only, Printed, Section
 from ..campaign.metrics import group_nodes, metric_nodes
-from ..campaign.origin import digest_table, fmu_rows, parameter_table
+from ..campaign.origin import fmu_rows, parameter_table
 from ..campaign.replays import replay_table
 from ..campaign.statuses import component_statuses, component_table, status_table
 from ..campaign.variants import group_rows, variant_rows
+from ..origin import digest_table
 from .content import Content
 from .correlations import driver_sections, failure_section
 from .distribution_sections import distribution_section, other_distribution_sections

@@ -6,9 +6,9 @@ from ....campaigns.lost_trials import lost_of
 from ....commands.campaigns import batch_command
 from ...cell import Code, Quantity
 from ...model import KeyNumbers, Node, Repeat, Text
-from ..campaign.origin import condition_notes
 from ..campaign.replays import anchors_of
 from ..campaign.verdicts import verdict_nodes
+from ..origin import condition_notes
 from .content import Content
 
 

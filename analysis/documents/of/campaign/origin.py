@@ -1,22 +1,10 @@
-"""Statements on the origin of a campaign's numbers: faults, assumptions, dispersed parameters, digests of files."""
+"""Origin of a campaign's numbers: dispersed parameters, FMUs of the variants."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
-
 from ....campaigns.definition.campaign import Campaign
-from ...cell import Code, Digest
-from ...model import Node, Note, Table
-
-
-def condition_notes(provenance: Mapping[str, Any]) -> list[Node]:
-    """Return the faults and assumptions of simulations."""
-    faults = provenance.get("faults", [])
-    return [
-        *([Note(["Faults: ", Code("; ".join(faults)), "."])] if faults else []),
-        *(Note(f"Assumed: {assumption}.") for assumption in provenance.get("assumptions", ())),
-    ]
+from ...cell import Code
+from ...model import Table
 
 
 def parameter_table(campaign: Campaign) -> Table:
@@ -29,11 +17,6 @@ def parameter_table(campaign: Campaign) -> Table:
     rows += [(each.name, "lookup", f"{each.column} of {each.file}") for each in campaign.lookups]
     body = [(name, distribution, Code(arguments, is_long=True)) for name, distribution, arguments in rows]
     return Table(("name", "distribution", "arguments"), body)
-
-
-def digest_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
-    """Return parts with the digests of their files, the last cell of each row."""
-    return Table((*heads, "SHA-256"), [(*row[:-1], Digest(row[-1])) for row in rows], style="")
 
 
 def fmu_rows(fmus: dict[str, dict[str, str]]) -> list[tuple[str, str, str]]:

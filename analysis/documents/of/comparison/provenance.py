@@ -8,7 +8,8 @@ from typing import Any
 from ....campaigns.compare.comparison import Comparison
 from ...cell import Cell, Code, Inline, Quantity
 from ...model import Group, Missing, Node, Note, Section, Table
-from ..campaign.origin import digest_table, fmu_rows
+from ..campaign.origin import fmu_rows
+from ..origin import digest_table
 from .header import parameter_sets
 
 DIGITS = 6

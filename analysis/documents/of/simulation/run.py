@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from ....runtime.flight.results import Result
-from ...cell import Code, Digest, Quantity
+from ...cell import Code, Quantity
 from ...figures.declared import Figure
 from ...figures.scene.declared import Scene as SceneDeclared
 from ...model import (
     Blocks,
     Document,
+    Group,
     Items,
     KeyNumbers,
     Medium,
@@ -24,14 +26,14 @@ from ...model import (
     Repeat,
     Scene,
     Section,
-    Table,
     Text,
     Verdict,
 )
 from ...scene.notes import scene_notes
 from ...scene.picture import draw_ends
 from ...scene.view import scene_view
-from .figures.groups import figure_groups, joint_findings
+from ..origin import condition_notes, digest_table
+from .figures.groups import FigureGroup, figure_groups, joint_findings
 from .figures.limits import Verdict as LimitVerdict
 from .figures.limits import limit_document
 from .final_values import final_values, signal_table
@@ -73,23 +75,27 @@ class RunContext:
 
 def run_document(result: Result, context: RunContext, json: object = None) -> Document:
     """Return the document of a run; the page is composed only when it is written."""
+
+    @cache
+    def groups() -> tuple[list[Group], list[FigureGroup]]:
+        return figure_groups(context.figures, result, result.provenance["system"])
+
     return Document(
         context.title,
         [
             Printed(context.lines),
             Only(Medium.NOTEBOOK, lambda: notebook_nodes(result, context.figures)),
-            Only(Medium.PAGE, lambda: _header(result, context)),
+            Only(Medium.PAGE, lambda: _header(result, context, groups()[0])),
         ],
         (),
         json,
-        page_sections=lambda: _sections(result, context),
+        page_sections=lambda: _sections(result, context, groups()[1]),
         has_contents=True,
     )
 
 
-def _header(result: Result, context: RunContext) -> list[Node]:
+def _header(result: Result, context: RunContext, limits: Sequence[Group]) -> list[Node]:
     provenance = result.provenance
-    limits, _ = figure_groups(context.figures, result, provenance["system"])
     end = float(result.time[-1]) if result.time.size else None
     return [
         _verdict(result, context.figures),
@@ -129,18 +135,8 @@ def _verdict(result: Result, figures: Sequence[Figure]) -> Verdict:
     )
 
 
-def condition_notes(provenance: Mapping[str, Any]) -> list[Node]:
-    """Return notes on injected faults and on assumptions about the system."""
-    faults = provenance.get("faults", [])
-    return [
-        *([Note(["Faults: ", Code("; ".join(faults)), "."])] if faults else []),
-        *(Note(f"Assumed: {assumption}.") for assumption in provenance.get("assumptions", ())),
-    ]
-
-
-def _sections(result: Result, context: RunContext) -> list[Section]:
+def _sections(result: Result, context: RunContext, groups: Sequence[FigureGroup]) -> list[Section]:
     scene = _scene(context.figures, result)
-    _, groups = figure_groups(context.figures, result, result.provenance["system"])
     histories = time_histories(result)
     trajectory = trajectory_nodes(result)
     first = [history.subsection() for history in histories.first]
@@ -168,7 +164,7 @@ def _sections(result: Result, context: RunContext) -> list[Section]:
         *sections,
         Section("All signals", [signal_table(result)], is_folded=True),
         Section("Parameters", _parameters(result.provenance["parameters"]), is_folded=True),
-        Section("Provenance", [_digests(result.provenance)], is_folded=True),
+        Section("Provenance", [digest_table(("part", "name"), _files(result.provenance))], is_folded=True),
     ]
 
 
@@ -197,9 +193,7 @@ def _parameters(parameters: Mapping[str, float | str]) -> list[Node]:
     ]
 
 
-def _digests(provenance: Mapping[str, Any]) -> Table:
-    rows = [
-        ("system", provenance["system"], Digest(provenance["system_sha256"])),
-        *((name, fmu["fmu"], Digest(fmu["sha256"])) for name, fmu in provenance["fmus"].items()),
-    ]
-    return Table(("part", "name", "SHA-256"), rows, style="")
+def _files(provenance: Mapping[str, Any]) -> list[tuple[str, str, str]]:
+    """Return part, name and SHA-256 of the system and of its FMUs."""
+    fmus = ((component, fmu["fmu"], fmu["sha256"]) for component, fmu in provenance["fmus"].items())
+    return [("system", provenance["system"], provenance["system_sha256"]), *fmus]

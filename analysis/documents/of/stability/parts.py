@@ -277,7 +277,7 @@ def parts(loop: LoopReport) -> list[Part]:
 
 
 def list_absent(loop: LoopReport) -> list[str]:
-    """Return parts that this loop does not have and without a reason: they were not asked for."""
+    """Return the parts that a loop's study did not include; one that failed has a reason and is not among them."""
     there = {
         "linearisation": loop.linearised is not None,
         "frequency-response test": loop.measured_response is not None,

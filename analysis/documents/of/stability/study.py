@@ -20,6 +20,7 @@ from ...model import (
     Note,
     Only,
     Printed,
+    Repeat,
     Section,
     Table,
     Text,
@@ -37,12 +38,15 @@ from .sweeps import sweep_nodes
 from .words import fold_long, gain_margin, phase_margin, size, verdict
 
 
-def stability_document(report: StabilityReport) -> Document:
-    """Return the document of a study; how long it took is in a terminal only, so that its page is always the same."""
+def stability_document(report: StabilityReport, command: str = "") -> Document:
+    """Return the document of a study, which ``command`` repeats.
+
+    How long it took is in a terminal only, so that its page is always the same.
+    """
     summary: list[Node] = [
         Printed(stability_lines(report)),
         Only(Medium.NOTEBOOK, partial(_notebook_nodes, report)),
-        Only(Medium.PAGE, lambda: [_verdict(report)]),
+        Only(Medium.PAGE, lambda: [_verdict(report), *([Repeat(command)] if command else [])]),
     ]
     histories = courses(report)
     sections = [
@@ -61,6 +65,7 @@ def stability_document(report: StabilityReport) -> Document:
         summary,
         [Section(heading, [Only(Medium.PAGE, compose)]) for heading, compose, is_there in sections if is_there],
         document(report),
+        has_contents=True,
     )
 
 

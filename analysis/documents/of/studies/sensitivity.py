@@ -24,11 +24,11 @@ PERCENT = f"{100 * CONFIDENCE:g} %"
 def sensitivity_document(study: SensitivityResult, folder: Path | None = None) -> Document:
     """Return the document of a sensitivity study; ``folder`` is where it has been written, if it has."""
     condition = condition_of(study)
-    count = len(study.told) + len(study.untold)
+    count = len(study.with_indices) + len(study.without_indices)
     noise = "random; all of these components are one input, the noise realisation"
     replay = study.replay(folder, 0)
     verdict = Verdict(
-        f"Sobol' indices of {len(study.told)} of {count} numbers (metrics and success), "
+        f"Sobol' indices of {len(study.with_indices)} of {count} numbers (metrics and success), "
         f"by {study.flights} simulations{study.conditions}",
         condition_nodes(study, noise),
     )
@@ -42,7 +42,7 @@ def sensitivity_document(study: SensitivityResult, folder: Path | None = None) -
     )
     sections = [
         Section("Largest influence on each metric", _drivers(study), condition),
-        *([Section("Total and first-order indices", _indices(study), condition)] if study.told else []),
+        *([Section("Total and first-order indices", _indices(study), condition)] if study.with_indices else []),
         Section("Rank correlations", [rank_table(study), Note(_on_ranks(study))], condition),
         *closing_sections(study, [("the first simulation", replay)] if replay else []),
     ]
@@ -51,7 +51,7 @@ def sensitivity_document(study: SensitivityResult, folder: Path | None = None) -
 
 
 def _drivers(study: SensitivityResult) -> list[Node]:
-    wide = [metric for metric in study.told if np.ptp(bars_of(study, metric)[0].total_interval) > WIDE]
+    wide = [metric for metric in study.with_indices if np.ptp(bars_of(study, metric)[0].total_interval) > WIDE]
     advice = f"A base of {2 * study.base} or more narrows them."
     table: list[Node] = [
         driver_table(study),
@@ -62,14 +62,14 @@ def _drivers(study: SensitivityResult) -> list[Node]:
         ),
         *([Note(f"Intervals wider than {WIDE}: {', '.join(wide)}. {advice}")] if wide else []),
     ]
-    without = [Text(f"{name}: no indices, {why}") for name, why in study.untold.items()]
-    return [*(table if study.told else [Text("no metric has indices")]), *without]
+    without = [Text(f"{name}: no indices, {why}") for name, why in study.without_indices.items()]
+    return [*(table if study.with_indices else [Text("no metric has indices")]), *without]
 
 
 def driver_table(study: SensitivityResult) -> Table:
     """Return a row for each metric: its parameter with the largest total index, and the sum of first-order indices."""
     rows: list[tuple[Cell, ...]] = []
-    for metric in study.told:
+    for metric in study.with_indices:
         bars = bars_of(study, metric)
         first = sum(bar.first for bar in bars)
         total, ends = bars[0].total, bars[0].total_interval
@@ -79,9 +79,9 @@ def driver_table(study: SensitivityResult) -> Table:
 
 
 def _indices(study: SensitivityResult) -> list[Node]:
-    is_open = len(study.told) <= OPEN
+    is_open = len(study.with_indices) <= OPEN
     return [
-        Figures(partial(index_figures, study, study.told)),
+        Figures(partial(index_figures, study, study.with_indices)),
         Note(
             f"Bars: indices, total above first order; lines: {PERCENT} intervals of the bootstrap over the rows of the "
             f"plan. At most {MOST} parameters of a metric are drawn, those with the largest total index; the tables "
@@ -91,7 +91,7 @@ def _indices(study: SensitivityResult) -> list[Node]:
             Fold(
                 label_with_unit(metric, study.units.get(metric)), [index_table(study, metric)], is_open, is_listed=True
             )
-            for metric in study.told
+            for metric in study.with_indices
         ),
     ]
 

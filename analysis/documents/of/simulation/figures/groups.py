@@ -38,26 +38,26 @@ def figure_groups(figures: Sequence[Figure], result: Result, system: str) -> tup
     """
     limits: list[Group] = []
     by_group: dict[DeclaredGroup, list[Group]] = {}
-    for figure, subsection in _subsections(figures, result):
+    for figure, subsection in _subsections(figures, result, is_counted=False):
         judges = isinstance(figure, Limits) or (isinstance(figure, Unavailable) and figure.has_limits)
         members = limits if judges else by_group.setdefault(figure.group or DeclaredGroup(system, is_folded=False), [])
-        members.append(limit_section(figure, result, is_counted=False) if isinstance(figure, Limits) else subsection)
+        members.append(subsection)
     return limits, [FigureGroup(group.title, group.is_folded, members) for group, members in by_group.items()]
 
 
 def figure_sections(figures: Sequence[Figure], result: Result) -> list[Group]:
     """Return each figure but a scene below its heading, in the order of the SSD; none for a run without samples."""
-    return [subsection for _, subsection in _subsections(figures, result)]
+    return [subsection for _, subsection in _subsections(figures, result, is_counted=True)]
 
 
-def _subsections(figures: Sequence[Figure], result: Result) -> list[tuple[Figure, Group]]:
+def _subsections(figures: Sequence[Figure], result: Result, *, is_counted: bool) -> list[tuple[Figure, Group]]:
     if not result.time.size:
         return []
     plotted = [figure for figure in figures if not isinstance(figure, Scene)]
-    return [(figure, _subsection(figure, result, f"figure{index}")) for index, figure in enumerate(plotted)]
+    return [(figure, _subsection(figure, result, f"figure{index}", is_counted)) for index, figure in enumerate(plotted)]
 
 
-def _subsection(figure: Figure, result: Result, name: str) -> Group:
+def _subsection(figure: Figure, result: Result, name: str, is_counted: bool) -> Group:
     if isinstance(figure, Error | Curve | Path) and figure.rows is not None and not figure.rows.select(result).any():
         return figure_group(figure.title, notes=[["Not plotted: no sample where ", *condition_text(figure.rows), "."]])
     match figure:
@@ -74,7 +74,7 @@ def _subsection(figure: Figure, result: Result, name: str) -> Group:
         case Phases():
             return phase_section(figure, result, name)
         case Limits():
-            return limit_section(figure, result)
+            return limit_section(figure, result, is_counted)
         case Budget():
             return budget_section(figure, result)
     return figure_group(figure.title, notes=[f"Not plotted: {note}." for note in figure.notes])
@@ -95,7 +95,7 @@ def joint_findings(figures: Sequence[Figure], result: Result) -> list[Rich]:
     return findings
 
 
-def limit_section(limits: Limits, result: Result, *, is_counted: bool = True) -> Group:
+def limit_section(limits: Limits, result: Result, is_counted: bool) -> Group:
     """Return the table of limits, how many are met and which not if ``is_counted``, or why none is evaluated."""
     violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is Verdict.VIOLATED]
     obstacle = limits.obstacle(result)
