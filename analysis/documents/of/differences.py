@@ -10,7 +10,8 @@ import numpy as np
 from ...differences.differences import RunDifferences, SignalDifference
 from ..cell import Cell, Quantity
 from ..common.quantities import number
-from ..model import Document, Figures, Fold, Node, Note, Section, Table, Text
+from ..model import Document, Fold, Node, Note, Section, Table, Text
+from ..pictures import Figures
 from .differences_figures import difference_figures, difference_legend, plotted_signals
 
 NAMED = 6  # signals of one run alone

@@ -17,7 +17,7 @@ from ..common.colours import COLOURS, DASHES, INK, Look
 from ..common.quantities import label_with_unit
 from ..common.signals import INDEXED, vector_of
 from ..interactive.charts import NO_BOX, Chart, Curve
-from ..model import Figure
+from ..pictures import Figure
 
 PLOTTED = 24  # signals and vectors
 HEIGHT = 1.9  # in, of a figure

@@ -9,7 +9,7 @@ from markupsafe import Markup
 from ..chart.svg.fluid import POINT
 from ..chart.write_svg import write_svg
 from ..interactive.charts import Fluid
-from ..model import Diagram
+from ..pictures import Diagram
 
 NO_MARGINS = (0.0, 0.0, 0.0, 0.0)
 

@@ -13,7 +13,8 @@ from ..chart.write_svg import no_trials
 from ..common.page import write_page
 from ..common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, swatch
 from ..interactive.bundles import MISSING
-from ..model import Document, Figure, Medium, Table, select
+from ..model import Document, Medium, Table, select
+from ..pictures import Figure
 from .cell_markup import cell_class, cell_markup, entry_markup, is_number, legend_swatch, rich_markup
 from .diagram import diagram_svg
 

@@ -11,21 +11,8 @@ from markupsafe import Markup
 from ..cell import Cell, LegendEntry
 from ..common.notebook import Grid, notebook_view
 from ..common.panels import HALF_WIDTH, PANEL_WIDTH
-from ..model import (
-    Diagram,
-    Document,
-    Figure,
-    Figures,
-    KeyNumbers,
-    Listing,
-    Medium,
-    Node,
-    Plot,
-    Table,
-    Text,
-    Verdict,
-    nodes_of,
-)
+from ..model import Document, KeyNumbers, Listing, Medium, Node, Table, Text, Verdict, nodes_of
+from ..pictures import Diagram, Figure, Figures, Plot
 from .html import cell_markup
 from .words import cell_text, heads_of, number_line, rich_text, rows_of
 

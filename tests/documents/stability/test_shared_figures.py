@@ -11,9 +11,9 @@ import pytest
 from perilune.analysis.documents.chart.axes import fine_axis, linear_axis
 from perilune.analysis.documents.chart.lines import line
 from perilune.analysis.documents.interactive.charts import NO_BOX, Chart
-from perilune.analysis.documents.model import Figure
 from perilune.analysis.documents.of.stability.figures import sight_figures
 from perilune.analysis.documents.of.stability.shared import alike, picture_of, together
+from perilune.analysis.documents.pictures import Figure
 from tests.support.pages.checks import assert_self_contained, parse, text_of
 
 AXES = ("x", "y", "z")

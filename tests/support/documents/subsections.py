@@ -8,9 +8,10 @@ from markupsafe import Markup
 from perilune.analysis.documents.common.panels import Panel
 from perilune.analysis.documents.figures.declared import Figure
 from perilune.analysis.documents.interactive.charts import Drawing
-from perilune.analysis.documents.model import Figures, Group, Note, Table, Text
+from perilune.analysis.documents.model import Group, Note, Table, Text
 from perilune.analysis.documents.of.simulation import histories, trajectory
 from perilune.analysis.documents.of.simulation.figures import groups as figure_groups
+from perilune.analysis.documents.pictures import Figures
 from perilune.analysis.documents.render.cell_markup import cell_markup, legend_swatch, rich_markup
 from perilune.analysis.documents.render.html import panel_of
 from perilune.analysis.runtime.flight.results import Result

@@ -10,7 +10,8 @@ from ....campaigns.execute.results import BatchResult
 from ....studies.sobol import rank_correlations
 from ...cell import Cell, Quantity
 from ...common.quantities import number
-from ...model import Figures, Missing, Node, Note, Section, Table
+from ...model import Missing, Node, Note, Section, Table
+from ...pictures import Figures
 from .content import Content
 from .scatters import failure_figures, outcome_marks
 

@@ -11,7 +11,8 @@ from ....campaigns.definition.campaign import Metric
 from ...cell import LegendEntry, Quantity
 from ...common.colours import Look
 from ...common.panels import PANEL_HEIGHT
-from ...model import Figure, Figures, ForScript, Missing, Node, Note, Section
+from ...model import ForScript, Missing, Node, Note, Section
+from ...pictures import Figure, Figures
 from ..campaign.distributions import CUMULATIVE, distribution_chart, metric_values
 from .content import Content
 from .embedded_trials import trials_document, trials_notes

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from ....campaigns.execute.results import BatchResult
-from ...model import ForScript, Node, Note, Scene, Section
+from ...model import ForScript, Node, Note, Section
+from ...pictures import Scene
 from .embedded_flights import embedded_flights
 
 

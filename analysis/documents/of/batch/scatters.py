@@ -22,7 +22,8 @@ from ...common.colours import INK, VERMILION
 from ...common.panels import PANEL_WIDTH
 from ...common.quantities import display_factor, label_with_unit, number
 from ...interactive.charts import NO_BOX, Chart, Dots
-from ...model import Figure, Figures, Node, Note
+from ...model import Node, Note
+from ...pictures import Figure, Figures
 
 SIDE = 3.4  # in, of a panel over metrics
 HEIGHT = 3.2  # in, of a panel over inputs

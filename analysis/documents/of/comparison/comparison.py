@@ -10,7 +10,8 @@ from ....campaigns.compare.comparison import Comparison, name_of, rate_text
 from ....campaigns.summary import summary_rows
 from ....campaigns.tables import who_cells, who_heads
 from ...cell import Cell, Code
-from ...model import Document, Figure, Medium, Node, Note, Only, Printed, Section, Table, Text
+from ...model import Document, Medium, Node, Note, Only, Printed, Section, Table, Text
+from ...pictures import Figure
 from ..campaign.metrics import metric_summary
 from ..campaign.replays import replay_table
 from ..campaign.statuses import status_table

@@ -16,7 +16,7 @@ from ...chart.lines import line
 from ...common.colours import COLOURS, DASHES, INK, MARKERS, Look, look
 from ...common.panels import PANEL_HEIGHT
 from ...interactive.measures import FAILED_DASHES
-from ...model import Figure, Figures
+from ...pictures import Figure, Figures
 from ..campaign.distributions import CUMULATIVE, distribution_chart
 from ..campaign.recorded_names import variable_of
 from .sigma import is_over_sigma

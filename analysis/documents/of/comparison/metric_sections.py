@@ -11,7 +11,8 @@ from ....campaigns.summary import SummaryRow
 from ...cell import Cell, Code, Head, Percentage, Phrase, Quantity, Row, RowHeading, Strong, Track
 from ...common.colours import Look
 from ...common.quantities import MINUS
-from ...model import Figures, Fold, Group, Missing, Node, Note, Section, Table, Text
+from ...model import Fold, Group, Missing, Node, Note, Section, Table, Text
+from ...pictures import Figures
 from ..campaign.metrics import metric_table
 from ..campaign.variants import group_rows, interval_cell, variant_cells, variant_heads, variant_rows
 from ..campaign.verdict_table import axis_start

@@ -10,7 +10,8 @@ from pathlib import Path
 from ....design.trajectories.landing_study import LandingStudy
 from ....design.trajectories.vehicle import limits_document
 from ...cell import Cell, Inline, Phrase, Quantity
-from ...model import Document, Figures, KeyNumbers, Node, Note, Section, Text
+from ...model import Document, KeyNumbers, Node, Note, Section, Text
+from ...pictures import Figures
 from .plan_figures import bound_figure, bound_series, time_figures
 from .transfer import burns_phrase
 

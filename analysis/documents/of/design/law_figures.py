@@ -26,7 +26,7 @@ from ...common.colours import BLUE, FAINT, INK, VERMILION
 from ...common.quantities import MINUS
 from ...font.text import text_width
 from ...interactive.charts import Area, Axis, Backing, Chart, Curve, Note
-from ...model import Diagram
+from ...pictures import Diagram
 
 INCH = 72.0  # pt
 COLUMN, ROW = 1.75 * INCH, 0.66 * INCH  # pt, between layers and between neighbours

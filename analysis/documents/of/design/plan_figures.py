@@ -21,7 +21,7 @@ from ...common.panels import HALF_WIDTH, PANEL_HEIGHT, far
 from ...common.quantities import number
 from ...interactive import charts
 from ...interactive.charts import NO_BOX, Axis, Chart, Note
-from ...model import Figure
+from ...pictures import Figure
 
 POINTS = 72.0  # in an inch
 NAMES = ("simplified programme", "true optimum", "point-mass bound")

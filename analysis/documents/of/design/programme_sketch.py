@@ -17,7 +17,7 @@ from ...common.colours import BLUE, FAINT, INK, SKY, VERMILION
 from ...common.quantities import number
 from ...interactive.charts import NO_BOX, Backing, Chart, Curve, Note
 from ...interactive.measures import TICK_SIZE
-from ...model import Figure
+from ...pictures import Figure
 
 HEIGHT = 3.4  # in
 HEAD = 5.0  # pt, of an arrow

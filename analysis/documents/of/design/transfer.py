@@ -9,7 +9,8 @@ from functools import partial
 from ....design.transfers.adjoint import AdjointSolution
 from ....design.transfers.hover_study import HoverStudy
 from ...cell import Cell, Head, Inline, LegendEntry, Phrase, Quantity
-from ...model import Document, Figures, KeyNumbers, Node, Note, Section, Table, Text
+from ...model import Document, KeyNumbers, Node, Note, Section, Table, Text
+from ...pictures import Figures
 from .plan_figures import NAMES, Series, curve_figures, path_figure, plan_series, time_figures
 from .programme_sketch import sketch_figure
 from .transfer_json import transfer_json

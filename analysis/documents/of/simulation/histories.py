@@ -28,7 +28,8 @@ from ...common.signals import (
 )
 from ...interactive.charts import NO_BOX, Chart
 from ...interactive.charts import Note as Annotation
-from ...model import Figure, Figures, Group, Items, Node, Note
+from ...model import Group, Items, Node, Note
+from ...pictures import Figure, Figures
 from .figures.words import join
 
 if TYPE_CHECKING:

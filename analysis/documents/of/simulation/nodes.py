@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from ....runtime.flight.results import Result
 from ...figures.declared import Figure
-from ...model import Figures, Fold, Group, Node, Note, Text
+from ...model import Fold, Group, Node, Note, Text
+from ...pictures import Figures
 from .figures.groups import figure_sections, joint_findings
 from .histories import time_histories
 from .trajectory import trajectory_figures, trajectory_legend, trajectory_reading

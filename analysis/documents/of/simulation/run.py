@@ -12,7 +12,6 @@ from ...cell import Code, Quantity
 from ...figures.declared import Figure
 from ...figures.scene.declared import Scene as SceneDeclared
 from ...model import (
-    Blocks,
     Document,
     Group,
     Items,
@@ -24,11 +23,11 @@ from ...model import (
     Only,
     Printed,
     Repeat,
-    Scene,
     Section,
     Text,
     Verdict,
 )
+from ...pictures import Blocks, Scene
 from ...scene.notes import scene_notes
 from ...scene.picture import draw_ends
 from ...scene.view import scene_view
@@ -194,6 +193,6 @@ def _parameters(parameters: Mapping[str, float | str]) -> list[Node]:
 
 
 def _files(provenance: Mapping[str, Any]) -> list[tuple[str, str, str]]:
-    """Return part, name and SHA-256 of the system and of its FMUs."""
+    """Return component, name and SHA-256 of the system and of its FMUs."""
     fmus = ((component, fmu["fmu"], fmu["sha256"]) for component, fmu in provenance["fmus"].items())
     return [("system", provenance["system"], provenance["system_sha256"]), *fmus]

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from ....runtime.flight.results import Result
 from ...cell import Cell, Vector
 from ...figures.declared import Band, Figure, Limits
-from ...model import Node, Plot, Table, Text
+from ...model import Node, Table, Text
+from ...pictures import Plot
 from .figures.limits import limit_rows
 from .final_values import key_values
 from .histories import signal_plot

@@ -18,7 +18,7 @@ from ...common.round_body import altitude_over, radius_of, track_angles
 from ...common.signals import SignalGroup, position_groups
 from ...interactive.charts import Note
 from ...interactive.measures import TICK_SIZE
-from ...model import Figure
+from ...pictures import Figure
 from .figures.section import legend_of
 from .trajectory_chart import View, view_chart
 

@@ -20,7 +20,7 @@ from ...chart.panel import POINTS
 from ...common.panels import PANEL_WIDTH
 from ...common.quantities import number
 from ...interactive.charts import Chart
-from ...model import Figure
+from ...pictures import Figure
 from .charts.bode import bode_charts
 from .charts.frequency import Limits, margin_words, sensitivity_chart
 from .charts.nyquist import INVERSE, balance_chart, nichols_chart, nyquist_chart

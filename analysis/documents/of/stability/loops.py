@@ -8,7 +8,8 @@ from dataclasses import replace
 from ....stability.results.report import LoopReport, StabilityReport
 from ...cell import Faint
 from ...common.quantities import MINUS, display_unit
-from ...model import Figure, Figures, Fold, Group, Items, Missing, Node, Note, Repeat, Text, Tile, Tiles
+from ...model import Fold, Group, Items, Missing, Node, Note, Repeat, Text, Tile, Tiles
+from ...pictures import Figure, Figures
 from .figures import SIGHT, figures_by_part
 from .how_to_read import HOW_TO_READ
 from .margins import anchor, link, loop_table

@@ -22,7 +22,8 @@ from ...common.panels import PANEL_HEIGHT
 from ...common.quantities import number
 from ...interactive import charts
 from ...interactive.charts import NO_BOX, Chart, Curve
-from ...model import Figure, Figures, Node, Note
+from ...model import Node, Note
+from ...pictures import Figure, Figures
 from .charts.frequency import FORBIDDEN, WHITE
 from .shared import together
 from .words import numeral

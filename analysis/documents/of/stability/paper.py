@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ...model import Figure
+from ...pictures import Figure
 from .shared import Shared
 
 FEW = 3  # loops with figures of their own that are printed in full

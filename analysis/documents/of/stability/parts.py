@@ -13,7 +13,8 @@ from ....stability.results.responses import Mode, Nonlinearity
 from ....stability.results.varied import LEVELS, Dispersion
 from ...cell import Cell, Head, Rich
 from ...common.quantities import MINUS, NONE, display_unit, label_with_unit
-from ...model import Figure, Table
+from ...model import Table
+from ...pictures import Figure
 from .words import (
     NO_CROSSING,
     UNSTABLE_WORD,

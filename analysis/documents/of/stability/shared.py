@@ -16,7 +16,7 @@ from ....stability.results.report import LoopReport
 from ...chart.panel import POINTS
 from ...common.panels import HALF_WIDTH, PANEL_WIDTH
 from ...interactive.charts import Axis, Chart
-from ...model import Figure
+from ...pictures import Figure
 
 TOLERANCE = 0.5  # pt; lines of responses are 1.3 pt wide
 COORDINATES = ("at", "ends", "ticks")  # fields with coordinates, and x and y, of which the number of points counts

@@ -9,23 +9,8 @@ from ....stability.results.document import document
 from ....stability.results.report import LoopReport, StabilityReport
 from ....stability.results.requirement import Verdict as Judgement
 from ...cell import Strong
-from ...model import (
-    Document,
-    Figure,
-    Figures,
-    Group,
-    Medium,
-    Missing,
-    Node,
-    Note,
-    Only,
-    Printed,
-    Repeat,
-    Section,
-    Table,
-    Text,
-    Verdict,
-)
+from ...model import Document, Group, Medium, Missing, Node, Note, Only, Printed, Repeat, Section, Table, Text, Verdict
+from ...pictures import Figure, Figures
 from .figures import SIZE, bode_figure, joint_figure
 from .loops import loop_nodes
 from .margins import joint_table, order_table, summary_table, verdict_table

@@ -6,7 +6,8 @@ from ....stability.loops.margin_values import Quantity
 from ....stability.results.report import StabilityReport
 from ....stability.results.varied import SweepReport
 from ...common.quantities import label_with_unit
-from ...model import Figures, Fold, Group, Node, Note, Table
+from ...model import Fold, Group, Node, Note, Table
+from ...pictures import Figures
 from .figures import sweep_figure
 from .words import UNSTABLE_WORD, gain_margin, numbers, numeral, phase_margin, size
 

@@ -9,7 +9,8 @@ from ....studies.rare.interpretation import equivalents, influence, level_spans
 from ....studies.rare.outcome import RareResult
 from ...cell import Cell, Code, Quantity, Rich
 from ...common.quantities import label_with_unit
-from ...model import Document, Figures, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text, Verdict
+from ...model import Document, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text, Verdict
+from ...pictures import Figures
 from .conditions import UNWRITTEN, closing_sections, condition_nodes, condition_of
 from .rare_figures import DESIGN_LEGEND, PERCENT, design_figures, exceedance_figures, interval_figures, limit_figures
 

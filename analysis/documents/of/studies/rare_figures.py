@@ -21,7 +21,7 @@ from ...chart.ticks import axis_ends
 from ...common.colours import BLUE, FAINT, INK, VERMILION
 from ...common.quantities import display_factor, label_with_unit, number
 from ...interactive.charts import NO_BOX, Backing, Chart, Note
-from ...model import Figure
+from ...pictures import Figure
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in

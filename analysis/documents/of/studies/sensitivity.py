@@ -11,7 +11,8 @@ from ....studies.sensitivity import SensitivityResult
 from ....studies.sobol import CONFIDENCE
 from ...cell import Cell, Interval, Quantity
 from ...common.quantities import label_with_unit, number
-from ...model import Document, Figures, Fold, KeyNumbers, Node, Note, Section, Table, Text, Verdict
+from ...model import Document, Fold, KeyNumbers, Node, Note, Section, Table, Text, Verdict
+from ...pictures import Figures
 from .conditions import closing_sections, condition_nodes, condition_of
 from .sensitivity_figures import MOST, bars_of, index_figures
 

@@ -17,7 +17,7 @@ from ...chart.symbols import marker
 from ...common.colours import BLUE, INK, SKY
 from ...interactive.charts import NO_BOX, Chart
 from ...interactive.measures import TICK_SIZE
-from ...model import Figure
+from ...pictures import Figure
 
 MOST = 12  # parameters of a panel, those with the largest total index
 LANE = 0.34  # in

@@ -19,7 +19,8 @@ from ...cell import Cell, Code, Quantity, Rich
 from ...common.quantities import label_with_unit
 from ...figures.declared import Figure
 from ...figures.reading import read_figures
-from ...model import Document, Figures, Medium, Node, Note, Only, Section, Table, Text, Verdict
+from ...model import Document, Medium, Node, Note, Only, Section, Table, Text, Verdict
+from ...pictures import Figures
 from ..simulation.nodes import simulation_nodes
 from .conditions import closing_sections, condition_nodes, condition_of
 from .worst_figures import box_figures, random_figures, search_figures

@@ -19,7 +19,7 @@ from ...chart.ticks import axis_ends
 from ...common.colours import BLUE, FAINT, GRID, INK, VERMILION, Look
 from ...common.quantities import display_factor, label_with_unit, number
 from ...interactive.charts import NO_BOX, Chart, Note, Rule
-from ...model import Figure
+from ...pictures import Figure
 from .rare_figures import DASHED, DOTTED, GREY, HEIGHT, curve_legend, number_above
 from .worst_points import Lane, Objective, box_lanes, objective_of, select_values
 

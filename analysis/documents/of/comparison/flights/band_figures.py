@@ -15,7 +15,7 @@ from ....common.panels import far
 from ....common.quantities import display_factor, display_unit, number
 from ....interactive.charts import NO_BOX, Area, Chart, Curve
 from ....interactive.measures import FAILED_DASHES
-from ....model import Figure
+from ....pictures import Figure
 from .bands import Bands, expectation
 from .recorded import ALL, Quantity
 

@@ -21,7 +21,7 @@ from ....common.colours import FAINT, INK, Look
 from ....common.panels import PANEL_WIDTH, far
 from ....common.quantities import number
 from ....interactive.charts import NO_BOX, Chart, Curve
-from ....model import Figure
+from ....pictures import Figure
 from .ends import UNITS, Ends, ellipse, select_ends
 from .recorded import ALL
 

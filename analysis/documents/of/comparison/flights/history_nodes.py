@@ -7,7 +7,8 @@ from functools import partial
 
 from ....cell import Quantity
 from ....common.colours import Look
-from ....model import Figure, Figures, Group, Node, Note
+from ....model import Group, Node, Note
+from ....pictures import Figure, Figures
 from ..distributions import overlaid_figures
 from .band_figures import band_figures, overlaid_bands
 from .histories import History

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from functools import partial
 
 from ....cell import Inline, Quantity, Rich
-from ....model import Figure, Figures, Group, Missing, Node, Note, Section, Text
+from ....model import Group, Missing, Node, Note, Section, Text
+from ....pictures import Figure, Figures
 from ...campaign.recorded_names import LETTERS
 from ..content import Content
 from ..distributions import all_values, metric_figures, overlaid_figures, sort_metrics

@@ -18,7 +18,7 @@ from ....common.colours import GRID, INK, Look
 from ....common.panels import PANEL_HEIGHT, PANEL_WIDTH, far
 from ....interactive.charts import NO_BOX, Axis, Chart, Curve
 from ....interactive.measures import FAILED_DASHES
-from ....model import Figure
+from ....pictures import Figure
 from .end_figures import TARGET
 from .trajectories import Bundle, Path
 

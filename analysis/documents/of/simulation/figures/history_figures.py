@@ -17,7 +17,8 @@ from ....common.colours import FAINT, ORANGE
 from ....common.quantities import display_factor, display_unit
 from ....figures.declared import Curve, Error
 from ....interactive.charts import Chart
-from ....model import Figure, Group
+from ....model import Group
+from ....pictures import Figure
 from .section import displayed, figure_group, history_figure, legend_of, select_rows, time_chart
 from .words import capital, condition_text, join, seconds, sentence
 

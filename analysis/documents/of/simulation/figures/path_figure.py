@@ -22,7 +22,8 @@ from ....common.panels import HALF_WIDTH, far
 from ....common.quantities import display_unit, label_with_unit
 from ....figures.declared import Arc, Path, Signal
 from ....interactive.charts import NO_BOX, Chart, Curve, Marker
-from ....model import Figure, Group
+from ....model import Group
+from ....pictures import Figure
 from .section import figure_group, select_rows
 from .words import condition_text, sentence
 

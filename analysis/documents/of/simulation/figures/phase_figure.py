@@ -17,7 +17,8 @@ from ....common.quantities import display_unit, label_with_unit, number
 from ....figures.declared import BoundValues, Budget, Item, Phase, Phases
 from ....interactive.charts import NO_BOX, Area, Chart, Note
 from ....interactive.measures import TICK_SIZE
-from ....model import Figure, Group, Table
+from ....model import Group, Table
+from ....pictures import Figure
 from .section import align, figure_group
 from .words import seconds
 

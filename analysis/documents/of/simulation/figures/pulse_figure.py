@@ -13,7 +13,8 @@ from ....common.colours import BLUE, FAINT, VERMILION
 from ....common.quantities import label_with_unit, number
 from ....figures.declared import Pulses
 from ....interactive.charts import Area, Chart
-from ....model import Figure, Group
+from ....model import Group
+from ....pictures import Figure
 from .section import displayed, figure_group, time_chart
 from .words import join, sentence
 

@@ -15,7 +15,8 @@ from ....common.colours import look
 from ....common.quantities import in_display_unit
 from ....figures.declared import Rows
 from ....interactive.charts import NO_BOX, Area, Chart, Curve, Rule
-from ....model import Figure, Figures, Group, Node, Note, Table, Text
+from ....model import Group, Node, Note, Table, Text
+from ....pictures import Figure, Figures
 
 HEIGHT = 2.6  # in
 
