@@ -128,6 +128,16 @@ def test_page_json_file_and_talk_to_the_terminal(plain, tmp_path, capsys):
     assert sorted(path.name for path in page.parent.iterdir()) == ["report.html", "report.json"]
 
 
+def test_the_command_of_a_page_writes_the_same_page(plain, tmp_path):
+    first, second = tmp_path / "first.html", tmp_path / "second.html"
+    assert main(["stability", plain, "--at", "2,3", "--workers", "1", "--report", str(first)]) in (0, 1)
+    (command,) = re.findall(r'Repeat: <code class="command">([^<]+)</code>', first.read_text(encoding="utf-8"))
+    program, *words = shlex.split(command)
+    assert program == "perilune"
+    assert main([*words, "--report", str(second)]) in (0, 1)
+    assert second.read_bytes() == first.read_bytes()
+
+
 def test_a_line_for_every_limit_that_is_missed(packed, capsys):
     limits = 'gain_margin_db="40" phase_margin_deg="10" modulus_margin="0.99"'
     actual, errors = run(capsys, packed(limits), status=1)
