@@ -1,13 +1,13 @@
-"""Interface of every verb's result to the command line, and its output as text, JSON and files."""
+"""Output of a verb's result on the command line: text, JSON, files, exit status."""
 
 from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from ...common.atomic import write_atomically
 from ...common.errors import ExitStatus, InputError, call_by_flags
@@ -19,25 +19,9 @@ from ..options.parsing import flags_of
 from ..runtime.system.options import system_options
 from ..runtime.system.stale import report_fmus
 from .common.browser import open_page, require_browser
+from .common.documented import Documented
 
 STANDARD_OUTPUT = "-"
-
-
-class VerbResult(Protocol):
-    """The result of a verb.
-
-    It may have ``report(path)``, ``write(path)`` and other methods that write the files of its verb; a ``folder`` in
-    which it is stored already; and ``problem_status``, the exit status of problems where it is not 1.
-    """
-
-    def lines(self) -> Sequence[str]:
-        """Return the lines that the terminal shows."""
-
-    def to_json(self) -> object:
-        """Return a document of strict JSON."""
-
-    def problems(self) -> Sequence[str]:
-        """Return a line for each unmet requirement and each incomplete simulation; with any the exit status is 1."""
 
 
 # The method of a result that writes the file of an option, unless the option names another one.
@@ -75,7 +59,7 @@ def report_state_of_fmus(verb: Verb, arguments: Mapping[str, Any], options: Mapp
         print(f"perilune: {line}", file=sys.stderr)
 
 
-def present(verb: Verb, result: VerbResult, files: Mapping[str, Any]) -> ExitStatus:
+def present(verb: Verb, result: Documented, files: Mapping[str, Any]) -> ExitStatus:
     """Print a result or its JSON document, write its files, report its problems; return the command's exit status."""
     written, declared, flags = Results(), options_of(verb.files), flags_of(verb)
     written.written += [folder] if (folder := getattr(result, "folder", None)) is not None else []
@@ -103,9 +87,9 @@ def present(verb: Verb, result: VerbResult, files: Mapping[str, Any]) -> ExitSta
     return getattr(result, "problem_status", ExitStatus.NOT_MET) if problems else ExitStatus.MET
 
 
-def _json_text(result: VerbResult) -> str:
+def _json_text(result: Documented) -> str:
     return json.dumps(result.to_json(), indent=1, allow_nan=False) + "\n"
 
 
-def _call(result: VerbResult, method: str, path: Path) -> None:
+def _call(result: Documented, method: str, path: Path) -> None:
     getattr(result, method)(path)

@@ -11,7 +11,11 @@ from ...options.option import FilePath
 
 
 class Documented:
-    """Result whose `document` has everything that is shown of it."""
+    """Result of a verb, whose `document` has everything that is shown of it.
+
+    It may have ``write(path)`` and other methods that write the files of its verb; a ``folder`` in which it is stored
+    already; and ``problem_status``, the exit status of problems where it is not 1.
+    """
 
     def document(self) -> Document:
         """Return the result as a document."""
