@@ -58,7 +58,7 @@ class Figures:
 class Diagram:
     """A drawing without axes; ``draw`` returns it with its width and height (pt), which it has at any width of a page.
 
-    ``name`` is unique in its document, ``words`` describe it to those who do not see.
+    ``name`` is unique in its document, ``words`` are its text for screen readers.
     """
 
     kind: ClassVar[str] = "diagram"
