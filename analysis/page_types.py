@@ -1,8 +1,8 @@
-"""Writes web/generated/*.ts: the documents of pages, the queries of `perilune show` and its answers in TypeScript.
+"""Writer of web/generated/*.ts: TypeScript types of page documents and of the queries and answers of `perilune show`.
 
-Their declarations are dataclasses, TypedDicts and Structs next to the code that fills or reads them. Those that
-`ROOTS` consist of are written, a file for each module. Arrays are columns: numbers in a page, of another type where a
-script has them decoded.
+The types are declared as dataclasses, TypedDicts and Structs next to the code that fills or reads them. The classes in
+`ROOTS` and all classes of their members are written, one file per module. Arrays become columns: of numbers inside a
+page, of another type where a script has decoded them.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ COLUMNS = (np.ndarray, Coarse)
 
 
 class PageDocument(Packed):
-    """The document inside a page: its columns, its figures, and by name what the scripts of some pages read."""
+    """The document inside a page: its columns, its figures, and data that the scripts of some pages read."""
 
     figures: list[list[Chart]]
     trials: NotRequired[TrialsDocument]
@@ -49,11 +49,11 @@ ROOTS = (PageDocument, Query, Counts, TrialEntry)
 
 
 class UntranslatableError(TypeError):
-    """A member has a type that no page can have."""
+    """The type of a member has no counterpart in TypeScript."""
 
 
 class Member(NamedTuple):
-    """A member of an interface, and its type in Python."""
+    """A member of an interface with its Python type."""
 
     name: str
     type: Any
@@ -61,7 +61,7 @@ class Member(NamedTuple):
 
 
 def write_types(folder: Path = GENERATED) -> None:
-    """Write the files that differ from what is there, and remove others."""
+    """Write the generated files that changed, and remove obsolete ones."""
     texts = generate()
     folder.mkdir(exist_ok=True)
     for path in folder.glob("*.ts"):
@@ -74,7 +74,7 @@ def write_types(folder: Path = GENERATED) -> None:
 
 
 def generate() -> dict[str, str]:
-    """Return the files by name: the interfaces of `ROOTS`, and colours."""
+    """Return the text of each file by name: the interfaces of `ROOTS` and the colours."""
     constants: dict[str, Mapping[str, object]] = {
         "SHADES": SHADES,
         "SHIP": SHIP,
@@ -88,7 +88,7 @@ def generate() -> dict[str, str]:
 
 
 def translate(roots: Sequence[type]) -> dict[str, str]:
-    """Return the files by name: the interfaces of these classes and of all that they consist of."""
+    """Return the text of each file by name: the interfaces of these classes and of all classes of their members."""
     modules: dict[str, list[type]] = {}
     for declared in _collect(roots):
         modules.setdefault(declared.__module__, []).append(declared)
@@ -96,7 +96,7 @@ def translate(roots: Sequence[type]) -> dict[str, str]:
 
 
 def _collect(roots: Sequence[type]) -> list[type]:
-    """Return classes in the order of their modules' lines."""
+    """Return the declared classes reachable from ``roots``, ordered by module and line."""
     collected: set[type] = set()
     pending = list(roots)
     while pending:
@@ -124,7 +124,7 @@ def _members(declared: type) -> Iterator[Member]:
 
 
 def _iterate_declared(hint: Any) -> Iterator[type]:
-    """Yield the declared classes in a type."""
+    """Yield the declared classes that a type mentions."""
     if _is_declared(hint):
         yield hint
     for each in get_args(hint):
@@ -171,7 +171,7 @@ def _has_columns(hint: Any) -> bool:
 
 
 def _translate_type(hint: Any, member: str) -> str:
-    """Return a type in TypeScript. Raises UntranslatableError, with the ``member`` that has it."""
+    """Return a type in TypeScript. Raises UntranslatableError, which names ``member``."""
     if hint in PLAIN:
         return PLAIN[hint]
     if hint in COLUMNS:

@@ -1,4 +1,4 @@
-"""The command line of build_fmus.py: FMUs built, the shipped systems composed of their `system.toml` and packed."""
+"""Command line of build_fmus.py: builds the FMUs, composes the shipped systems from `system.toml`, and packs them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from .verbs.compose import compose_source
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Build FMUs and systems; returns the exit status: 0 done, 1 compilation failed, 2 wrong input."""
+    """Build FMUs and systems; return the exit status: 0 success, 1 compilation failed, 2 wrong input."""
     parser = argparse.ArgumentParser(prog="build_fmus.py", description="Build every FMU and pack every system.")
     parser.add_argument("--output", type=Path, metavar="DIR", default=BUILD, help="default: build")
     parser.add_argument("--flavour", choices=(*FLAVOURS, "all"), default="all")
@@ -66,14 +66,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _loop_platforms(portable: bool) -> list[str]:
-    """Return the platforms that the loop is built for: all that a ``portable`` build serves, else this machine's."""
+    """Return the platforms that the loop is built for: all platforms of a ``portable`` build, else this machine's."""
     return available_platforms(FMI) if portable else [name for name in [local_platform(FMI)] if name is not None]
 
 
 def compose_shipped(path: Path, fmus: Sequence[Path]) -> Path:
-    """Write the SSD next to a `system.toml`, with the FMUs of the first of these folders that has them; return it.
+    """Write the SSD next to a `system.toml` and return its path; each FMU is taken from the first folder that contains
+    it.
 
-    Raises InputError for a system that would not fly, and for an SSD that was edited.
+    Raises InputError for a system that cannot be simulated, and for an SSD that was edited by hand.
     """
     source, raw = read_source(path)
     built = {}

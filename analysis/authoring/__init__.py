@@ -1,1 +1,1 @@
-"""Writing components and systems: templates, descriptions."""
+"""Templates for new components and systems, and descriptions of existing ones."""

@@ -1,4 +1,4 @@
-"""Template of a user's block, in a separate file."""
+"""Template for a user's block, in a separate file."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SLOTS = "slots"
 
 @dataclass(frozen=True)
 class Written:
-    """Files that were written, and the commands that come next."""
+    """Files that were written, and the commands to run next."""
 
     paths: list[Path]
     commands: list[str]
@@ -54,7 +54,7 @@ def new_block(name: str, slot: str | None) -> Written:
 
 
 def where_it_flies(slot: str) -> tuple[str, str]:
-    """Return the smallest system with a slot, or with a block of that name, and the component that it is."""
+    """Return the smallest system with a component of this slot, or of this block, and the name of the component."""
     blocks = catalogue()
     interface = slots().get(slot) or blocks[slot]
     candidates = []
@@ -75,13 +75,13 @@ SUFFIX = ".jinja"
 
 
 def template_names(folder: str) -> list[str]:
-    """Return the files rendered from the templates below a folder, by their names in it."""
+    """Return the names, within a folder, of the files that its templates render."""
     root = FOLDER / folder
     return sorted(path.relative_to(root).as_posix().removesuffix(SUFFIX) for path in root.rglob(f"*{SUFFIX}"))
 
 
 def render(template: str, **content: Any) -> str:
-    """Return the text of a file; a missing value of its template is an error."""
+    """Return the rendered text of a template; a missing value is an error."""
     environment = Environment(
         loader=FileSystemLoader(FOLDER),
         undefined=StrictUndefined,

@@ -1,4 +1,4 @@
-"""A campaign with all that it extends, as one list of values: each with the file and line that it comes from."""
+"""A campaign and all files that it extends as one list of values, each with its file and line."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ PLAIN_KEY = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def describe_campaign(system: str, campaign: str) -> dict[str, Any]:
-    """Describe a campaign of a system, or in a file. Raises InputError.
+    """Describe a campaign of a system, or a campaign file. Raises InputError.
 
-    ``files`` are the campaign's own file and those that it extends, ``values`` the merged entries in the order in which
-    they are read: ``name`` as TOML writes it in full, ``value``, ``file``, ``line``.
+    ``files`` are the campaign's file and those that it extends, ``values`` the merged entries in the order of reading:
+    ``name`` (the full TOML key), ``value``, ``file``, ``line``.
     """
     archive = open_system(system)
     raw, label = archive.campaign(campaign)
@@ -37,7 +37,7 @@ def describe_campaign(system: str, campaign: str) -> dict[str, Any]:
 
 
 def toml_value(value: Any) -> str:
-    """Return a number, a text, a list or an inline table as TOML writes it."""
+    """Return a number, text, list or mapping as a TOML value."""
     if isinstance(value, Mapping):
         inside = ", ".join(f"{_key(name)} = {toml_value(each)}" for name, each in value.items())
         return f"{{ {inside} }}" if inside else "{}"
@@ -63,6 +63,7 @@ def _key(name: str) -> str:
 
 
 def _file(label: str) -> str:
-    """Return a file as a user of the system's folder knows it: ``campaigns/NAME.toml``; one from elsewhere by its
-    path."""
+    """Return the path of a file within the system's folder (``campaigns/NAME.toml``), or the full path of another
+    file.
+    """
     return label.rpartition("!")[2]

@@ -1,4 +1,4 @@
-"""A prepared system: its components with their variables and what fits there, its connections, what lies with it."""
+"""Description of a prepared system: components, their variables and replacements, connections, files."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ CAUSALITIES = ("input", "output", "structuralParameter", "parameter", "calculate
 
 
 def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Mapping[str, str] | None = None) -> list:
-    """Return a row for each variable: name, size, causality, tunable, type, unit, value, limits, description, items. ;;
-    in its own units => in its units
+    """Return a row for each variable: name, size, causality, tunable, type, unit, value, limits, description, items.
 
-    ``values`` are put in place of the FMU's starts, in its own units, and ``origins`` say where they come from.
-    ``size`` is 1, or as the elements are counted: 3, or [2, 3]; ``value`` is then a list, in row order.
+    ``values``, in the variables' units, replace the start values of the FMU; ``origins`` are the places that they come
+    from. ``size`` is 1, the number of elements of a vector, or [rows, columns] of a matrix; the ``value`` of an array
+    is a list in row order.
     """
     values, origins = values or {}, origins or {}
     rows: dict[str, dict[str, Any]] = {}
@@ -74,7 +74,7 @@ def _number(text: Any) -> float | None:
 
 
 def _join_elements(before: str | None, now: str | None) -> str | None:
-    """Join the origins of a vector's elements, each once, consecutive lines as one range."""
+    """Join the origins of a vector's elements: each once, consecutive lines as a range."""
     if now is None or before is None:
         return before or now
     *remainder, last = before.split("; ")
@@ -89,7 +89,7 @@ def _join_elements(before: str | None, now: str | None) -> str | None:
 
 
 def describe_system(prepared: PreparedSystem) -> dict[str, Any]:
-    """Return components, connections, connectors of the system itself, and its files' names. Times in s."""
+    """Return the components, connections, system connectors and file names of a prepared system. Times are in s."""
     files = prepared.archive.files
     return {
         "system": prepared.archive.name,
@@ -143,7 +143,7 @@ def _component(prepared: PreparedSystem, name: str) -> dict[str, Any]:
 
 
 def connections(prepared: PreparedSystem) -> list[dict[str, Any]]:
-    """Return the connections, the elements of a vector joined."""
+    """Return the connections; element-wise connections of a vector are joined into one."""
     by_ends: dict[tuple[str, str, str, str], dict[str, Any]] = {}
     for link in prepared.network.links():
         ends = []

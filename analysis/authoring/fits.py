@@ -1,4 +1,4 @@
-"""Replacement of FMUs: those that have all connectors of another one, and its parameters with values."""
+"""Replacement of FMUs: the FMUs that have all connectors of another one and its parameters with values."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Demand = tuple[str, str, str]  # variable, causality, type
 
 
 def connectors_of(block: type[Block]) -> set[Demand]:
-    """Return all variables that a connector can stand for."""
+    """Return all variables that may be connectors of a system."""
     return {
         (name, variable.causality, variable.fmi_type)
         for variable in block.variables.values()
@@ -36,14 +36,13 @@ def _all_connectors() -> Mapping[str, set[Demand]]:
 
 
 def fitting(demanded: Iterable[Demand]) -> list[str]:
-    """Return the FMUs of this repository and of the working folder that have all demanded connectors, by name."""
+    """Return the FMUs of this repository and of the working folder that have all required connectors, by name."""
     wanted = set(demanded)
     return [name for name, has in _all_connectors().items() if wanted <= has]
 
 
 def slots() -> dict[str, type[Block]]:
-    """Return the interfaces that make blocks swappable, by name in snake case; thin bases between them and a block
-    too."""
+    """Return the interfaces of interchangeable blocks by name in snake case, including intermediate base classes."""
     interfaces: dict[str, type[Block]] = {}
     for block in catalogue().values():
         for base in block.__mro__[1:]:
@@ -53,5 +52,5 @@ def slots() -> dict[str, type[Block]]:
 
 
 def blocks_of_slot(slot: type[Block]) -> list[type[Block]]:
-    """Return the repository's blocks of an interface."""
+    """Return the repository's blocks that implement an interface."""
     return [block for block in catalogue().values() if issubclass(block, slot)]

@@ -15,14 +15,14 @@ from ..runtime.ssp.archive import system_names
 
 
 def class_name(name: str) -> str:
-    """Return the class whose FMU has this name: ``linear_guidance`` -> ``LinearGuidance``."""
+    """Return the class name for the name of an FMU: ``linear_guidance`` -> ``LinearGuidance``."""
     return "".join(part.capitalize() for part in name.split("_"))
 
 
 def check_name(name: str, fmus: tuple[str, ...]) -> None:
-    """Refuse a name that files, classes and FMUs cannot share, or that is taken. Raises InputError.
+    """Reject a name that is taken or not valid as a file, class and FMU name. Raises InputError.
 
-    ``fmus`` are those that its blocks make.
+    ``fmus`` are the names of the FMUs that will be built.
     """
     if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z][a-z0-9]*)*", name) or keyword.iskeyword(name):
         problem = "not a name that a file, a class and an FMU can share"
@@ -42,13 +42,13 @@ def check_name(name: str, fmus: tuple[str, ...]) -> None:
 
 
 def _suggest_name(name: str) -> str:
-    """Return a permitted name that is near."""
+    """Return a permitted name similar to this one."""
     words = re.sub(r"[^a-z0-9]+", "_", snake_case(name)).strip("_")
     words = re.sub(r"_(?=\d)", "", words).lstrip("0123456789_")
     return f"my_{words}" if not words or keyword.iskeyword(words) else words
 
 
 def check_free(path: Path) -> None:
-    """Refuse to write over a file or a folder. Raises InputError."""
+    """Reject the path of an existing file or folder. Raises InputError."""
     if path.exists() or path.is_symlink():
         raise InputError("new", str(path), "exists already and is not written over", "take another name, or move it")

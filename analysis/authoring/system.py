@@ -1,4 +1,4 @@
-"""Template of a user's system: blocks, description, parameter sets, a campaign, in a separate folder."""
+"""Template for a user's system in a separate folder: blocks, description, parameter sets, a campaign."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ PARTS = ("plant", "control")  # what the system calls the blocks, in order of de
 
 
 def new_system(name: str) -> Written:
-    """Write the folder ``name`` in the working folder, whole or not at all. Raises InputError and OSError."""
+    """Write the folder ``name`` into the working folder, completely or not at all. Raises InputError and OSError."""
     check_name(name, tuple(f"{name}_{part}" for part in PARTS))
     folder = Path(name)
     check_free(folder)
@@ -50,7 +50,10 @@ def new_system(name: str) -> Written:
 
 
 def _write(folder: Path, name: str) -> list[str]:
-    """Return all files of the system; its description is composed with FMUs of its blocks, which are not kept."""
+    """Write all files of the system and return their names in ``folder``.
+
+    The description is composed with FMUs of the system's blocks, which are built temporarily.
+    """
     words = {"name": name, "class_name": class_name(name)}
     (folder / BLOCKS).write_text(render(f"{SYSTEM}/{BLOCKS}", **words), encoding="utf-8")
     blocks = blocks_in_file(folder / BLOCKS)

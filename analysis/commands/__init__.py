@@ -1,1 +1,1 @@
-"""Command lines that repeat one trial of a campaign or of a study."""
+"""Command lines that repeat one trial of a campaign or a stability study."""

@@ -1,4 +1,4 @@
-"""Commands that simulate a campaign or one of its trials again, with the options of its plan."""
+"""Commands that repeat a campaign or one of its trials with the options of its plan."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from ..options.declared.campaigns import BATCH, REPLAY
 
 
 def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
-    """Return the command that simulates one trial of one variant of a plan again."""
+    """Return the command that repeats one trial of one variant of a plan."""
     options = {"campaign": campaign_name(plan), **_of_variant(plan, variant)}
     return write_command(REPLAY, {"source": plan.system, "trial": trial}, options)
 
 
 def campaign_command(plan: BatchPlan, variant: Variant) -> str:
-    """Return the command that simulates a plan with one of its variants."""
+    """Return the command that repeats a plan with one of its variants."""
     return write_command(BATCH, {"system": plan.system, "campaign": campaign_name(plan)}, _of_variant(plan, variant))
 
 
 def batch_command(plan: BatchPlan) -> str:
-    """Return the command that simulates a plan with all of its variants."""
+    """Return the command that repeats a plan with all its variants."""
     campaign = plan.campaign
     compare = {} if campaign.configurations else campaign.compare
     options = {**_options(plan, campaign.selected, compare), "until_decided": plan.until_decided}
@@ -31,26 +31,26 @@ def batch_command(plan: BatchPlan) -> str:
 
 
 def replay_of_folder(folder: Path, configurations: Collection[object], configuration: str, trial: int) -> str:
-    """Return the command that simulates a trial of a campaign's folder again, of one of its ``configurations``."""
+    """Return the command that repeats a trial of one of the ``configurations`` of a campaign's folder."""
     options = {"configuration": configuration if len(configurations) > 1 else None}
     return write_command(REPLAY, {"source": folder, "trial": trial}, options)
 
 
 def campaign_name(plan: BatchPlan) -> str:
-    """Return what a command calls a plan's campaign: by name one of the system, else by path."""
+    """Return the name of a plan's campaign for a command: the name if the system contains it, else the path."""
     inside = plan.campaign.file.partition("!")[2]  # of a system's own campaign
     return PurePosixPath(inside).stem if inside else plan.campaign.file
 
 
 def _of_variant(plan: BatchPlan, variant: Variant) -> dict[str, object]:
-    """Return the options of a plan with one of its variants, by name."""
+    """Return the options that select one variant of a plan, by name."""
     if plan.campaign.configurations:
         return _options(plan, variant.name, {})
     return _options(plan, None, {name: [fmu] for name, fmu in variant.use.items()})
 
 
 def _options(plan: BatchPlan, configuration: str | None, compare: Mapping[str, Sequence[str]]) -> dict[str, object]:
-    """Return the options of a plan by name; arrays of inputs have no text, and are left out."""
+    """Return the options of a plan by name, except arrays of inputs, which have no textual form."""
     campaign, settings = plan.campaign, plan.options.by_name
     trials = {"trials": campaign.trials} if plan.given is None else {"draws": plan.given.file}
     file = plan.series.file if plan.series is not None and plan.series.lines else None

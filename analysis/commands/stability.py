@@ -1,4 +1,4 @@
-"""The command that studies the stability of a system again, at one trial of the campaign of a study."""
+"""Command that repeats a stability study at one trial of its campaign."""
 
 from __future__ import annotations
 

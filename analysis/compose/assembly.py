@@ -1,4 +1,4 @@
-"""Composed system: the FMUs of its components loaded, connections resolved, the description written and prepared."""
+"""Assembly of a composed system: loads the FMUs, resolves connections, and writes the SSD."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from .wiring import wire
 
 
 def folder_archive(folder: Path, files: Mapping[str, bytes], description: str = DESCRIPTION) -> SystemArchive:
-    """Return the system of a folder with some files as they are to be, by archive name."""
+    """Return the system of a folder, with ``files`` (content by archive name) added or replaced."""
     path = folder.resolve()
     return SystemArchive(path.name, str(folder), path, {**system_files(path), **files}, description)
 
 
 def load_fmus(source: SystemSource, archive: SystemArchive, flavour: str | None = None) -> dict[str, Fmu]:
-    """Return the FMUs by component. Raises SeveralProblemsError with a line for each that is not there."""
+    """Return the FMUs by component. Raises SeveralProblemsError with a line for each missing FMU or parameter set."""
     loaded: dict[str, Fmu] = {}
     fmus: dict[str, Fmu] = {}
     problems: list[str] = []
@@ -54,7 +54,7 @@ def load_fmus(source: SystemSource, archive: SystemArchive, flavour: str | None 
 
 
 def _file_of_block(fmu: str, archive: SystemArchive) -> Path | None:
-    """Return the file in the system's folder with a class whose FMU would have this name, by its text alone."""
+    """Return the Python file in the system's folder that defines a class for this FMU; only its text is searched."""
     for path in sorted(archive.path.glob("*.py")):
         classes = re.findall(r"^class (\w+)\(", path.read_text(encoding="utf-8", errors="replace"), re.MULTILINE)
         if fmu in map(snake_case, classes):

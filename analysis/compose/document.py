@@ -1,4 +1,4 @@
-"""A SystemStructureDescription of SSP 1.0, written from a `system.toml` and its connections."""
+"""Writer of an SSD (SystemStructureDescription, SSP 1.0) from a `system.toml` and its connections."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ STEP_HINT_NAMESPACE = "http://opensimulationplatform.com/SSP/OSPAnnotations"
 
 
 def fmu_source(fmu: str) -> str:
-    """Return the `source` of a component whose FMU is this name, or this path from the system's folder."""
+    """Return the `source` of a component for the name of an FMU, or its path relative to the system's folder."""
     return fmu if names_fmu(fmu) else f"{RESOURCES}{fmu}.fmu"
 
 
 def set_source(name: str) -> str:
-    """Return the `source` of a binding to a parameter set: those of the system's folder are among its resources."""
+    """Return the `source` of a parameter binding; parameter sets of the system's folder are stored as resources."""
     return name if "/" in name else f"{RESOURCES}{name}"
 
 
 def write_document(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring) -> bytes:
-    """Return the SSD. Raises InputError for a unit that nobody defines, or two define differently."""
+    """Return the SSD. Raises InputError for a unit without a definition or with conflicting definitions."""
     units = collect_units(source, wiring)
     return b"\n".join([*(line.encode() for line in _head(source, fmus, wiring, units)), *_annotations(source), b""])
 
@@ -71,7 +71,7 @@ def _of(component: str, wiring: Wiring, order: Iterable[str]) -> dict[str, Conne
 
 
 def _system_order(source: SystemSource, wiring: Wiring) -> list[str]:
-    """Return the system's own connectors as the file declares them, the elements of each in order."""
+    """Return the system's connectors in the order of their declaration, elements of an array in order."""
     names = [name for component, name in wiring.connectors if not component]
     position = {name: index for index, name in enumerate(source.connectors)}
     return sorted(names, key=lambda name: position.get(name, position.get(name.partition("[")[0], 0)))
@@ -143,5 +143,5 @@ def _annotations(source: SystemSource) -> list[bytes]:
 
 
 def _number(number: float) -> str:
-    """Return the shortest text that is read as the same number."""
+    """Return the shortest text that reads back as the same number."""
     return repr(number).removesuffix(".0")

@@ -1,4 +1,4 @@
-"""Composed files on disk: an SSD that says what it was written from, and is not written over once it was edited."""
+"""Composed files on disk: an SSD records its source, and is never overwritten after an edit by hand."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MARK = re.compile(
 
 
 def add_mark(document: bytes, file: str, raw: bytes) -> bytes:
-    """Return an SSD with a comment behind its first line: its source, the digests of that and of the SSD."""
+    """Return an SSD with a comment after its first line: its source file and the SHA-256 of both."""
     declaration, _, body = document.partition(b"\n")
     name = file.replace("--", "- -").encode()
     digests = [hashlib.sha256(each).hexdigest().encode() for each in (raw, body)]
@@ -36,7 +36,7 @@ def add_mark(document: bytes, file: str, raw: bytes) -> bytes:
 
 
 def check_unedited(path: Path, option: str = "") -> None:
-    """Refuse to write over an SSD that `add_mark` did not mark, or that was edited since. Raises InputError."""
+    """Reject overwriting an SSD that `add_mark` did not mark, or that was edited since. Raises InputError."""
     if not os.path.lexists(path):
         return
     content = read_input(path, "move it away", XML_BYTES)
@@ -50,7 +50,7 @@ def check_unedited(path: Path, option: str = "") -> None:
 
 
 def check_unedited_source(path: Path, ssd: Path, raw: bytes) -> None:
-    """Refuse to write ``raw`` over another `system.toml` than that of which the SSD was composed. Raises InputError."""
+    """Reject overwriting a `system.toml` that was edited since the SSD was composed from it. Raises InputError."""
     if not os.path.lexists(path):
         return
     content = read_input(path, "move it away", XML_BYTES)
@@ -62,9 +62,9 @@ def check_unedited_source(path: Path, ssd: Path, raw: bytes) -> None:
 
 
 def report_changed_source(system: str | Path) -> list[str]:
-    """Return a line where a system's `system.toml`, or its annotations, changed since its SSD was composed of it.
+    """Return a line if a system's `system.toml` or its annotations changed since its SSD was composed, else no line.
 
-    Raises InputError as reading the system does.
+    Raises InputError if the system cannot be read.
     """
     archive = open_system(system)
     file = archive.path / SYSTEM_FILE
@@ -82,11 +82,11 @@ def report_changed_source(system: str | Path) -> list[str]:
 
 
 def write_source(source: SystemSource, archive: SystemArchive, path: Path, layers: Iterable[Layer] = ()) -> list[Path]:
-    """Write the `system.toml` of a system, its annotations next to it, and in another folder the files that it names.
+    """Write the `system.toml` of a system and its annotations, and into another folder also the files that it refers
+    to.
 
-    ``layers`` are those of its annotations, whose parameter sets and FMUs it names, too.
-
-    Returns the paths. Nothing is written over other content. Raises InputError and OSError.
+    ``layers`` are the compositions in its annotations, whose parameter sets and FMUs are written as well. Returns the
+    paths. Files with other content are never overwritten. Raises InputError and OSError.
     """
     contents = {path: write_toml(source).encode()}
     if source.annotations:
@@ -98,7 +98,7 @@ def write_source(source: SystemSource, archive: SystemArchive, path: Path, layer
 
 
 def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
-    """Write files, all or none, and none over other content. Raises InputError and OSError."""
+    """Write all files or none; a file with other content is never overwritten. Raises InputError and OSError."""
     for path, content in contents.items():
         if os.path.lexists(path) and read_input(path, "move it away", ARCHIVE_BYTES) != content:
             raise InputError(
@@ -109,7 +109,7 @@ def write_new(contents: Mapping[Path, bytes], option: str = "") -> None:
 
 
 def _list_files(source: SystemSource, archive: SystemArchive, layers: Iterable[Layer]) -> dict[str, bytes]:
-    """Return parameter sets and FMUs of a system's own folder or archive, by path."""
+    """Return the content of the parameter sets and FMUs in a system's folder or archive, by path."""
     layers = list(layers)
     fmus = [each.fmu for each in source.components.values()] + [fmu for each in layers for fmu in each.use.values()]
     sources = {path: path for path in map(fmu_source, fmus) if archive.is_own_file(path)}

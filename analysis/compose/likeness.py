@@ -1,4 +1,4 @@
-"""Two SSDs compared: canonical XML, whatever the order of connectors, connections and units."""
+"""Comparison of two SSDs as canonical XML, regardless of the order of connectors, connections and units."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ BYTES = "Annotations"  # whose comments and spaces count
 
 
 def canonical(element: etree._Element) -> bytes:
-    """Return an element in canonical form: children of UNORDERED sorted, comments and space in BYTES alone."""
+    """Return an element in canonical form: children of UNORDERED sorted, comments and spaces kept in BYTES only."""
     return etree.tostring(_sort(element), method="c14n", with_comments=True)
 
 
 def find_difference(first: bytes, second: bytes) -> str | None:
-    """Return the element of a first SSD, with its line, that a second one lacks; None where both say the same."""
+    """Return the element of the first SSD, with its line, that the second lacks; None if both are equal."""
     one, other = parse_xml(first, "SSD"), parse_xml(second, "SSD")
     return None if canonical(one) == canonical(other) else _difference(one, other)
 
@@ -37,7 +37,7 @@ def _sort(element: etree._Element) -> etree._Element:
 
 
 def _difference(one: etree._Element, other: etree._Element) -> str:
-    """Return the innermost element of one that has no counterpart in the other."""
+    """Return the innermost element of ``one`` without a counterpart in ``other``."""
     counterparts = Counter(canonical(each) for each in other if isinstance(each.tag, str))
     for each in one:
         if isinstance(each.tag, str) and not counterparts[canonical(each)]:

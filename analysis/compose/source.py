@@ -1,4 +1,4 @@
-"""Contents of a `system.toml` as plain values, and its reading."""
+"""Content of a `system.toml` as plain values, and its reader."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ COMPONENT_NAME = re.compile(r"[^\s.,\[\]>]+")
 
 @dataclass(frozen=True)
 class Entry:
-    """A text of a list, and where it stands."""
+    """An entry of a list with its position in the file."""
 
     text: str
     where: str
@@ -49,7 +49,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class ComponentSource:
-    """A component: its FMU by name or path, its own parameter sets, and its step (s) if it is not the system's."""
+    """A component: its FMU (name or path), its parameter sets, and its step (s; None: the system's)."""
 
     fmu: str
     parameters: tuple[str, ...] = ()
@@ -59,11 +59,11 @@ class ComponentSource:
 
 @dataclass(frozen=True)
 class SystemSource:
-    """A system as its `system.toml` states it. Times in s.
+    """A system as described by its `system.toml`. Times are in s.
 
-    ``connectors`` are those of the system itself, kind by name; ``declare`` are connectors that nothing is connected
-    to, ``unconnected`` inputs that keep the start value of their FMU; ``set`` are values of parameters in their
-    variables' units; ``annotations`` is the content of ssd:Annotations, byte for byte.
+    ``connectors`` are the connectors of the system (name -> kind), ``declare`` unused connectors of components,
+    ``unconnected`` inputs that keep the start value of their FMU, ``set`` values of parameters in their variables'
+    units, ``annotations`` the exact bytes inside ssd:Annotations.
     """
 
     name: str
@@ -84,17 +84,17 @@ class SystemSource:
 
     @property
     def parameter_sets(self) -> list[str]:
-        """The names of all parameter sets, the system's and its components'."""
+        """The names of all parameter sets of the system and its components."""
         inner = (name for component in self.components.values() for name in component.parameters)
         return list(dict.fromkeys((*self.parameters, *inner)))
 
     def problem(self, where: str, problem: str, remedy: str) -> InputError:
-        """Return the error of a place in the file."""
+        """Return the error for a position in the file."""
         return InputError(self.file, where, problem, remedy)
 
 
 def read_source(path: Path) -> tuple[SystemSource, bytes]:
-    """Return what a `system.toml` states, and the bytes that it was read from, annotations behind them.
+    """Return the content of a `system.toml`, and the bytes that it was read from followed by those of its annotations.
 
     Raises InputError.
     """
@@ -130,18 +130,18 @@ def read_source(path: Path) -> tuple[SystemSource, bytes]:
 
 
 class _Lines:
-    """Lines of keys and of the texts of lists."""
+    """Line numbers of keys and list entries."""
 
     def __init__(self, content: str) -> None:
         self.texts = content.splitlines()
         self.keys = key_lines(content)
 
     def of_key(self, key: str) -> str:
-        """Return a key with its line."""
+        """Return a key followed by its line."""
         return f"{key} (line {self.keys[key]})" if key in self.keys else key
 
     def of_entries(self, key: str, texts: tuple[str, ...]) -> Iterator[Entry]:
-        """Yield the texts of a list, each with the line on which it stands: they are in order."""
+        """Yield the entries of a list, each with its line; the entries must be in the order of the file."""
         index = self.keys.get(key, 1) - 1
         for each in texts:
             index = next((i for i in range(index, len(self.texts)) if each in self.texts[i]), index)

@@ -1,4 +1,4 @@
-"""A `system.toml` written."""
+"""Writer of `system.toml`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LONGEST = 100  # characters of a list on one line
 
 
 def write_toml(source: SystemSource) -> str:
-    """Return the text of a `system.toml`, whose annotations lie next to it in ANNOTATIONS_FILE."""
+    """Return the text of a `system.toml`; its annotations are a separate file, ANNOTATIONS_FILE."""
     return "\n".join(_lines(source)) + "\n"
 
 

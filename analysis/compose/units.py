@@ -1,4 +1,4 @@
-"""The units that a composed system defines: those of its connectors, of its annotations, and of [units]."""
+"""Units that a composed system defines: units of its connectors, its annotations and [units]."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from .wiring import Wiring
 
 
 def collect_units(source: SystemSource, wiring: Wiring) -> dict[str, Unit]:
-    """Return all units by name, those of connectors as FMUs define them.
+    """Return all units by name; units of connectors are defined by their FMUs.
 
-    Raises SeveralProblemsError for those that nobody defines, or two define differently.
+    Raises SeveralProblemsError for units without a definition or with conflicting definitions.
     """
     units = dict(source.units)
     problems: list[InputError] = []
@@ -34,7 +34,7 @@ def collect_units(source: SystemSource, wiring: Wiring) -> dict[str, Unit]:
 
 
 def underived_units(source: SystemSource, wiring: Wiring, defined: dict[str, Unit]) -> dict[str, Unit]:
-    """Return those of an SSD's units that neither a connector nor a name in an annotation says."""
+    """Return the units of an SSD that follow neither from a connector nor from a name in an annotation."""
     derived = {each.unit.name: each.unit for each in wiring.connectors.values() if each.unit is not None}
     for name in annotation_units(source):
         derived.setdefault(name, unit_by_name(name))
@@ -46,7 +46,7 @@ def underived_units(source: SystemSource, wiring: Wiring, defined: dict[str, Uni
 
 
 def annotation_units(source: SystemSource) -> list[str]:
-    """Return the units that the attributes `unit` of annotations name. Raises InputError for XML that is none."""
+    """Return the units named by `unit` attributes in annotations. Raises InputError for malformed XML."""
     if not source.annotations:
         return []
     spaces = "".join(f' xmlns:{prefix}="{NAMESPACES[prefix]}"' for prefix in ("ssd", "ssc"))

@@ -1,4 +1,4 @@
-"""The values of [set]: each with the type of its parameter, written into the SSD as an inline parameter set."""
+"""Values of [set], checked against the types of their parameters and written as an inline parameter set of the SSD."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ ACCEPTED: Mapping[str, tuple[type, ...]] = {
 
 
 def write_values(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring) -> list[str]:
-    """Return the lines of the parameter set, none without values.
+    """Return the lines of the parameter set; no lines without values.
 
-    Raises SeveralProblemsError with a line for each name without a parameter, and each value of another type or size.
+    Raises SeveralProblemsError with a line for each unknown parameter and each value of a wrong type or size.
     """
     values: dict[str, float | int | bool] = {}
     problems: list[str] = []
@@ -41,7 +41,7 @@ def write_values(source: SystemSource, fmus: Mapping[str, Fmu], wiring: Wiring) 
 
 
 def _types(source: SystemSource, name: str, fmus: Mapping[str, Fmu], wiring: Wiring) -> dict[str, str]:
-    """Return the elements of a parameter, or of an input, by name, with their types."""
+    """Return the types of the elements of a parameter or input, by name."""
     component, variable = split_name(name, fmus)
     if component:
         known = {
@@ -79,7 +79,7 @@ def _convert(
 def _flatten(
     source: SystemSource, name: str, setting: SetValue, shapes: Mapping[str, Shape]
 ) -> Sequence[ParameterValue]:
-    """Return the elements of a value row by row; rows are to be those of the matrix that the name is of."""
+    """Return the elements of a value in row order; the rows of a matrix must match its shape."""
     if isinstance(setting, str) or not isinstance(setting, Sequence):
         return (setting,)
     rows = [each for each in setting if isinstance(each, Sequence) and not isinstance(each, str)]
@@ -93,7 +93,7 @@ def _flatten(
 
 
 def read_values(assignments: Sequence[Assignment]) -> dict[str, SetValue]:
-    """Return what [set] has for the values of a parameter set, vectors as lists."""
+    """Return the values of a parameter set in the form of [set], with vectors as lists."""
     values: dict[str, ParameterValue] = {each.name: each.value for each in assignments}
     shapes = array_shapes(values)
     merged: dict[str, SetValue] = {}

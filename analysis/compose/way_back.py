@@ -1,4 +1,4 @@
-"""The `system.toml` of an existing system, from its SSD: refused where one would not give back the same SSD."""
+"""Conversion of an SSD to a `system.toml`; rejected if the file would not compose to an equivalent SSD."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ KEEP = "keep the SSD, which flies as it is"
 
 
 def source_of(archive: SystemArchive, variant: str | None = None) -> SystemSource:
-    """Return what the `system.toml` of a system states.
+    """Return the content of a `system.toml` that composes to the SSD of a system.
 
-    Raises InputError for what a `system.toml` does not have, by the element and its line.
+    Raises InputError, with the element and its line, for content that a `system.toml` cannot express.
     """
     name = archive.description_name(variant)
     ssd = archive.read(name, "SSD")
@@ -84,7 +84,7 @@ def _components(description: Description) -> Iterator[tuple[str, ComponentSource
 
 
 def _parameters(description: Description, element: Element) -> tuple[str, ...]:
-    """Return the parameter sets bound to an element, by the names that a system.toml has for them."""
+    """Return the names, as in a `system.toml`, of the parameter sets bound to an element."""
     names = []
     for binding in element.bindings:
         if binding.source is None or _is_adapted(binding):
@@ -101,7 +101,7 @@ def _is_adapted(binding: Binding) -> bool:
 
 
 def _annotations(ssd: bytes, description: Description) -> bytes:
-    """Return the content of the annotations of the SSD itself, byte for byte."""
+    """Return the exact bytes inside the annotations of the SSD."""
     if not description.annotations:
         return b""
     start = ssd.rfind(b"</ssd:DefaultExperiment>")
@@ -112,7 +112,7 @@ def _annotations(ssd: bytes, description: Description) -> bytes:
 
 
 def _wiring(pairs: list[tuple[Point, Point]], declared: Mapping[Point, str], fmus: Mapping[str, Fmu]) -> dict[str, Any]:
-    """Return connections, connectors of the system, and open ones, whole vectors as one."""
+    """Return the connections, system connectors and open connectors, complete arrays as one entry."""
     shapes = {
         (component, array): shape
         for component, fmu in fmus.items()
@@ -143,7 +143,7 @@ def _base(name: str, shapes: Mapping[Point, Shape]) -> str:
 
 
 def _whole(points: list[Point], shapes: Mapping[Point, Shape]) -> list[str]:
-    """Return names of points, the elements of an array that are all there as the array."""
+    """Return the names of points, with complete arrays replaced by the name of the array."""
     present, names = set(points), []
     for component, name in points:
         array = INDEX.sub("", name)
@@ -154,8 +154,7 @@ def _whole(points: list[Point], shapes: Mapping[Point, Shape]) -> list[str]:
 
 
 def _connections(pairs: list[tuple[Point, Point]], shapes: Mapping[Point, Shape]) -> Iterator[Entry]:
-    """Yield connections by their source, in the order of the SSD; arrays as one where all elements are connected
-    alike."""
+    """Yield connections by source, in the order of the SSD; arrays connected element by element become one entry."""
     present = set(pairs)
     targets: dict[str, dict[str, None]] = {}
     for start, end in pairs:

@@ -1,4 +1,4 @@
-"""Connections of a `system.toml` between the variables of its FMUs: expanded, checked, every problem collected."""
+"""Connections of a `system.toml` between variables of its FMUs: expanded and checked, with all problems collected."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Point = tuple[str, str]  # component, empty for the system, and connector
 
 @dataclass(frozen=True)
 class End:
-    """Side of a connection: the whole name, and the elements that it stands for."""
+    """Side of a connection: component, variable as written, and the names of its elements."""
 
     component: str
     variable: str
@@ -36,18 +36,20 @@ class End:
 
     @property
     def name(self) -> str:
-        """The name as it is written."""
+        """The full name as written."""
         return f"{self.component}.{self.variable}" if self.component else self.variable
 
     @property
     def indices(self) -> tuple[str, ...]:
-        """Suffixes of the elements after the name; one empty text of a scalar."""
+        """The index suffixes of the elements; one empty text for a scalar."""
         return tuple(name.removeprefix(self.variable) for name in self.names)
 
 
 @dataclass(frozen=True)
 class ConnectorSource:
-    """A connector: kind, unit, and type as SSP 1.0 has it: Integer of an Enumeration, which systems do not define."""
+    """A connector: kind, unit and SSP 1.0 type; an Enumeration becomes Integer, because systems define no
+    enumerations.
+    """
 
     kind: str
     type: str
@@ -56,7 +58,9 @@ class ConnectorSource:
 
 @dataclass
 class Wiring:
-    """Connectors by component (empty: the system) and name, and connections by their target."""
+    """Connectors by (component, name), with an empty component for the system, and the source of each connected
+    target.
+    """
 
     connectors: dict[Point, ConnectorSource] = field(default_factory=dict)
     sources: dict[Point, Point] = field(default_factory=dict)
@@ -96,7 +100,7 @@ class _Wirer:
         self.problems.append(self.source.problem(where, problem, remedy))
 
     def end(self, name: str, entry: Entry) -> End | None:
-        """Return one side of a connection; None with a problem noted."""
+        """Return one side of a connection; None after recording a problem."""
         component, variable = split_name(name, self.fmus)
         if component:
             known = tuple(elements(variable, self.fmus[component].variables))
@@ -115,7 +119,7 @@ class _Wirer:
         return None
 
     def connect(self, entry: Entry) -> None:
-        """Add one connection, or several from one source."""
+        """Add the connections of one entry, from one source to one or more targets."""
         start, arrow, targets = entry.text.partition(ARROW)
         texts = [each.strip() for each in TARGETS.split(targets)]
         if not (arrow and start.strip() and all(texts)) or ARROW in targets:
@@ -129,7 +133,7 @@ class _Wirer:
                     self.written |= {(end.component, name) for name in end.names} if end is not None else set()
 
     def join(self, source: End, target: End, entry: Entry) -> bool:
-        """Connect two sides element by element; False with a problem noted."""
+        """Connect two sides element by element; False after recording a problem."""
         if not source.component and not target.component:
             self.refuse(entry, "both are connectors of the system", "connect it with a component")
             return False
@@ -145,13 +149,13 @@ class _Wirer:
         return all(self.join_one((source.component, a), (target.component, b), entry) for a, b in pairs)
 
     def like(self, end: End, other: End) -> End:
-        """Return a connector of the system with the elements of what it is connected to."""
+        """Return a connector of the system with the elements of the variable that it is connected to."""
         if end.variable not in self.source.connectors or other.indices == ("",):
             return end
         return End("", end.variable, tuple(end.variable + index for index in other.indices))
 
     def join_one(self, source: Point, target: Point, entry: Entry) -> bool:
-        """Connect two elements; False with a problem noted."""
+        """Connect two elements; False after recording a problem."""
         ends = [self.connector(point, other) for point, other in ((source, target), (target, source))]
         start, end = ends
         names = [".".join(filter(None, point)) for point in (source, target)]
@@ -180,7 +184,7 @@ class _Wirer:
         return True
 
     def connector(self, point: Point, other: Point) -> ConnectorSource:
-        """Return a connector; one of the system takes type and unit from what it is connected to first."""
+        """Return the connector of a point; one of the system takes type and unit from its first connection."""
         component, name = point
         if component:
             return self.of_variable(component, self.fmus[component].variables[name])
@@ -191,12 +195,12 @@ class _Wirer:
         return ConnectorSource(kind, like.type, like.unit)
 
     def of_variable(self, component: str, variable: Variable) -> ConnectorSource:
-        """Return the connector of an FMU's variable."""
+        """Return the connector for a variable of a component's FMU."""
         kind = "Integer" if variable.type == "Enumeration" else variable.type
         return ConnectorSource(variable.causality, kind, self.fmus[component].unit_of(variable))
 
     def unused(self, entry: Entry) -> list[Point]:
-        """Return the elements of a name of a component that nothing is connected to; none with a problem noted."""
+        """Return the unconnected elements of a variable of a component; none after recording a problem."""
         end = self.end(entry.text, entry)
         if end is None:
             return []
@@ -210,13 +214,13 @@ class _Wirer:
         return remaining
 
     def declare(self, entry: Entry) -> None:
-        """Add connectors that nothing is connected to."""
+        """Add the unconnected connectors of an entry."""
         for component, name in self.unused(entry):
             variable = self.fmus[component].variables[name]
             self.wiring.connectors[component, name] = self.of_variable(component, variable)
 
     def leave(self, entry: Entry) -> None:
-        """Note inputs that keep their start values: one, or with ``component.*`` all that nothing is connected to."""
+        """Record inputs that keep their start values: a named one, or for ``component.*`` all unconnected ones."""
         if entry.text.endswith(ALL):
             self.leave_all(entry.text.removesuffix(ALL), entry)
             return
@@ -228,7 +232,7 @@ class _Wirer:
             self.left.add((component, name))
 
     def leave_all(self, component: str, entry: Entry) -> None:
-        """Note all inputs of a component that nothing is connected to."""
+        """Record all unconnected inputs of a component."""
         if component not in self.fmus:
             self.refuse(entry, f"no component {component}", suggestion(component, self.fmus))
             return
@@ -238,7 +242,7 @@ class _Wirer:
         self.left |= {(component, name) for name in inputs}
 
     def open_inputs(self, component: str) -> list[str]:
-        """Return the inputs of a component that are neither connected nor named as unconnected."""
+        """Return the inputs of a component that are neither connected nor listed as unconnected."""
         return [
             name
             for name, each in self.fmus[component].variables.items()
@@ -248,7 +252,7 @@ class _Wirer:
         ]
 
     def check_inputs(self) -> None:
-        """Refuse inputs that are neither connected nor named as unconnected."""
+        """Report inputs that are neither connected nor listed as unconnected."""
         outputs = [
             f"{component}.{name}"
             for component, fmu in self.fmus.items()
@@ -265,7 +269,7 @@ class _Wirer:
                 self.problems.append(self.source.problem(where, problem, remedy))
 
     def check_connectors(self) -> None:
-        """Refuse connectors of the system that nothing is connected to."""
+        """Report connectors of the system without a connection."""
         present = {INDEX.sub("", name) for component, name in self.wiring.connectors if not component}
         written = {INDEX.sub("", name) for component, name in self.written if not component}
         for name, kind in self.source.connectors.items():
@@ -275,7 +279,7 @@ class _Wirer:
 
 
 def collapse(names: Iterable[str]) -> list[str]:
-    """Return names with those of elements of a vector or matrix brought together."""
+    """Return the names without indices: one name for all elements of a vector or matrix."""
     return list(dict.fromkeys(INDEX.sub("", name) for name in names))
 
 

@@ -1,4 +1,4 @@
-"""Two runs over each other: by how much each signal differs, where, and which signals only one of them has."""
+"""Comparison of two runs: the difference of each signal, its greatest value and time, and signals of only one run."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from .recorded_run import RecordedRun
 
 @dataclass(frozen=True, eq=False)
 class SignalDifference:
-    """A signal that both runs have: ``first`` and ``second``, [n], at the common times, in ``unit``.
+    """A signal of both runs: ``first`` and ``second``, [n], at the common times, in ``unit``.
 
-    ``copy_of`` is an earlier signal with the same values in both, as an input has those of an output; else empty.
-    ``axis`` is the name of the axis that an element is along, of the first run that knows one.
+    ``copy_of`` is an earlier signal with the same values in both runs (the output that drives an input); else empty.
+    ``axis`` names the axis of a vector's element, as stated by the first run that states one.
     """
 
     name: str
@@ -29,7 +29,9 @@ class SignalDifference:
 
     @cached_property
     def difference(self) -> np.ndarray:
-        """Second less first, [n]; infinite where only one is finite, 0 where both are the same infinity or nan."""
+        """``second`` minus ``first``, [n]; infinite where only one is finite, 0 where both are NaN or the same
+        infinity.
+        """
         with np.errstate(invalid="ignore", over="ignore"):
             difference = self.second - self.first
         same = (self.first == self.second) | (np.isnan(self.first) & np.isnan(self.second))
@@ -37,12 +39,12 @@ class SignalDifference:
 
     @property
     def differs(self) -> bool:
-        """True if it differs anywhere."""
+        """True if any sample differs."""
         return self.greatest > 0.0
 
     @property
     def row(self) -> int:
-        """Row of the greatest difference."""
+        """The index of the greatest difference."""
         return int(np.argmax(np.abs(self.difference)))
 
     @property
@@ -52,7 +54,7 @@ class SignalDifference:
 
     @cached_property
     def relative(self) -> float:
-        """The greatest difference over the greatest magnitude of both."""
+        """The greatest difference divided by the greatest magnitude of both signals."""
         if self.greatest == 0.0:
             return 0.0
         finite = np.concatenate([each[np.isfinite(each)] for each in (self.first, self.second)])
@@ -61,11 +63,11 @@ class SignalDifference:
 
 @dataclass(frozen=True, eq=False)
 class RunDifferences:
-    """Two runs at the ``time`` (s, [n]) that both have; ``signals`` in order of their relative difference.
+    """Differences of two runs at their common ``time`` (s, [n]); ``signals`` by falling relative difference.
 
-    Where ``resampled`` is true their samples are not at the same times: the second is interpolated at those of the
-    first, linearly or, for Integers and Booleans, held. ``only`` are signals that one run has, the first's before the
-    second's; ``unlike`` are (name, unit, unit) of signals whose units cannot be converted.
+    If ``resampled`` is true, the runs have different sample times, and the second is interpolated at those of the
+    first: linearly, or held for Integers and Booleans. ``only`` are the signals of one run alone, first and second;
+    ``unlike`` are (name, unit, unit) of signals whose units cannot be converted.
     """
 
     first: RecordedRun
@@ -82,13 +84,15 @@ class RunDifferences:
         return [each for each in self.signals if each.differs and not each.copy_of]
 
     def split(self, tolerance: float) -> tuple[list[SignalDifference], list[SignalDifference]]:
-        """Return the signals that differ by more than a relative ``tolerance``, and by less, without copies."""
+        """Return the signals whose relative difference is above ``tolerance``, and the other differing ones, without
+        copies.
+        """
         beyond = [each for each in self.differing if each.relative > tolerance]
         return beyond, self.differing[len(beyond) :]
 
 
 def compare_runs(first: RecordedRun, second: RecordedRun) -> RunDifferences:
-    """Return the differences of two runs, matched by the names of signals, units converted into the first's.
+    """Return the differences of two runs; signals are matched by name and converted to the units of the first run.
 
     Raises InputError for runs without a common time or a common signal.
     """
@@ -124,7 +128,7 @@ def compare_runs(first: RecordedRun, second: RecordedRun) -> RunDifferences:
 
 
 def _conversion(unit: str | None, into: str | None, *, is_relative: bool) -> tuple[float, float] | None:
-    """Return factor and offset from a unit into another; 1 and 0 where one is unknown, None for other dimensions."""
+    """Return factor and offset of a unit conversion; 1 and 0 if a unit is unknown, None for different dimensions."""
     if unit == into or unit is None or into is None:
         return 1.0, 0.0
     source, target = (replace(unit_by_name(name), is_relative=is_relative) for name in (unit, into))
@@ -132,7 +136,9 @@ def _conversion(unit: str | None, into: str | None, *, is_relative: bool) -> tup
 
 
 def _sample(run: RecordedRun, name: str, time: np.ndarray, *, hold: bool) -> np.ndarray:
-    """Return a signal at times within its run."""
+    """Return the values of a signal at times within its run; ``hold`` takes the latest sample instead of
+    interpolating.
+    """
     values = run.signals[name]
     if hold:
         return values[np.searchsorted(run.time, time, side="right") - 1]

@@ -1,4 +1,4 @@
-"""A run read back from the table that `run --output` wrote, or from another tool's."""
+"""Reader of a recorded run: a table that `run --output` or another tool wrote."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ FORM = "give a .parquet or .csv of signals over time, as `perilune run` writes i
 
 @dataclass(frozen=True, eq=False)
 class RecordedRun:
-    """Signals over ``time`` [n] (s, ascending), float64 [n] each, by name.
+    """Signals by name (float64, [n]) over ``time`` (s, [n], ascending).
 
-    ``units`` are by signal where they are known, ``discrete`` are signals whose values hold between samples (Integers
-    and Booleans), ``relative`` those that are differences in their unit, ``axes`` are the names of axes of elements,
-    ``origin`` says what was simulated where the table does.
+    ``units`` are the known units by signal, ``discrete`` the signals that hold between samples (Integers and Booleans),
+    ``relative`` the signals that are differences in their unit, ``axes`` the names of the axes of vector elements, and
+    ``origin`` states what was simulated, if the table does.
     """
 
     file: str
@@ -45,7 +45,7 @@ class RecordedRun:
 def read_run(path: Path) -> RecordedRun:
     """Read a run from a Parquet file, or from a CSV file with units and types in its .json file. Raises InputError.
 
-    Whole numbers of a CSV file without a .json file may be Reals, and are taken as such.
+    Without a .json file, integer columns of a CSV file are read as Reals.
     """
     content = read_input(path, FORM, INPUT_BYTES)
     is_parquet = path.suffix == ".parquet"
@@ -100,7 +100,7 @@ def _document(metadata: Mapping[bytes, bytes]) -> dict[str, Any]:
 
 
 def _read_document(path: Path) -> dict[str, Any]:
-    """Read the .json file of a CSV file; nothing where there is none. Raises InputError."""
+    """Read the .json file of a CSV file; empty if there is none. Raises InputError."""
     if not path.exists():
         return {}
     remedy = "remove it, or simulate again"

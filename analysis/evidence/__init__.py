@@ -1,1 +1,1 @@
-"""Evidence that travels with an FMU or a system, read and reproduced."""
+"""Evidence stored in an FMU or a system: read, and reproduced by simulation."""

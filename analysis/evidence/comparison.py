@@ -1,4 +1,4 @@
-"""A flight compared with its reference trajectory: which signal differs most, where, and by how much it may."""
+"""Comparison of a simulation with its reference trajectory: worst sample and permitted difference of each signal."""
 
 from __future__ import annotations
 
@@ -15,9 +15,11 @@ CLOSE = 1e-9  # of a time: communication points carry rounding
 
 @dataclass(frozen=True)
 class SignalCheck:
-    """A signal where it is worst: at ``time`` (s) its ``reference``, what was simulated (``actual``), the difference
-    and what is ``permitted`` of it. ``excess`` is the greatest difference over what is permitted, infinite where
-    nothing is. ``tolerance`` is the most that a sample may differ by, over the reference's greatest magnitude.
+    """The worst sample of a signal: ``reference`` and ``actual`` at ``time`` (s), ``difference`` and ``permitted``
+    difference.
+
+    ``excess`` is the difference divided by the permitted one, infinite where none is permitted. ``tolerance`` is the
+    largest permitted difference of any sample, relative to the greatest magnitude of the reference.
     """
 
     name: str
@@ -36,13 +38,15 @@ class SignalCheck:
 
 
 def time_margin(time: np.ndarray) -> np.ndarray:
-    """Return the difference (s) below which times are equal, for each."""
+    """Return the difference (s) up to which a time counts as equal to each of these times (s)."""
     return CLOSE * np.maximum(np.abs(time), 1.0)
 
 
 def match_rows(flown: np.ndarray, reference: np.ndarray) -> np.ndarray | None:
-    """Return the rows of a flight at a reference's times (s), the last of equal ones; None where one is between
-    rows."""
+    """Return the rows of a simulation at the reference's times (s), the last row of equal times.
+
+    None if a reference time is between two rows.
+    """
     margin = time_margin(reference)
     rows = np.clip(np.searchsorted(flown, reference + margin, side="right") - 1, 0, None)
     return rows if np.all(np.abs(flown[rows] - reference) <= margin) else None
@@ -51,7 +55,10 @@ def match_rows(flown: np.ndarray, reference: np.ndarray) -> np.ndarray | None:
 def compare_signal(
     name: str, time: np.ndarray, reference: np.ndarray, actual: np.ndarray, permitted: np.ndarray | None
 ) -> SignalCheck:
-    """Return a signal's worst sample, [n] each. ``permitted`` None requires the same bits; NaN equals NaN."""
+    """Return the worst sample of a signal; arrays are [n].
+
+    With ``permitted`` None all bits must be equal; NaN equals NaN.
+    """
     same = (reference.view(np.int64) == actual.view(np.int64)) | (np.isnan(reference) & np.isnan(actual))
     with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
         difference = np.where(same, 0.0, np.abs(actual - reference))
@@ -67,16 +74,17 @@ def compare_signal(
 
 
 def _magnitude(reference: np.ndarray) -> float:
-    """Return the greatest magnitude of a signal's finite samples, SMALLEST at least."""
+    """Return the greatest magnitude of a signal's finite samples, at least SMALLEST."""
     return float(np.max(np.abs(reference[np.isfinite(reference)]), initial=SMALLEST))
 
 
 def permitted_differences(
     name: str, reference: np.ndarray, tolerances: Tolerances | None, relative: float
 ) -> np.ndarray | None:
-    """Return the permitted difference of each sample of a signal, [n]; None where the same bits are required.
+    """Return the permitted difference of each sample of a signal, [n]; None if all bits must be equal.
 
-    It is the signal's tolerance where one is declared; else ``relative`` of its greatest magnitude, or of SMALLEST.
+    A declared tolerance of the signal has precedence over ``relative``, a fraction of its greatest magnitude (at least
+    SMALLEST).
     """
     declared = None if tolerances is None else tolerances.get(name)
     if declared is not None:
@@ -94,7 +102,9 @@ def compare(
     tolerances: Tolerances | None,
     relative: float,
 ) -> tuple[list[SignalCheck], bool]:
-    """Compare all signals, the worst first; return, too, if the flight was interpolated between its samples."""
+    """Compare all signals, the worst first; the second result is True if the simulation was interpolated between
+    samples.
+    """
     is_last = np.append(np.diff(reference_time) > 0.0, True)  # of samples at one time, the last one counts
     reference_time = reference_time[is_last]
     rows = match_rows(flown_time, reference_time)

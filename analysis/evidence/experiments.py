@@ -1,8 +1,8 @@
-"""Experiments of a manifest: what to simulate, and the trajectory that should come out.
+"""Experiments of a manifest: what to simulate, and the expected trajectory.
 
-Read are the Experiments format (ma-hs-experiments, 2026), its form of 2025, where times are attributes of the
-experiment, experiments in the manifest itself (FMI-LS-REF 1.0.0-rc.1), and results without an experiment, which are of
-the default experiment, as the Reference-FMUs have them.
+Supported are the Experiments format (ma-hs-experiments, 2026), its form of 2025 with times as attributes of the
+experiment, experiments within the manifest (FMI-LS-REF 1.0.0-rc.1), and results without an experiment, which belong to
+the default experiment, as in the Reference-FMUs.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ TIMES = ("startTime", "stopTime", "stepSize")
 
 @dataclass(frozen=True)
 class PlannedExperiment:
-    """An experiment (times in s, None where it leaves them to the FMU) with the names of its files in the archive.
+    """An experiment (times in s, None: default of the FMU) with the names of its files in the archive.
 
-    ``tolerances`` is None where none are declared; else signal -> (absolute, relative), of others 0.
+    ``tolerances`` maps a signal to (absolute, relative), 0 for signals that are not listed; None if none are declared.
     """
 
     name: str
@@ -53,14 +53,14 @@ class PlannedExperiment:
 
 @dataclass(frozen=True)
 class Plan:
-    """The experiments of a manifest; ``notes`` say which are not simulated, and why."""
+    """The experiments of a manifest; ``notes`` state which are not simulated, and why."""
 
     experiments: tuple[PlannedExperiment, ...]
     notes: tuple[str, ...]
 
 
 def plan_experiments(manifest: Manifest, files: Mapping[str, bytes], label: str) -> Plan:
-    """Plan the experiments of an archive. Raises InputError for files of experiments that cannot be read."""
+    """Return the plan of an archive's experiments. Raises InputError for experiment files that cannot be read."""
     experiments: list[PlannedExperiment] = []
     notes: list[str] = []
     for file, element in _elements(manifest, files, label):

@@ -1,4 +1,4 @@
-"""The manifest of FMI-LS-REF in an FMU or a system, ours or another tool's: read, with what it breaks of the schema."""
+"""Reader of the FMI-LS-REF manifest in an FMU or a system of any tool, with its violations of the schema."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ ALGORITHMS = {f"SHA-{bits}": f"sha{bits}" for bits in (224, 256, 384, 512)} | {
 
 @dataclass(frozen=True)
 class RelatedFile:
-    """A file that a manifest lists: ``name`` in the archive, None of one elsewhere; ``checksum`` None without one.
+    """A file listed in a manifest: ``name`` in the archive (None if elsewhere), ``checksum`` (None if not stated).
 
-    ``study`` is what a report of Perilune's is of, a campaign or the stability study.
+    ``study`` is the study that a report of Perilune is about: a campaign or the stability study.
     """
 
     source: str
@@ -45,7 +45,7 @@ class RelatedFile:
 
 @dataclass(frozen=True)
 class Manifest:
-    """Content of a manifest; ``flaws`` are rules of the schema that it breaks, each in a line."""
+    """Content of a manifest; ``flaws`` are its violations of the schema, a line each."""
 
     root: etree._Element
     files: tuple[RelatedFile, ...]
@@ -53,8 +53,7 @@ class Manifest:
 
 
 def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
-    """Read the manifest of an archive's files. Raises InputError where there is none, or another document in its
-    stead."""
+    """Read the manifest among an archive's files. Raises InputError if it is missing or not of FMI-LS-REF."""
     if MANIFEST not in files:
         problem = f"holds no {MANIFEST}: nothing to verify"
         raise InputError(label, "evidence", problem, "export it with Perilune, or add reference trajectories")
@@ -85,7 +84,7 @@ def read_manifest(files: Mapping[str, bytes], label: str) -> Manifest:
 
 
 def file_of(source: str, base: str) -> str | None:
-    """Return the name in the archive that a URI means, relative to the folder ``base``; None for any other text."""
+    """Return the name in the archive that a URI relative to ``base`` refers to; None if it refers to no file inside."""
     try:
         uri = urlsplit(source)
     except ValueError:
@@ -95,7 +94,7 @@ def file_of(source: str, base: str) -> str | None:
 
 
 def check_listed(manifest: Manifest, files: Mapping[str, bytes]) -> dict[str, str]:
-    """Return the problems, by name, of listed files that are missing, or differ from those listed."""
+    """Return a problem, by file name, for each listed file that is missing or changed."""
     digests: dict[tuple[str, str], str] = {}  # of a file that is listed often once
     problems = {}
     for related in manifest.files:

@@ -1,4 +1,4 @@
-"""One experiment simulated again, and compared with its reference trajectory."""
+"""Reproduction of one experiment: simulated again and compared with its reference trajectory."""
 
 from __future__ import annotations
 
@@ -38,10 +38,11 @@ SET = "resources/perilune-verify-experiment.ssv"  # an experiment's parameters a
 
 @dataclass(frozen=True)
 class Reproduction:
-    """An experiment's comparison: ``signals`` the worst first, ``problems`` that kept it from being complete.
+    """Comparison of an experiment: ``signals``, the worst first, and ``problems`` that prevented a complete
+    comparison.
 
-    ``samples`` are the reference's at different times. ``not_compared`` are columns of texts, ``interpolated`` says
-    that reference times lie between communication points.
+    ``samples`` is the number of distinct times of the reference. ``not_compared`` are its text columns;
+    ``interpolated`` is True if reference times are between communication points.
     """
 
     name: str
@@ -54,7 +55,7 @@ class Reproduction:
 
     @property
     def exact(self) -> bool:
-        """True if all signals have the bits of the reference."""
+        """True if all signals equal the reference to the last bit."""
         return not any(each.difference or each.excess for each in self.signals)
 
     @property
@@ -64,7 +65,7 @@ class Reproduction:
 
     @property
     def weaknesses(self) -> list[str]:
-        """Reasons for which the comparison says too little to verify anything, a line each."""
+        """The reasons why the comparison is too weak to verify anything, a line each."""
         few = f"a reference of {self.samples} samples, {FEWEST} verify; give one of more samples"
         wide = [
             f"{each.name} may differ by {each.tolerance:.3g} of its greatest magnitude, {WIDEST:g} verifies at most; "
@@ -84,10 +85,10 @@ def reproduce(
     timeout: float | None,
     loaded: dict[str, Fmu],
 ) -> Reproduction:
-    """Simulate an experiment and compare; ``files`` are the archive's, ``loaded`` as of `prepare_system`.
+    """Simulate an experiment of an archive with these ``files``, and compare it with its reference.
 
-    ``relative`` is for signals without a declared tolerance: by default none, the same bits, where an experiment
-    declares tolerances, else RELATIVE. Raises InputError.
+    ``relative`` is the tolerance of signals without a declared one. Its default is RELATIVE, or 0 (equal bits) if the
+    experiment declares tolerances for other signals. ``loaded`` caches FMUs as in `prepare_system`. Raises InputError.
     """
     reference = _table(files, experiment.references, archive.label)
     prepared = _prepare(archive, files, experiment, reference, options, loaded)
@@ -122,8 +123,7 @@ def reproduce(
 
 
 def _variables(prepared: PreparedSystem, reference: Trajectory) -> tuple[dict[str, str], list[str]]:
-    """Return the compared variables by column, as the simulation records them; and a problem
-    for each column without one."""
+    """Return the recorded signal to compare with each column, and a problem for each column without one."""
     network, prefix = prepared.network, ""
     if prepared.archive.is_fmu:
         prefix = f"{next(iter(network.fmus))}."
@@ -195,8 +195,9 @@ def _prepare(
 
 
 def _step(time: np.ndarray, proposed: float | None) -> float | None:
-    """Return the step (s) of a default experiment: the FMU's where all times are whole steps of it, else their
-    spacing."""
+    """Return the step (s) of a default experiment: the FMU's if all times are multiples of it, else the smallest
+    spacing.
+    """
     spacing = np.diff(time)
     if not (spacing > 0.0).any():
         return proposed
@@ -208,7 +209,7 @@ def _step(time: np.ndarray, proposed: float | None) -> float | None:
 
 
 def _with_component(content: bytes, component: str, file: str) -> bytes:
-    """Return a parameter set of an FMU's names as one of a system that has the FMU as ``component``."""
+    """Return an FMU's parameter set with all names prefixed by ``component``, for a system that contains the FMU."""
     root = read_document(content, "ssv", file)
     for parameter in root.iter(f"{{{NAMESPACES['ssv']}}}Parameter"):
         parameter.set("name", f"{component}.{parameter.get('name', '')}")

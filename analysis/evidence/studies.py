@@ -1,4 +1,4 @@
-"""Studies as evidence: the verdicts of a campaign and the margins of the loops, repeated and compared."""
+"""Studies as evidence: verdicts of campaigns and margins of loops, repeated and compared."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ NAMED = 6
 
 
 def known_studies(archive: SystemArchive) -> list[str]:
-    """Return the studies of a system: its campaigns by name, and `STABILITY` where it declares loops."""
+    """Return the studies of a system: its campaigns by name, and `STABILITY` if it declares loops."""
     if archive.is_fmu:
         return []
     has_loops = bool(read_declaration(read_description(archive)).loops)
@@ -42,9 +42,9 @@ def known_studies(archive: SystemArchive) -> list[str]:
 
 
 def make_report(system: Path, name: str, options: SystemOptions, timeout: float | None = None) -> bytes:
-    """Return the report of a study as JSON: a campaign by name, or `STABILITY`. Raises InputError for no such study.
+    """Return the JSON report of a study, a campaign's name or `STABILITY`. Raises InputError for an unknown study.
 
-    ``timeout`` (s, wall clock) is of each trial of a campaign; the steps of a stability study have none.
+    ``timeout`` (s, wall clock) limits each trial of a campaign; a stability study has no limit.
     """
     report = _margins(system, options) if name == STABILITY else _verdicts(system, name, options, timeout)
     return f"{json.dumps({'perilune': version('perilune'), **report}, indent=1)}\n".encode()
@@ -53,7 +53,7 @@ def make_report(system: Path, name: str, options: SystemOptions, timeout: float 
 def compare_report(
     stored: bytes, system: Path, name: str, options: SystemOptions, file: str, timeout: float | None
 ) -> list[str]:
-    """Return where a repeated study differs from its stored report, a line each. Raises InputError."""
+    """Return the differences between a repeated study and its stored report, a line each. Raises InputError."""
     try:
         numbers = dict(_leaves(json.loads(stored), ""))
     except (ValueError, RecursionError) as error:
@@ -83,7 +83,7 @@ def _margins(system: Path, options: SystemOptions) -> dict[str, object]:
 
 
 def _leaves(entry: object, path: str) -> Iterator[tuple[str, object]]:
-    """Yield every number and text of a JSON document under its path."""
+    """Yield every scalar of a JSON document with its path."""
     if isinstance(entry, Mapping):
         for key, inner in entry.items():
             yield from _leaves(inner, f"{path}.{key}")

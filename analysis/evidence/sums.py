@@ -1,4 +1,4 @@
-"""SHA256SUMS in an archive's evidence: every file is what it was when the archive was written."""
+"""Check of SHA256SUMS in an archive: every file unchanged since the archive was written."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ SEPARATORS = ("  ", " *")  # of text, and of binary mode
 
 
 def check_sums(files: Mapping[str, bytes], label: str) -> tuple[dict[str, str], list[str]]:
-    """Return the problems, by name, of missing or changed files, and the names of added files.
+    """Return a problem, by name, for each missing or changed file, and the names of files added later.
 
-    Nothing without SHA256SUMS. Raises InputError for a line that sha256sum would not write.
+    Both are empty without SHA256SUMS. Raises InputError for a line that is not in the format of sha256sum.
     """
     if SUMS not in files:
         return {}, []

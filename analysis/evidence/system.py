@@ -1,4 +1,4 @@
-"""The evidence of a system that is handed on: its flight, its campaigns and parameter sets, its studies."""
+"""Evidence of a system to ship: its simulation, its campaigns and parameter sets, its studies."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ TRAJECTORY, EXPERIMENT = f"{FOLDER}/outputs.csv", f"{FOLDER}/outputs.exp"
 
 
 def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
-    """Return the requested studies, for `ALL` all of the system's. Raises InputError for an unknown one."""
+    """Return the requested studies; `ALL` stands for all of the system. Raises InputError for an unknown one."""
     known = known_studies(archive)
     for name in studies:
         if name not in (*known, ALL):
@@ -52,9 +52,9 @@ def check_studies(archive: SystemArchive, studies: Sequence[str]) -> list[str]:
 
 
 def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes]:
-    """Return the files of a packed system with its evidence: a simulation as it stands, and reports of ``studies``.
+    """Return the files of a packed system with evidence: a simulation without changes, and reports of ``studies``.
 
-    A system that cannot be simulated as it stands has no trajectory, which a warning says. Raises InputError.
+    If the system cannot be simulated as it is, it gets no trajectory, and a warning states why. Raises InputError.
     """
     files = read_zip(packed)
     related = _list_related(files)
@@ -82,7 +82,7 @@ def add_system_evidence(packed: Path, studies: Sequence[str]) -> dict[str, bytes
 
 
 def _list_related(files: dict[str, bytes]) -> list[Related]:
-    """Return the kinds of the system's own files."""
+    """Return the manifest entries of the system's parameter sets, campaigns and documents."""
     related = []
     for name in sorted(files):
         stem = PurePosixPath(name).stem
@@ -97,7 +97,7 @@ def _list_related(files: dict[str, bytes]) -> list[Related]:
 
 
 def _table(flight: Flight, prepared: PreparedSystem) -> bytes:
-    """Return outputs over time (s), rows thinned to `ROWS` with the first and the last."""
+    """Return the outputs over time (s) as CSV: at most `ROWS` rows, including the first and the last."""
     last = flight.time.size - 1
     rows = np.unique(np.linspace(0.0, last, min(ROWS, last + 1)).round().astype(int))
     columns = {"time": flight.time[rows].tolist()}
@@ -120,6 +120,6 @@ def _experiment(prepared: PreparedSystem) -> bytes:
 
 
 def _is_exact(fmu: Fmu) -> bool:
-    """Return True if an FMU gives the same bits on every processor: Perilune's without Python libraries."""
+    """Return True if an FMU yields the same bits on every processor: one of Perilune that runs no Python libraries."""
     block = catalogue().get(fmu.name)
     return fmu.is_own and (fmu.is_native or (block is not None and not block.python_only))

@@ -19,7 +19,7 @@ FORM = "write comma-separated columns, time first"
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """``signals`` over ``time`` (s, [n], ascending), float64 [n] each; ``texts`` are columns that are no numbers."""
+    """``signals`` over ``time`` (s, [n], ascending), float64 [n] each; ``texts`` are names of non-numeric columns."""
 
     file: str
     sha256: str
@@ -28,10 +28,9 @@ class Trajectory:
     texts: tuple[str, ...]
 
     def series(self, without: set[str]) -> InputSeries:
-        """Return its columns but those ``without`` as inputs over time; samples that are not finite are as good as
-        others.
+        """Return the columns, except those in ``without``, as inputs over time; non-finite samples are allowed.
 
-        Raises InputError for a column of texts among them.
+        Raises InputError if a remaining column is not numeric.
         """
         for name in self.texts:
             if name not in without:
@@ -67,7 +66,7 @@ def read_trajectory(content: bytes, file: str) -> Trajectory:
 
 
 def _numbers(column: pyarrow.ChunkedArray) -> np.ndarray | None:
-    """Return a column as float64, truths as 0 and 1; None of texts."""
+    """Return a column as float64, Booleans as 0 and 1; None for a column of texts."""
     if pyarrow.types.is_boolean(column.type):
         column = column.cast(pyarrow.int8())
     if not (pyarrow.types.is_integer(column.type) or pyarrow.types.is_floating(column.type)):

@@ -1,4 +1,4 @@
-"""Verification of an FMU or a system: its files unchanged, its trajectories reproduced."""
+"""Verification of an FMU or a system: files unchanged, trajectories and studies reproduced."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ NAMED = 10  # files that were added, flaws of a manifest
 
 @dataclass(frozen=True)
 class Verification:
-    """Findings on one archive: its experiments simulated, its ``studies`` repeated; ``problems``, ``notes``.
+    """Findings on one archive: experiments simulated, ``studies`` repeated, ``problems`` and ``notes``.
 
-    ``reproduced`` are those of ``studies`` that equal their reports.
+    ``reproduced`` are the ``studies`` whose results equal their reports.
     """
 
     file: str
@@ -40,11 +40,11 @@ class Verification:
 def verify_archive(
     archive: SystemArchive, options: SystemOptions, *, relative: float | None = None, timeout: float | None = None
 ) -> Verification:
-    """Check the files of an .fmu or .ssp against its evidence, and simulate its experiments again.
+    """Check the files of an .fmu or .ssp against its evidence, and repeat its experiments and studies.
 
-    ``relative`` as of `reproduce`, ``timeout`` (s) of each simulation and of each trial of repeated campaigns. Raises
-    InputError where there is no evidence, some that cannot be read, or an experiment that takes more than a bound
-    permits.
+    ``relative`` is the tolerance as in `reproduce`; ``timeout`` (s) limits each simulation and each trial of a
+    campaign. Raises InputError if the evidence is missing or cannot be read, or if an experiment exceeds a limit on
+    size.
     """
     files = ZippedFiles(read_input(archive.path, "give an .fmu or .ssp", ARCHIVE_BYTES), archive.label)
     manifest = read_manifest(files, archive.label)
@@ -80,7 +80,7 @@ def _repeat_studies(
     options: SystemOptions,
     timeout: float | None,
 ) -> tuple[tuple[str, ...], tuple[str, ...], list[str]]:
-    """Return the repeated studies, those of them that equal their reports, and differences of the others."""
+    """Return the repeated studies, those that equal their reports, and the differences of the others."""
     studies, reproduced, problems = [], [], []
     for related in manifest.files:
         if related.study is None or related.name is None or related.name not in files:

@@ -1,1 +1,1 @@
-"""Verbs and options as declarations, from which command line, Python signatures, commands and records derive."""
+"""Declarations of verbs and options; command line, Python signatures, printed commands and records derive from them."""

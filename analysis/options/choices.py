@@ -1,4 +1,4 @@
-"""Choices of options: each a type for annotations and, by `get_args`, the names in the order of help texts."""
+"""Choices of options: types for annotations, whose `get_args` are the names in the order of help texts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The one writer of commands and records: options that differ from their defaults."""
+"""Writer of commands and records: only options that differ from their defaults."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .values import value_texts
 
 
 def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, object]) -> str:
-    """Return the command line that calls a verb with these arguments and options; default values are left out."""
+    """Return the command line that calls a verb with these arguments and options, without default values."""
     words = ["perilune", *verb.name.split()]
     for argument in verb.arguments:
         given = arguments.get(argument.name)
@@ -42,7 +42,7 @@ def _is_default(value: object, default: object) -> bool:
 
 
 def record_options(group: type, options: Mapping[str, object]) -> dict[str, object]:
-    """Return the options that differ from their defaults as values of JSON, for manifests and documents."""
+    """Return the options that differ from their defaults as JSON values, for manifests and documents."""
     known = options_of(group)
     return {
         name: _plain(value)

@@ -1,6 +1,6 @@
-"""A verb, declared once: its name, arguments, options and examples.
+"""Declaration of a verb: name, arguments, options and examples.
 
-The declaration is read without what carries the verb out, so that help and completion are quick.
+Declarations do not import the code of their verbs, which keeps help and completion fast.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ class NoOptions(TypedDict):
 
 @dataclass(frozen=True)
 class Argument:
-    """A positional argument of a verb; on the command line a required option instead where ``is_option``.
+    """A positional argument of a verb, or with ``is_option`` a required option of the command line.
 
-    ``name`` is the parameter of the Python function. ``read`` converts its text, ``many`` takes one or more,
-    ``optional`` none or one.
+    ``name`` is the parameter of the Python function. ``read`` converts the text; ``many`` accepts one or more,
+    ``optional`` at most one.
     """
 
     name: str
@@ -38,11 +38,11 @@ class Argument:
 class Verb:
     """Declaration of a verb, from which command line, signature and documentation derive.
 
-    ``name`` is what the command line calls it (two words for those of a group). ``options`` are those of the Python
-    function, too; ``files`` are those that only the command line has: where it writes the result. ``function`` is
-    stated where it is not NAME.NAME. ``examples`` are commands with comments, ``not_met`` is what exit status 1 means
-    in addition to an interruption. ``is_command_alone`` where Python has no use for it. ``objects`` are
-    parameters of the Python function alone, which stand for several options, with their texts.
+    ``name`` is the name on the command line (two words for a verb of a group). ``options`` are common to command line
+    and Python function; ``files`` are output files of the command line only. ``function`` is the Python function if it
+    is not NAME.NAME. ``examples`` are commands with comments; ``not_met`` explains exit status 1, apart from an
+    interruption. ``is_command_alone`` marks a verb without use in Python. ``objects`` are parameters of the Python
+    function only, each in place of several options, with their texts.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""The sections of a docstring that derive from the declaration of a verb: its parameters, and a call as an example."""
+"""Docstring of a verb's function, derived from the declaration: parameters, and an example call."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ NUMBER = frozenset((float, int))
 def document_verb(verb: Verb, summary: str, arguments: Iterable[str]) -> str:
     """Return the docstring of a verb's function: its ``summary``, Parameters and Example.
 
-    ``arguments`` are the names of the function's parameters, options excepted.
+    ``arguments`` are the names of the function's parameters other than options.
     """
     texts = {argument.name: argument.text for argument in verb.arguments} | {**verb.objects}
     lines = [line for name in arguments for line in _entry(argument_head(verb, name), texts[name])]
@@ -45,7 +45,7 @@ def _entry(head: str, text: str) -> list[str]:
 
 
 def argument_head(verb: Verb, name: str) -> str:
-    """Return the name of a parameter that is no option, and that it takes several or may be omitted."""
+    """Return the heading of a parameter that is not an option: its name, and whether it is a list or optional."""
     argument = next((argument for argument in verb.arguments if argument.name == name), None)
     if argument is not None and argument.many:
         return f"{name} : one or a list"
@@ -53,7 +53,7 @@ def argument_head(verb: Verb, name: str) -> str:
 
 
 def type_text(declared: Declared) -> str:
-    """Return the type of an option in words, its unit and its default."""
+    """Return the type of an option in words, with unit and default."""
     option = declared.option
     unit = f", {option.unit}" if option.unit else ""
     empty: Mapping[Kind, object] = {Kind.LIST: [], Kind.PAIRS: {}}
@@ -80,20 +80,23 @@ def _type_words(annotation: object) -> str:
 
 
 def option_text(verb: Verb, declared: Declared) -> str:
-    """Return the text of an option, with other options by their names in Python."""
+    """Return the text of an option, with flags of other options replaced by their Python names."""
     names = {each.flag: f"`{each.name}`" for each in options_of(verb.options).values()}
     return FLAG.sub(lambda match: names.get(match[1], match[0]), declared.option.text)
 
 
 def find_example(verb: Verb) -> str:
-    """Return the first example of a verb with options of its function, else its first; none of a command alone."""
+    """Return the first example of a verb that uses options of its function, else its first example.
+
+    Empty for a verb of the command line alone.
+    """
     commands = [command for command in verb.examples if f"{command} ".startswith(f"perilune {verb.name} ")]
     with_options = [command for command in commands if _read_command(verb, command)[1]]
     return "" if verb.is_command_alone else [*with_options, *commands][0]
 
 
 def call_of(verb: Verb, command: str) -> str:
-    """Return a command of a verb as a call of its function; options that only the command line has are omitted."""
+    """Return a verb's command as a Python call, without options that only the command line has."""
     arguments, options = _read_command(verb, command)
     words, keywords = [], []
     for argument in verb.arguments:
@@ -110,7 +113,7 @@ def call_of(verb: Verb, command: str) -> str:
 
 
 def _read_command(verb: Verb, command: str) -> tuple[dict[str, list[str]], dict[str, list[str]]]:
-    """Return the texts of arguments and of the function's options in a command, by name."""
+    """Return the texts of a command's arguments and function options, by name."""
     declared = {f"--{each.flag}": each for group in (verb.options, verb.files) for each in options_of(group).values()}
     required = {f"--{argument.name}": argument.name for argument in verb.arguments if argument.is_option}
     waiting = [argument for argument in verb.arguments if not argument.is_option]

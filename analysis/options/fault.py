@@ -1,4 +1,4 @@
-"""A fault on a connector, and the text that stands for it."""
+"""A fault on a connector, and its textual form."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ WRITTEN = re.compile(  # a window's ends have no dot next to the two between the
 class Fault:
     """A connector's value replaced (override), shifted (bias) or held (freeze) in [start, stop) s.
 
-    ``name`` is ``component.connector``: on an output every reader sees the fault, on an input
-    only that component. ``value`` is in the connector's unit; a freeze has none. As a text a fault is what
-    `parse_fault` reads. Raises InputError for an unknown kind, a value that is not finite or a window that is empty.
+    ``name`` is ``component.connector``: a fault on an output reaches every reader, one on an input only its component.
+    ``value`` is in the connector's unit and unused for a freeze. The text of a fault is readable by `parse_fault`.
+    Raises InputError for an unknown kind, a non-finite value or an empty window.
     """
 
     name: str
@@ -50,14 +50,14 @@ class Fault:
 
 
 def number_text(value: float | bool) -> str:
-    """Return a number in enough digits to be read back as it was."""
+    """Return a number with enough digits to be read back exactly."""
     return str(value).lower() if isinstance(value, bool) else repr(float(value)).removesuffix(".0")
 
 
 def parse_fault(text: str, option: str = "`faults`") -> Fault:
-    """Return the fault that a text of the form `FORM` stands for; without a second T it has no end.
+    """Return the fault that a text of the form `FORM` describes; without a second T it has no end.
 
-    ``option`` is what errors name. Raises InputError.
+    ``option`` is the name of the option in errors. Raises InputError.
     """
     match = WRITTEN.fullmatch(text.strip())
     if match is None:
@@ -78,11 +78,11 @@ def parse_fault(text: str, option: str = "`faults`") -> Fault:
 
 
 def faults_of(given: Iterable[Fault | str]) -> list[Fault]:
-    """Return faults from faults or their texts. Raises InputError."""
+    """Return faults, converting texts. Raises InputError."""
     return [parse_fault(item) if isinstance(item, str) else item for item in given]
 
 
 def _value(text: str) -> float | bool:
-    """Return a value as it is written; raises ValueError."""
+    """Return the value of a fault from its text. Raises ValueError."""
     text = text.strip()
     return text == "true" if text in ("true", "false") else float(text)

@@ -1,7 +1,8 @@
-"""An option, declared once: a key of a TypedDict, ``name: Annotated[type, Option(text, default, ...)]``.
+"""Declaration of an option: a key of a TypedDict, ``name: Annotated[type, Option(text, default, ...)]``.
 
-Groups of options inherit from one another. `options_of` reads the declarations; from it derive the parser of the
-command line, the signature of the Python function, printed commands, records in manifests and JSON, tables of the docs.
+Groups of options may inherit from one another. `options_of` reads the declarations, from which derive the parser of the
+command line, the signature of the Python function, printed commands, records in manifests and JSON, and the tables of
+the documentation.
 """
 
 from __future__ import annotations
@@ -29,14 +30,14 @@ class StructuredArray(Protocol):
 
 @dataclass(frozen=True)
 class Option:
-    """Declaration of an option, whose name is the key that it annotates.
+    """Declaration of an option; its name is the annotated key.
 
-    ``default`` holds where the option is not given; a mutable one is an empty constant. ``flag`` is the name on the
-    command line where it differs: the singular of an option that may be repeated. ``above``, ``minimum`` and
-    ``maximum`` bound a number. ``completer`` names a function of `verbs/options/completers`. ``comma`` reads several
-    values from one text, with commas between. ``needs`` names the option of a file without which it would have no
-    effect on the command line. Of a file, ``suffixes`` are those that it may have, ``is_folder`` says that it is a
-    folder, and ``writer`` is the method of the result that writes it.
+    ``default`` is the value of an omitted option; a mutable default is an empty constant. ``flag`` is the name on the
+    command line if different: the singular for an option that may be repeated. ``above``, ``minimum`` and ``maximum``
+    bound a number. ``completer`` names a function of `verbs/options/completers`. ``comma`` allows several values in one
+    text, separated by commas. ``needs`` names the file option without which the option has no effect on the command
+    line. For a file, ``suffixes`` are the permitted ones, ``is_folder`` marks a folder, and ``writer`` is the method of
+    the result that writes it.
     """
 
     text: str
@@ -70,7 +71,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Declared:
-    """An option with its name and what its type says: its kind, that of its elements, its choices."""
+    """An option with its name and properties of its type: kind, kind of its elements, choices."""
 
     name: str
     option: Option
@@ -81,19 +82,19 @@ class Declared:
 
     @property
     def takes_paths(self) -> bool:
-        """True of pairs whose values are names or paths alone."""
+        """True if the option consists of pairs whose values are names or paths."""
         mappings = members_of(self.annotation)
         return self.kind is Kind.PAIRS and any(os.PathLike in _origins(mapping) for mapping in mappings)
 
     @property
     def flag(self) -> str:
-        """Its name on the command line, without dashes."""
+        """The name on the command line, without dashes."""
         return (self.option.flag or self.name).replace("_", "-")
 
 
 @cache
 def options_of(group: type) -> Mapping[str, Declared]:
-    """Return the options of a group by name, those of the groups that it inherits from first."""
+    """Return the options of a group by name, inherited ones first."""
     declared = {}
     for name, hint in get_type_hints(group, include_extras=True).items():
         if get_origin(hint) is not Annotated:
@@ -105,12 +106,12 @@ def options_of(group: type) -> Mapping[str, Declared]:
 
 
 def defaults_of(group: type) -> dict[str, object]:
-    """Return the default of each option."""
+    """Return the defaults of a group's options by name."""
     return {name: each.option.default for name, each in options_of(group).items()}
 
 
 def members_of(annotation: object) -> tuple[object, ...]:
-    """Return the alternatives of a type, without None."""
+    """Return the alternatives of a type, except None."""
     if get_origin(annotation) in (Union, types.UnionType):
         return tuple(inner for member in get_args(annotation) for inner in members_of(member))
     return () if annotation is type(None) else (annotation,)
@@ -126,7 +127,7 @@ def _choices(annotation: object) -> tuple[str, ...]:
 
 
 def _origins(mapping: object) -> set[object]:
-    """Return what the values of a mapping can be."""
+    """Return the types of a mapping's values, without their parameters."""
     return {get_origin(each) or each for value in get_args(mapping)[1:] for each in members_of(value)}
 
 
@@ -135,7 +136,7 @@ _Mapping = get_origin(Mapping[str, str])
 
 
 def _kinds(annotation: object) -> tuple[Kind, Kind]:
-    """Return the kind of a type, and that of its elements."""
+    """Return the kind of a type and the kind of its elements."""
     members = members_of(annotation)
     origins = {get_origin(member) for member in members}
     paths = {get_origin(member) or member for member in members} & {os.PathLike}

@@ -1,4 +1,4 @@
-"""A verb's declaration as an argparse parser, and what it parsed as arguments and options of the Python function."""
+"""Conversion of a verb's declaration to an argparse parser, and of its result to arguments of the Python function."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ FindCompleter = Callable[[str], Completer]  # by the name that a declaration sta
 
 
 def add_verb(parser: argparse.ArgumentParser, verb: Verb, find_completer: FindCompleter, *, is_complete: bool) -> None:
-    """Add a verb's arguments and options: its own first; shared ones are explained where ``is_complete``."""
+    """Add a verb's arguments and options, its own options first; ``is_complete`` adds the help texts of shared
+    options.
+    """
     parser.usage = f"{parser.prog} {' '.join(map(_usage, verb.arguments))} [OPTION ...]".replace("  ", " ")
     arguments = parser.add_argument_group("arguments")
     for argument in verb.arguments:
@@ -84,7 +86,7 @@ def _default_text(declared: Declared) -> str:
 
 
 def _complete(action: argparse.Action, completer: str, find_completer: FindCompleter) -> None:
-    """Offer the shell what the completer of an argument returns; it is imported only then."""
+    """Register a completer for an argument; its module is imported only when the shell asks for completions."""
     if completer:
 
         def offer(*arguments: Any, **keywords: Any) -> Any:
@@ -94,9 +96,9 @@ def _complete(action: argparse.Action, completer: str, find_completer: FindCompl
 
 
 def read_parsed(verb: Verb, parsed: argparse.Namespace) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
-    """Return arguments, options of the function and files of a command line, by name; defaults are left out.
+    """Return the arguments, function options and files of a parsed command line, each by name, without defaults.
 
-    Raises InputError, with the parameter's name.
+    Raises InputError with the parameter's name.
     """
     arguments = {}
     for argument in verb.arguments:
@@ -118,7 +120,7 @@ def _read_group(group: type, parsed: argparse.Namespace) -> dict[str, Any]:
 
 
 def flags_of(verb: Verb) -> Mapping[str, str]:
-    """Return the command-line names of a verb's parameters, by name."""
+    """Return the command-line names of a verb's parameters by Python name."""
     flags = {
         argument.name: f"--{argument.name}" if argument.is_option else argument.metavar for argument in verb.arguments
     }

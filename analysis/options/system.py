@@ -1,4 +1,4 @@
-"""Options of everything that simulates: the system, its FMUs and parameters; faults, inputs, log and time limit."""
+"""Options common to all simulations: system, FMUs and parameters; faults, inputs, log and time limit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values of options as text: read from a command line, and written into one that is printed."""
+"""Values of options as text: read from a command line, checked, and written into printed commands."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .option import Declared, Kind, options_of
 
 
 def read_value(declared: Declared, texts: Sequence[str]) -> object:
-    """Return an option's argument by the texts of a command line; several where it is repeated. Raises InputError."""
+    """Return the value of an option from its texts on the command line, several if repeated. Raises InputError."""
     if declared.kind is Kind.PAIRS:
         return _read_pairs(declared, texts)
     if declared.kind is Kind.LIST:
@@ -38,7 +38,7 @@ def _parse_number(declared: Declared, kind: Kind, text: str, name: str = "") -> 
 
 
 def check_number(declared: Declared, argument: float | int, text: str = "") -> float | int:
-    """Return the number, if it is finite and within the bounds of its option. Raises InputError."""
+    """Return the number if it is finite and within the option's bounds. Raises InputError."""
     option, text = declared.option, text or f"{argument:g}"
     if not math.isfinite(argument):
         raise InputError(f"`{declared.name}`", repr(text), f"not a finite number{_of_unit(declared)}", "give one")
@@ -56,8 +56,10 @@ def _of_unit(declared: Declared) -> str:
 
 
 def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, object]:
-    """Read ``NAME=VALUE`` of a repeated option by name, ``NAME=A,B`` as a list where it takes several; no name
-    twice."""
+    """Read the texts ``NAME=VALUE`` of a repeated option; ``NAME=A,B`` is a list if the option allows commas.
+
+    Raises InputError for a repeated name.
+    """
     pairs: dict[str, object] = {}
     for text in texts:
         name, equals, argument = text.partition("=")
@@ -75,9 +77,9 @@ def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, object]:
 
 
 def check_value(declared: Declared, argument: Any) -> object:
-    """Return a Python caller's argument as the function receives it. Raises InputError.
+    """Return the checked value of an option from a Python caller. Raises InputError.
 
-    None stands for the default; lists and mappings are copied, so that nobody changes them afterwards.
+    None stands for the default; lists and mappings are copied, so later changes by the caller have no effect.
     """
     if argument is None:
         return declared.option.default
@@ -157,7 +159,7 @@ def _check_choice(declared: Declared, argument: object) -> None:
 
 
 def complete_options(group: type, options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the options of a group, checked, with the defaults of the others; paths as texts. Raises InputError."""
+    """Return all options of a group, checked, with defaults for omitted ones and paths as texts. Raises InputError."""
     return {name: _as_text(check_value(each, options.get(name))) for name, each in options_of(group).items()}
 
 
@@ -170,7 +172,7 @@ def _as_text(setting: object) -> object:
 
 
 def value_texts(declared: Declared, argument: Any) -> list[str]:
-    """Return the text after each occurrence of the option's flag; for a flag without argument one empty text."""
+    """Return the text for each occurrence of the option's flag; an empty text for a flag without argument."""
     if declared.kind is Kind.FLAG:
         return [""] if argument else []
     if declared.kind is Kind.PAIRS:
@@ -182,7 +184,7 @@ def value_texts(declared: Declared, argument: Any) -> list[str]:
 
 
 def _text(argument: object) -> str:
-    """Return an argument as the command line reads it back, to the last bit."""
+    """Return a value as text that the command line reads back exactly."""
     if isinstance(argument, bool):
         return str(argument).lower()
     if isinstance(argument, float):

@@ -1,4 +1,4 @@
-"""The Python function that carries a verb out: its signature, checks, defaults and docstring, of the declaration."""
+"""Decorator of the Python functions of verbs: signature, checks, defaults and docstring from the declaration."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ Function = TypeVar("Function", bound=Callable[..., object])
 
 
 def verb(declared: Verb) -> Callable[[Function], Function]:
-    """Give a Python function the options of a verb: its signature, defaults, checks and docstring.
+    """Return a decorator that gives a function a verb's signature, defaults, checks and docstring.
 
-    The function takes ``**options`` and gets all of them, missing ones with their defaults. A keyword that the verb
-    does not have raises TypeError, a value out of bounds InputError.
+    The function accepts ``**options`` and receives all of them, with defaults for omitted ones. An unknown keyword
+    raises TypeError, a value out of bounds InputError.
     """
     options = options_of(declared.options)
 

@@ -1,1 +1,1 @@
-"""A campaign as a simulation task of SSP-LS-Traceability."""
+"""Export of a campaign as a simulation task of SSP-LS-Traceability."""

@@ -1,4 +1,4 @@
-"""A campaign in a folder as a simulation task: requirements, draws, systems, flights, verdicts."""
+"""Simulation task of a campaign's folder: requirements, samples, systems, trials, verdicts."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ KINDS = {".fmu": "model", ".ssd": "system", ".ssv": "parameter", ".ssm": "parame
 
 
 def write_task(made: BatchResult, path: Path) -> None:
-    """Write the task of a finished campaign, which has a folder, to ``path`` (.stmd). Raises OSError."""
+    """Write the task of a finished campaign with a folder to ``path`` (.stmd). Raises OSError."""
     assert made.folder is not None  # the option has no effect without one
     folder, campaign = made.folder.absolute(), made.plan.campaign
     manifest = read_manifest(folder)
@@ -69,14 +69,14 @@ def write_task(made: BatchResult, path: Path) -> None:
 
 
 def _sources(campaign: CampaignDocument | SourceDocument) -> Iterator[tuple[str, str]]:
-    """Yield label and content of a campaign's file and of those that it extends."""
+    """Yield label and content of a campaign's file and of the files that it extends."""
     yield campaign["label"].rpartition("/")[2], campaign["content"]
     for extended in campaign.get("extends", ()):
         yield from _sources(extended)
 
 
 def _system_files(manifest: Manifest) -> Iterator[tuple[str, str]]:
-    """Name and content of the system's files, and of the FMUs and parameter sets from elsewhere."""
+    """Yield name and content of the system's files, and of external FMUs and parameter sets."""
     yield from manifest.system["files"].items()
     for key, content in manifest.elsewhere.items():
         kind, _, name = key.partition(":")

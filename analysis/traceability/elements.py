@@ -22,14 +22,14 @@ PARTICLES = ("Input", "Procedure", "Output", "Rationale")  # of a step, in the o
 
 
 def tag(prefix: str, name: str) -> str:
-    """Return a name in a namespace, as lxml writes it."""
+    """Return a name in a namespace in the notation of lxml."""
     return f"{{{NAMESPACES[prefix]}}}{name}"
 
 
 class Task:
-    """A simulation task that is written to ``path``: steps by phase, each file of ``folder`` described once.
+    """A simulation task for the file ``path``: steps by phase.
 
-    A file that is named again is referred to. Digests are SHA3-256, in an SRMD document of each resource.
+    Each file is described once, with its SHA3-256 in an SRMD document, and referred to afterwards.
     """
 
     def __init__(self, name: str, tool: str, path: Path) -> None:
@@ -40,13 +40,13 @@ class Task:
         self._known: dict[Path, str] = {}
 
     def step(self, phase: str, name: str) -> Step:
-        """Return a step of a phase; phases come in the order of their first steps."""
+        """Add a step to a phase and return it; phases are in the order of their first steps."""
         if phase not in self._phases:
             self._phases[phase] = etree.SubElement(self.root, tag("stmd", phase))
         return Step(self, etree.SubElement(self._phases[phase], tag("stmd", name)))
 
     def add_file(self, parent: etree._Element, path: Path, kind: str, mime: str, description: str) -> None:
-        """Describe a file below an element, or refer to its description. Raises OSError."""
+        """Describe a file below an element, or refer to its earlier description. Raises OSError."""
         if path in self._known:
             etree.SubElement(parent, tag("stc", "ResourceReference"), {tag("xlink", "href"): f"#{self._known[path]}"})
             return
@@ -61,29 +61,29 @@ class Task:
         etree.SubElement(content, tag("srmd", "SimulationResourceMetaData"), document | digest)
 
     def write(self) -> bytes:
-        """Return the document."""
+        """Return the document as XML."""
         return etree.tostring(self.root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
 
 
 class Step:
-    """A step of a task: what goes in, what is done, what comes out."""
+    """A step of a task: inputs, procedure, outputs and rationale."""
 
     def __init__(self, task: Task, element: etree._Element) -> None:
         self._task = task
         self._element = element
 
     def add_file(self, particle: str, path: Path, kind: str, mime: str, description: str) -> None:
-        """Add a file in ``Input``, ``Procedure``, ``Output`` or ``Rationale``. Raises OSError."""
+        """Add a file to ``Input``, ``Procedure``, ``Output`` or ``Rationale``. Raises OSError."""
         self._task.add_file(self._particle(particle), path, kind, mime, description)
 
     def add_text(self, particle: str, text: str, kind: str, description: str) -> None:
-        """Add a text, inline."""
+        """Add a text as an inline resource."""
         attributes = {"kind": kind, "type": "text/plain", "description": description}
         resource = etree.SubElement(self._particle(particle), tag("stc", "Resource"), attributes)
         etree.SubElement(resource, tag("stc", "Content")).text = text
 
     def classify(self, name: str, entries: Mapping[str, str]) -> None:
-        """Add keywords with their texts; nothing without any."""
+        """Add keywords and their texts as a classification; do nothing without keywords."""
         if not entries:
             return
         classification = etree.SubElement(self._element, tag("stc", "Classification"), type=name)

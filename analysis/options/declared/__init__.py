@@ -1,1 +1,1 @@
-"""Verbs that need no name of a higher room; those of design, and the list of all, are in `verbs/options`."""
+"""Verbs that need no names of higher layers; those of design, and the list of all verbs, are in `verbs/options`."""

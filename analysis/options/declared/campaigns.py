@@ -1,4 +1,4 @@
-"""The verbs that simulate: run, and those of campaigns: batch, prepare, shard, merge, replay, compare, show."""
+"""Verbs that simulate: run, and the campaign verbs batch, prepare, shard, merge, replay, compare and show."""
 
 from __future__ import annotations
 

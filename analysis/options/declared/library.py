@@ -1,4 +1,4 @@
-"""The verbs of blocks and systems themselves: list, describe, validate, docs; new, export."""
+"""Verbs about blocks and systems: list, describe, validate, docs, new, export and related ones."""
 
 from __future__ import annotations
 

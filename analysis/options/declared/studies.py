@@ -1,4 +1,4 @@
-"""The verbs of studies: of a system's loops, stability; of a campaign's dispersions, rare, worst, sensitivity."""
+"""Verbs for studies: stability of a system's loops; rare, worst and sensitivity for a campaign's dispersions."""
 
 from __future__ import annotations
 
