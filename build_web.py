@@ -65,7 +65,9 @@ def main() -> int:
 
 
 def install(*, tools: bool) -> None:
-    """Install the packages of the lock in `BUILT`, but do not run their scripts; ``tools`` adds development packages."""
+    """Install the packages of the lock in `BUILT` without running their scripts; ``tools`` includes development
+    packages.
+    """
     noted = BUILT / "installed.json"
     locked = digest(SOURCES / name for name in LOCKED)
     installed = json.loads(noted.read_text()) if PACKAGES.is_dir() and noted.is_file() else {}

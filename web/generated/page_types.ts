@@ -7,7 +7,7 @@ import type { RecordedDocument } from "./embedded_flights";
 import type { TrialsDocument } from "./embedded_trials";
 import type { SceneView } from "./view";
 
-// The document inside a page: its columns, its figures, and by name what the scripts of some pages read.
+// The document inside a page: its columns, its figures, and data that the scripts of some pages read.
 export interface PageDocument<Column = number> {
   columns: Encoded[];
   packed: [string, string];
