@@ -13,7 +13,7 @@ from .point.bench import OperatingPoint
 from .point.linearise import linearise
 from .point.point_study import PointStudy
 from .point.responses import ONE_STEP, LoopModel, loop_model
-from .request.declaration import Limits, Loop, Point
+from .request.declaration import LoopDeclaration, MarginLimits, PointDeclaration
 from .request.request import Subject
 from .results.requirement import Requirement, Scope
 from .results.varied import Dispersion
@@ -22,9 +22,9 @@ from .results.varied import Dispersion
 def disperse(
     subject: Subject,
     plan: BatchPlan,
-    point: Point,
-    loops: Sequence[Loop],
-    limits: Limits,
+    point: PointDeclaration,
+    loops: Sequence[LoopDeclaration],
+    limits: MarginLimits,
     cells: Sequence[int],
     replay: Callable[[str, int], str],
     tell: Callable[[int, int], None],
@@ -75,7 +75,7 @@ def vary(plan: BatchPlan) -> list[str]:
 
 
 def _dispersion(
-    plan: BatchPlan, items: Sequence[Margins], poles: np.ndarray, limits: Limits, replay: Callable[[int], str]
+    plan: BatchPlan, items: Sequence[Margins], poles: np.ndarray, limits: MarginLimits, replay: Callable[[int], str]
 ) -> Dispersion:
     # the least disk margin; among unstable loops the largest multiplier
     worst = min(range(len(items)), key=lambda place: (items[place].size(Quantity.DISK), -(items[place].largest or 0.0)))

@@ -23,7 +23,7 @@ from .point.limit_cycles import element_report
 from .point.point_study import PointStudy
 from .progress import Tell, begin, listen, show_progress, tell_parent
 from .request.channels import Channel
-from .request.declaration import Point
+from .request.declaration import PointDeclaration
 from .request.request import Request, Subject
 from .results.report import JointReport, LoopReport, PointReport, StabilityReport, Unstudied
 from .results.varied import Dispersion
@@ -97,7 +97,7 @@ def _study(request: Request, replay: Replay, count: int, tell: Tell) -> Stabilit
     )
 
 
-def study_point(request: Request, replay: Replay, point: Point, tell: Tell) -> PointResult:
+def study_point(request: Request, replay: Replay, point: PointDeclaration, tell: Tell) -> PointResult:
     """Study one point with all its loops: a step each, one for the linear model. Raises InputError, StudyError."""
     subject = Subject(request.system, request.options)
     loops, limits = request.loops_at(point), request.declaration.limits
@@ -167,7 +167,7 @@ def _vary(
     request: Request,
     replay: Replay,
     subject: Subject,
-    point: Point,
+    point: PointDeclaration,
     reports: Sequence[LoopReport],
     step: float,
     cells: Sequence[int],

@@ -15,7 +15,7 @@ from ..runtime.system.prepared import PreparedSystem
 from .loops.margin_values import Margins, Quantity
 from .point.bench import StudyError
 from .point.point_study import PointStudy
-from .request.declaration import Limits, Loop, Point, Sweep
+from .request.declaration import LoopDeclaration, MarginLimits, PointDeclaration, Sweep
 from .request.request import Subject
 from .results.varied import Sampled, SweepCrossing, SweepReport
 
@@ -29,10 +29,10 @@ FACTORS = (0.5, 1.0, 2.0)  # of the communication step
 
 def run_sweep(
     subject: Subject,
-    point: Point,
-    loop: Loop,
+    point: PointDeclaration,
+    loop: LoopDeclaration,
     sweep: Sweep,
-    limits: Limits,
+    limits: MarginLimits,
     cells: Sequence[int],
     tell: Callable[[int, int], None],
 ) -> SweepReport:
@@ -109,8 +109,8 @@ def _bisect(is_low: Callable[[float], bool], low: float, high: float) -> tuple[f
 
 def vary_step(
     subject: Subject,
-    point: Point,
-    loops: Sequence[Loop],
+    point: PointDeclaration,
+    loops: Sequence[LoopDeclaration],
     step: float,
     cells: Sequence[int],
     names: Sequence[str],

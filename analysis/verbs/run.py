@@ -12,7 +12,7 @@ from ...common.errors import InputError
 from ...common.visible import on_one_line
 from ..campaigns.definition.expressions import Expression
 from ..campaigns.plain_text import faults_line
-from ..documents.figures.declared import Figure
+from ..documents.figures.declared import FigureDeclaration
 from ..documents.figures.reading import read_figures
 from ..documents.model import Document
 from ..documents.of.simulation.figures.limits import limit_document
@@ -53,7 +53,7 @@ class Result(Documented, results.Result):
     """
 
     prepared: PreparedSystem
-    figures: tuple[Figure, ...]
+    figures: tuple[FigureDeclaration, ...]
     faults: tuple[Fault | str, ...] = ()
     requirements: tuple[Expression, ...] = ()
     command: str = ""

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.documents.figures.scene.declared import Scene
+from perilune.analysis.documents.figures.scene.declared import SceneFigure
 from perilune.analysis.documents.scene.poses import compute_poses
 from perilune.common.paths import FLAVOURS, ROOT
 from tests.support.loops.exact_margins import crossings, disk_margin
@@ -50,7 +50,7 @@ def test_its_scene_is_that_of_the_docs(folder):
     assert text[begin:end].count("\n") <= 10
     assert f"```xml\n{text[begin:end]}```" in Path(ROOT, "docs", "reports.md").read_text(encoding="utf-8")
     result = perilune.simulate(NAME)
-    (scene,) = (figure for figure in result.figures if isinstance(figure, Scene))
+    (scene,) = (figure for figure in result.figures if isinstance(figure, SceneFigure))
     (pose,) = compute_poses(scene, result)
     expected = Rotation.from_euler("z", result["plant.angle"][:, None]).as_matrix()
     assert abs(Rotation.from_quat(pose.attitude.T, scalar_first=True).as_matrix() - expected).max() < 1e-12

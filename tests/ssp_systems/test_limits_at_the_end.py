@@ -13,7 +13,7 @@ from lxml import html
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.documents.figures.declared import Limits
+from perilune.analysis.documents.figures.declared import LimitsFigure
 from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
@@ -83,7 +83,7 @@ def test_what_is_subtracted_follows_the_parameters_that_fly():
     flight = perilune.simulate(name)
     for changes, height in (({}, 2000.0), (moved, 1990.0)):
         prepared = prepare_system(name, SystemOptions(set=changes))
-        (limits,) = [figure for figure in read_figures(prepared) if isinstance(figure, Limits)]
+        (limits,) = [figure for figure in read_figures(prepared) if isinstance(figure, LimitsFigure)]
         assert limits.limits[0].value(flight) == pytest.approx(target(height)(flight.final()), rel=1e-12)
 
 

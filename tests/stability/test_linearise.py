@@ -13,7 +13,7 @@ from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.stability.point.bench import Bench, OperatingPoint, StudyError
 from perilune.analysis.stability.point.linearise import linearise
 from perilune.analysis.stability.request.channels import channels_of
-from perilune.analysis.stability.request.declaration import Loop, Point
+from perilune.analysis.stability.request.declaration import LoopDeclaration, PointDeclaration
 from perilune.common.errors import InputError
 from tests.support.builders import component, connection, document, pack, system
 from tests.support.loops.exact_periodic import EVERY, HYPERPERIOD, STATES, STEP, description, exact_model, hyperperiod
@@ -21,8 +21,8 @@ from tests.support.loops.exact_systems import difference, ring, with_stability
 from tests.support.loops.sampled_loops import delay, held, response_of
 
 LOOPS = [
-    Loop("first", "first.y", ("there",), period=EVERY[0] * STEP),
-    Loop("second", "second.y", ("there",), period=EVERY[1] * STEP),
+    LoopDeclaration("first", "first.y", ("there",), period=EVERY[0] * STEP),
+    LoopDeclaration("second", "second.y", ("there",), period=EVERY[1] * STEP),
 ]
 NOISY = {
     "noise": ("noisy_counter", "u", "y", "sigma=Real:0.3"),
@@ -51,7 +51,7 @@ def bench_of(tmp_path):
 @pytest.mark.parametrize("flavour", ["native", "python"])
 def test_the_lifted_model_of_a_periodic_system(bench_of, exact_folder, flavour):
     """Multipliers, and all that what is added does within four hyperperiods, which no choice of states changes."""
-    bench = bench_of(description(), exact_folder / flavour, Point("there", time=1.0), LOOPS)
+    bench = bench_of(description(), exact_folder / flavour, PointDeclaration("there", time=1.0), LOOPS)
     assert (bench.period, bench.time) == (HYPERPERIOD, pytest.approx(HYPERPERIOD * STEP))
     actual, exact = linearise(OperatingPoint(bench)), exact_model()
     assert [(port.first, port.count) for port in actual.model.ports] == [(0, 3), (3, 2)]
@@ -91,8 +91,8 @@ def test_both_routes_of_a_periodic_system(exact_fmus, tmp_path):
 
 def test_noise_is_the_same_in_every_flight(bench_of, exact_fmus, tmp_path):
     """Neither route sees it; nor are the counter's means, which move nothing, in the model."""
-    loop = Loop("l", "control.y", ("there",), period=0.75)
-    bench = bench_of(ring(NOISY, 0.25, 60.0), exact_fmus, Point("there", time=10.0), [loop])
+    loop = LoopDeclaration("l", "control.y", ("there",), period=0.75)
+    bench = bench_of(ring(NOISY, 0.25, 60.0), exact_fmus, PointDeclaration("there", time=10.0), [loop])
     actual = linearise(OperatingPoint(bench))
     assert not any(name.startswith("noise.mean") or "generator" in name for name in actual.model.names)
     exact = difference(0.02, 0.2, 0.75) * held(control.tf(1.0, [1.0, 0.0, 0.0]), 0.75) * delay(1, 0.75)
@@ -106,7 +106,7 @@ def test_noise_is_the_same_in_every_flight(bench_of, exact_fmus, tmp_path):
 
 
 def test_known_cells_give_the_same_model_sooner(bench_of, exact_fmus):
-    bench = bench_of(description(), exact_fmus, Point("there", time=1.0), LOOPS)
+    bench = bench_of(description(), exact_fmus, PointDeclaration("there", time=1.0), LOOPS)
     first = linearise(OperatingPoint(bench))
     second = linearise(OperatingPoint(bench), first.cells)
     assert (second.cells, second.model.names) == (first.cells, first.model.names)
@@ -115,7 +115,7 @@ def test_known_cells_give_the_same_model_sooner(bench_of, exact_fmus):
 
 
 def test_drift_is_what_the_memory_does_over_a_period(bench_of, exact_fmus):
-    bench = bench_of(description(), exact_fmus, Point("there", time=1.0), LOOPS)
+    bench = bench_of(description(), exact_fmus, PointDeclaration("there", time=1.0), LOOPS)
     point = OperatingPoint(bench)
     drift = {name: (value, change, unit) for name, value, change, unit in linearise(point).drift}
     values = bench.fly(-1, bench.origin + bench.period)["first.y"]
@@ -128,10 +128,10 @@ def test_drift_is_what_the_memory_does_over_a_period(bench_of, exact_fmus):
 def test_the_point_is_at_a_common_sample_at_its_time_or_later(bench_of, exact_fmus):
     times = {0.0: 1.2, 1.2: 1.2, 1.3: 2.4, 2.4 + 1e-9: 2.4, 5.0: 6.0}
     for time, expected in times.items():
-        bench = bench_of(description(), exact_fmus, Point("there", time=time), LOOPS)
+        bench = bench_of(description(), exact_fmus, PointDeclaration("there", time=time), LOOPS)
         assert bench.time == pytest.approx(expected, abs=1e-9)
-    short = [Loop("second", "second.y", ("there",), period=EVERY[1] * STEP)]
-    assert bench_of(description(), exact_fmus, Point("there", time=0.0), short).period == HYPERPERIOD
+    short = [LoopDeclaration("second", "second.y", ("there",), period=EVERY[1] * STEP)]
+    assert bench_of(description(), exact_fmus, PointDeclaration("there", time=0.0), short).period == HYPERPERIOD
 
 
 def test_the_point_where_a_signal_falls_to_a_value(bench_of, exact_fmus):
@@ -141,29 +141,32 @@ def test_the_point_where_a_signal_falls_to_a_value(bench_of, exact_fmus):
         "control": ("difference", "u", "y", "proportional=Real:0; derivative=Real:0"),
         "plant": ("held_mass", "u", "position", "speed=Real:-0.125"),
     }
-    loop = Loop("l", "control.y", ("there",))
+    loop = LoopDeclaration("l", "control.y", ("there",))
     ssd = ring(parts, 0.25, 10.0)
-    bench = bench_of(ssd, exact_fmus, Point("there", signal="plant.position", falls_to=0.5), [loop])
+    bench = bench_of(ssd, exact_fmus, PointDeclaration("there", signal="plant.position", falls_to=0.5), [loop])
     assert bench.time == pytest.approx(4.0)
     with pytest.raises(InputError, match=r"plant\.position never falls to -3"):
-        bench_of(ssd, exact_fmus, Point("there", signal="plant.position", falls_to=-3.0), [loop])
+        bench_of(ssd, exact_fmus, PointDeclaration("there", signal="plant.position", falls_to=-3.0), [loop])
     with pytest.raises(InputError, match=r"no signal plant\.place"):
-        bench_of(ssd, exact_fmus, Point("there", signal="plant.place", falls_to=0.5), [loop])
+        bench_of(ssd, exact_fmus, PointDeclaration("there", signal="plant.place", falls_to=0.5), [loop])
 
 
 @pytest.mark.parametrize(
     ("loop", "words"),
     [
-        (Loop("l", "first.z", ("there",)), r"no connector first\.z"),
-        (Loop("l", "first.y", ("there",), period=0.3), r"period 0\.3 s is no whole number of communication steps"),
-        (Loop("l", "first.y", ("there",), returned="plant.position"), r"plant\.position has 2 components"),
-        (Loop("l", "first.y", ("there",), direction="plant.u"), r"plant\.u"),
-        (Loop("l", "plant.coupling", ("there",)), r"plant\.coupling"),
+        (LoopDeclaration("l", "first.z", ("there",)), r"no connector first\.z"),
+        (
+            LoopDeclaration("l", "first.y", ("there",), period=0.3),
+            r"period 0\.3 s is no whole number of communication steps",
+        ),
+        (LoopDeclaration("l", "first.y", ("there",), returned="plant.position"), r"plant\.position has 2 components"),
+        (LoopDeclaration("l", "first.y", ("there",), direction="plant.u"), r"plant\.u"),
+        (LoopDeclaration("l", "plant.coupling", ("there",)), r"plant\.coupling"),
     ],
 )
 def test_a_cut_that_does_not_fit_is_refused(bench_of, exact_fmus, loop, words):
     with pytest.raises(InputError, match=words) as caught:
-        bench_of(description(), exact_fmus, Point("there", time=1.0), [loop])
+        bench_of(description(), exact_fmus, PointDeclaration("there", time=1.0), [loop])
     assert "\n" not in str(caught.value)
     assert "loop l" in str(caught.value)
 
@@ -175,7 +178,10 @@ def test_a_flight_that_ends_early_is_told(bench_of, exact_fmus):
         "plant": ("held_pendulum", "u", "position", "rate=Real:8"),
     }
     bench = bench_of(
-        ring(parts, 0.25, 60.0), exact_fmus, Point("there", time=400.0), [Loop("l", "control.y", ("there",))]
+        ring(parts, 0.25, 60.0),
+        exact_fmus,
+        PointDeclaration("there", time=400.0),
+        [LoopDeclaration("l", "control.y", ("there",))],
     )
     with pytest.raises(StudyError, match=r"the flight for point there ended early \(nonfinite at t = [\d.]+ s\)"):
         OperatingPoint(bench)
@@ -193,7 +199,9 @@ def test_a_connection_that_is_read_a_step_late_is_remembered(bench_of, tiny_fold
     wires += connection("there.ya", "here.b") + connection("here.yb", "two.u")
     wires += connection("two.y", "here.a", inner='<ssc:LinearTransformation factor="0.1"/>')
     ssd = document(system(*parts, connections=wires), stop=20.0, step=0.25)
-    bench = bench_of(ssd, tiny_folder / "native", Point("there", time=2.0), [Loop("l", "one.y", ("there",))])
+    bench = bench_of(
+        ssd, tiny_folder / "native", PointDeclaration("there", time=2.0), [LoopDeclaration("l", "one.y", ("there",))]
+    )
     assert len(bench.prepared.schedule.late) == 1
     model = linearise(OperatingPoint(bench)).model
     assert any("exchanged" in name for name in model.names)

@@ -8,7 +8,14 @@ import pytest
 import perilune
 from perilune.analysis.runtime.ssp.reading import Reader
 from perilune.analysis.runtime.system.options import Layer
-from perilune.analysis.stability.request.declaration import Declaration, Element, Limits, Loop, Point, Sweep
+from perilune.analysis.stability.request.declaration import (
+    Declaration,
+    LoopDeclaration,
+    MarginLimits,
+    NonlinearElement,
+    PointDeclaration,
+    Sweep,
+)
 from perilune.analysis.stability.request.reading import read_declaration
 from perilune.common.errors import InputError
 from tests.support.builders import component, document, pack, system
@@ -27,7 +34,7 @@ def read(*lines):
 def test_nothing_is_declared():
     description = Reader("x.ssd", lambda *_: b"").read(SSD.encode())
     assert read_declaration(description) == Declaration()
-    assert Declaration().limits == Limits(6.0, 30.0, 0.5, 3.0, 20.0)
+    assert Declaration().limits == MarginLimits(6.0, 30.0, 0.5, 3.0, 20.0)
 
 
 def test_all_that_can_be_declared():
@@ -45,7 +52,7 @@ def test_all_that_can_be_declared():
         '<Loop name="thrust" cut="plant.u" direction="plant.v" points="near"/>',
         '<Sweep name="s" loop="one" point="hold" parameter="plant.start" low="-1" high="10"/>',
     )
-    hold = Point(
+    hold = PointDeclaration(
         "hold",
         time=20.0,
         until=4000.0,
@@ -53,16 +60,16 @@ def test_all_that_can_be_declared():
         layer=Layer(use={"jets": "f"}, parameters=("a.ssv", "b.ssv"), set={"plant.start": "2"}),
     )
     elements = (
-        Element("jets", "relay", {"level": 0.06, "dead_zone": 0.02}, Layer(use={"jets": "r"})),
-        Element("steps", "quantiser", {"step": 0.1}),
+        NonlinearElement("jets", "relay", {"level": 0.06, "dead_zone": 0.02}, Layer(use={"jets": "r"})),
+        NonlinearElement("steps", "quantiser", {"step": 0.1}),
     )
-    one = Loop(
+    one = LoopDeclaration(
         "one", "plant.u", ("near", "hold"), returned="plant.position", period=0.5, amplitude=0.01, elements=elements
     )
     assert actual == Declaration(
-        limits=Limits(8.0, 40.0, 0.6, 4.0, 25.0),
-        points=(hold, Point("near", signal="plant.position", falls_to=-10.0)),
-        loops=(one, Loop("thrust", "plant.u", ("near",), direction="plant.v")),
+        limits=MarginLimits(8.0, 40.0, 0.6, 4.0, 25.0),
+        points=(hold, PointDeclaration("near", signal="plant.position", falls_to=-10.0)),
+        loops=(one, LoopDeclaration("thrust", "plant.u", ("near",), direction="plant.v")),
         sweeps=(Sweep("s", "one", "hold", "plant.start", -1.0, 10.0),),
     )
 

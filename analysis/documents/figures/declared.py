@@ -66,7 +66,7 @@ class Arc:
 
 
 @dataclass(frozen=True)
-class Group:
+class GroupDeclaration:
     """Figures under a common heading, its ``title``; a page shows them at once, or folded until they are opened."""
 
     title: str
@@ -74,7 +74,7 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Figure:
+class FigureDeclaration:
     """The ``title`` of a figure, and ``notes`` on signals that are left out since a substituted FMU lacks them.
 
     ``group`` is None for those that stand under the system's name.
@@ -82,11 +82,11 @@ class Figure:
 
     title: str
     notes: tuple[str, ...]
-    group: Group | None = field(default=None, kw_only=True)
+    group: GroupDeclaration | None = field(default=None, kw_only=True)
 
 
 @dataclass(frozen=True)
-class Rows:
+class SampleRange:
     """The samples in which a scalar is from ``low`` to ``high``, in its own unit; None for no limit."""
 
     signal: Signal
@@ -101,17 +101,17 @@ class Rows:
 
 
 @dataclass(frozen=True)
-class Unavailable(Figure):
+class UnavailableFigure(FigureDeclaration):
     """A declared figure that cannot be plotted, since a substituted FMU lacks a signal of it.
 
-    ``has_limits`` is true of `Limits`, which are then not evaluated.
+    ``has_limits`` is true of `LimitsFigure`, which are then not evaluated.
     """
 
     has_limits: bool = False
 
 
 @dataclass(frozen=True)
-class Band(Figure):
+class BandFigure(FigureDeclaration):
     """A signal with a tolerance band from ``low`` to ``high`` in its unit, None for no limit.
 
     ``name`` describes a signal within the band: "settled". ``about`` are the constants that were subtracted, in the
@@ -150,7 +150,7 @@ class Band(Figure):
 
 
 @dataclass(frozen=True)
-class Pulses(Figure):
+class PulsesFigure(FigureDeclaration):
     """Pulses of jets: signed ``lengths`` (s), one for each axis, which start at a sample and act after it.
 
     A change of ``count`` signals new pulses; None: every sample has new pulses. ``remainder`` (s, one for each axis) is
@@ -165,7 +165,7 @@ class Pulses(Figure):
 
 
 @dataclass(frozen=True)
-class Error(Figure):
+class ErrorFigure(FigureDeclaration):
     """An estimate less the truth, with the standard deviation that the estimator states, all in one unit.
 
     Where ``sigma`` is 0 it is not evaluated. Fractions of time within it count from ``after`` (s); None: the start.
@@ -176,11 +176,11 @@ class Error(Figure):
     sigma: Signal | None
     after: float | None
     labels: tuple[str, ...]
-    rows: Rows | None = None
+    rows: SampleRange | None = None
 
 
 @dataclass(frozen=True)
-class Curve(Figure):
+class CurveFigure(FigureDeclaration):
     """Scalars of one unit over time, each in its own panel or all ``together``, with their ``labels``.
 
     ``low`` and ``high`` in their unit are plotted as lines, None for none.
@@ -191,11 +191,11 @@ class Curve(Figure):
     low: float | None
     high: float | None
     together: bool
-    rows: Rows | None
+    rows: SampleRange | None
 
 
 @dataclass(frozen=True)
-class Point:
+class PathPoint:
     """A position given by two scalars, in the units of the path."""
 
     x: Signal
@@ -204,14 +204,14 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Path(Figure):
+class PathFigure(FigureDeclaration):
     """A scalar over another one or an arc; ``equal``: with equal scales. ``points`` are further positions."""
 
     x: Signal | Arc
     y: Signal
     equal: bool
-    points: tuple[Point, ...]
-    rows: Rows | None
+    points: tuple[PathPoint, ...]
+    rows: SampleRange | None
 
 
 LANDING = "landing"
@@ -223,7 +223,7 @@ MEASURES: Mapping[str, Callable[[np.ndarray], float]] = {
 
 
 @dataclass(frozen=True)
-class Phase:
+class SequencerPhase:
     """The name of a sequencer's ``value``.
 
     Phases with the same value follow each other; each but the last ends at the first sample in which its ``until`` is
@@ -236,7 +236,7 @@ class Phase:
 
 
 @dataclass(frozen=True)
-class Phases(Figure):
+class PhasesFigure(FigureDeclaration):
     """The phases given by an Integer ``signal``.
 
     The consumption of a phase is the decrease of ``spent`` over it. ``status`` is an Integer whose first rises are
@@ -245,7 +245,7 @@ class Phases(Figure):
     """
 
     signal: Signal
-    phases: tuple[Phase, ...]
+    phases: tuple[SequencerPhase, ...]
     spent: Signal | None
     status: Signal | None
     status_times: Signal | None
@@ -276,7 +276,7 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class Limits(Figure):
+class LimitsFigure(FigureDeclaration):
     """Limits on final values; with ``when`` only for a run at whose end this scalar is not 0."""
 
     limits: tuple[Limit, ...]
@@ -305,7 +305,7 @@ class BoundValues:
 
 
 @dataclass(frozen=True)
-class Item:
+class BudgetItem:
     """A row of a budget: the consumption of ``phases``, ``plus`` and ``minus`` values of the bound."""
 
     name: str
@@ -315,9 +315,9 @@ class Item:
 
 
 @dataclass(frozen=True)
-class Budget(Figure):
+class BudgetFigure(FigureDeclaration):
     """Consumption item by item; ``of`` are the phases that the items name."""
 
-    of: Phases
-    items: tuple[Item, ...]
+    of: PhasesFigure
+    items: tuple[BudgetItem, ...]
     bound: BoundValues | None

@@ -8,7 +8,7 @@ from lxml import etree
 
 from ...runtime.ssp.conversions import BASE_UNITS, Unit
 from ...runtime.ssp.types import WHOLE
-from .declared import Arc, Band, Curve, Error, Path, Point, Pulses
+from .declared import Arc, BandFigure, CurveFigure, ErrorFigure, PathFigure, PathPoint, PulsesFigure
 from .signal_reader import ROWS, SignalReader
 
 SECOND, METRE = (Unit(unit, tuple(int(name == unit) for name in BASE_UNITS)) for unit in ("s", "m"))
@@ -17,7 +17,7 @@ BAND = ("low", "high", "unit", "about", "less", "shade", "shade_below", "against
 CURVE = ("low", "high", "unit", "together", "labels", "title", *ROWS)
 
 
-def read_band(reader: SignalReader, element: etree._Element) -> Band:
+def read_band(reader: SignalReader, element: etree._Element) -> BandFigure:
     attributes = reader.attributes(element, ("signal",), BAND)
     low, high = reader.limits(element, "low", "high")
     if low is None and high is None:
@@ -28,7 +28,7 @@ def read_band(reader: SignalReader, element: etree._Element) -> Band:
     signal = reader.about(element, signal)
     if ("shade" in attributes) != ("shade_below" in attributes):
         raise reader.refuse(element, "shade and shade_below belong together", "give both, or neither")
-    return Band(
+    return BandFigure(
         title=reader.title(element, signal.label),
         notes=tuple(reader.notes),
         signal=signal,
@@ -44,10 +44,10 @@ def read_band(reader: SignalReader, element: etree._Element) -> Band:
     )
 
 
-def read_pulses(reader: SignalReader, element: etree._Element) -> Pulses:
+def read_pulses(reader: SignalReader, element: etree._Element) -> PulsesFigure:
     reader.attributes(element, ("lengths",), ("count", "remainder", "total", "labels", "title"))
     lengths = reader.signal(element, "lengths", unit=SECOND)
-    return Pulses(
+    return PulsesFigure(
         count=reader.scalar(element, "count", WHOLE) if "count" in element.attrib else None,
         remainder=reader.optional(element, "remainder", lambda name: reader.signal(element, name, like=lengths)),
         total=reader.optional(element, "total", lambda name: reader.scalar(element, name)),
@@ -58,14 +58,14 @@ def read_pulses(reader: SignalReader, element: etree._Element) -> Pulses:
     )
 
 
-def read_error(reader: SignalReader, element: etree._Element) -> Error:
+def read_error(reader: SignalReader, element: etree._Element) -> ErrorFigure:
     reader.attributes(element, ("estimate", "truth"), ("sigma", "after", "labels", "title", *ROWS))
     estimate = reader.signal(element, "estimate")
     truth = reader.signal(element, "truth", like=estimate)
     sigma = reader.optional(element, "sigma", lambda name: reader.signal(element, name, like=estimate))
     if sigma is not None:  # a difference of values has no offset
         sigma = replace(sigma, offsets=(0.0,) * len(sigma.names))
-    return Error(
+    return ErrorFigure(
         estimate=estimate,
         truth=truth,
         sigma=sigma,
@@ -77,7 +77,7 @@ def read_error(reader: SignalReader, element: etree._Element) -> Error:
     )
 
 
-def read_curve(reader: SignalReader, element: etree._Element) -> Curve:
+def read_curve(reader: SignalReader, element: etree._Element) -> CurveFigure:
     attributes = reader.attributes(element, ("signals",), CURVE)
     names = attributes["signals"].split()
     first = reader.find_signal(element, "signals", names[0])
@@ -90,7 +90,7 @@ def read_curve(reader: SignalReader, element: etree._Element) -> Curve:
     if labels and len(labels) != len(signals):
         raise reader.refuse(element, f"labels has {len(labels)} names, signals {len(signals)}", "give as many")
     low, high = reader.limits(element, "low", "high")
-    return Curve(
+    return CurveFigure(
         title=reader.title(element, attributes["signals"]),
         signals=tuple(signals),
         labels=labels or tuple(signal.label for signal in signals),
@@ -102,7 +102,7 @@ def read_curve(reader: SignalReader, element: etree._Element) -> Curve:
     )
 
 
-def read_path(reader: SignalReader, element: etree._Element) -> Path:
+def read_path(reader: SignalReader, element: etree._Element) -> PathFigure:
     attributes = reader.attributes(element, ("y",), ("x", "arc", "radius", "equal", "title", *ROWS))
     if ("x" in attributes) == ("arc" in attributes) or ("arc" in attributes) != ("radius" in attributes):
         raise reader.refuse(element, "it needs either x, or arc and radius", "give one of the two")
@@ -116,8 +116,8 @@ def read_path(reader: SignalReader, element: etree._Element) -> Path:
         if isinstance(x, Arc):
             raise reader.refuse(child, "a Point in a Path with an arc", "leave it out, or give the Path an x")
         name = reader.attributes(child, ("x", "y", "name"))["name"]
-        points.append(Point(reader.scalar(child, "x", like=x), reader.scalar(child, "y", like=y), name))
-    return Path(
+        points.append(PathPoint(reader.scalar(child, "x", like=x), reader.scalar(child, "y", like=y), name))
+    return PathFigure(
         title=reader.title(element, f"{y.label} over {x.label}"),
         x=x,
         y=y,

@@ -9,7 +9,7 @@ from lxml import etree
 
 from ...runtime.ssp.documents import tag
 from ...runtime.system.prepared import PreparedSystem
-from .declared import Figure, Group, Unavailable
+from .declared import FigureDeclaration, GroupDeclaration, UnavailableFigure
 from .history_readers import read_band, read_curve, read_error, read_path, read_pulses
 from .scene.reader import read_scene
 from .signal_reader import MissingSignalError, SignalReader
@@ -19,7 +19,7 @@ ANNOTATION = "org.perilune.report"
 BUDGET, LIMITS = "Budget", "Limits"
 GROUP, FOLDED = "Group", "folded"
 UNGROUPED = (LIMITS, "Scene")  # which have a section by themselves
-READERS: Mapping[str, Callable[[SignalReader, etree._Element], Figure]] = {
+READERS: Mapping[str, Callable[[SignalReader, etree._Element], FigureDeclaration]] = {
     "Band": read_band,
     "Pulses": read_pulses,
     "Error": read_error,
@@ -31,35 +31,38 @@ READERS: Mapping[str, Callable[[SignalReader, etree._Element], Figure]] = {
 }
 
 
-def read_figures(prepared: PreparedSystem) -> list[Figure]:
+def read_figures(prepared: PreparedSystem) -> list[FigureDeclaration]:
     """Read the figures of the SSD in their order. Raises InputError with the line.
 
-    Where an FMU substituted by ``use`` lacks a signal, its figure is `Unavailable`, or leaves an optional signal out.
+    Where an FMU substituted by ``use`` lacks a signal, its figure is an `UnavailableFigure`, or leaves out an optional
+    signal.
     """
     annotation = prepared.network.description.annotations.get(ANNOTATION)
     if annotation is None:
         return []
     reader = SignalReader(prepared)
-    figures: list[Figure] = []
+    figures: list[FigureDeclaration] = []
     for element, group in _elements(reader, reader.content(annotation, "Report")):
         reader.notes = []
         name = tag(element)
         try:
             figure = read_budget(reader, element, figures) if name == BUDGET else READERS[name](reader, element)
         except MissingSignalError as error:
-            figure = Unavailable(reader.title(element, name), (str(error),), name == LIMITS)
+            figure = UnavailableFigure(reader.title(element, name), (str(error),), name == LIMITS)
         figures.append(replace(figure, group=group))
     return figures
 
 
-def _elements(reader: SignalReader, report: etree._Element) -> Iterator[tuple[etree._Element, Group | None]]:
+def _elements(reader: SignalReader, report: etree._Element) -> Iterator[tuple[etree._Element, GroupDeclaration | None]]:
     """Yield the elements of figures in their order, each with its group."""
     reader.parts(report, (*READERS, BUDGET, GROUP))
     for element in report.iterchildren(etree.Element):
         if tag(element) != GROUP:
             yield element, None
             continue
-        group = Group(reader.attributes(element, ("title",), (FOLDED,))["title"], reader.truth(element, FOLDED))
+        group = GroupDeclaration(
+            reader.attributes(element, ("title",), (FOLDED,))["title"], reader.truth(element, FOLDED)
+        )
         if not any(reader.parts(element, [name for name in (*READERS, BUDGET) if name not in UNGROUPED]).values()):
             raise reader.refuse(element, "no figure", "put one or more into it, or drop it")
         yield from ((figure, group) for figure in element.iterchildren(etree.Element))

@@ -15,7 +15,7 @@ from ...runtime.ssp.names import elements, split_name
 from ...runtime.ssp.types import WHOLE
 from ...runtime.system.prepared import PreparedSystem
 from ..common.signals import displayed_name, names_of_elements
-from .declared import Rows, Signal
+from .declared import SampleRange, Signal
 
 NUMBERS = ("Real", *WHOLE)
 ROWS = ("where", "from", "to")
@@ -89,7 +89,7 @@ class SignalReader(AnnotationReader):
             raise self.refuse(element, f"{low} {minimum:g} is not below {high} {maximum:g}", "swap them")
         return minimum, maximum
 
-    def rows(self, element: etree._Element) -> Rows | None:
+    def rows(self, element: etree._Element) -> SampleRange | None:
         """Read the samples of a figure, from the attributes `ROWS`; None for all."""
         if "where" not in element.attrib:
             for name in ROWS[1:]:
@@ -101,7 +101,7 @@ class SignalReader(AnnotationReader):
             raise self.refuse(element, "where without from and to", "give one of them, or both")
         if low is not None and high is not None and low > high:
             raise self.refuse(element, f"from {low:g} is above to {high:g}", "swap them")
-        return Rows(self.scalar(element, "where"), low, high)
+        return SampleRange(self.scalar(element, "where"), low, high)
 
     def labels(self, element: etree._Element, signal: Signal) -> tuple[str, ...]:
         """Return the names of a vector's elements: of the figure or its frame, else indices; empty for a scalar."""

@@ -12,7 +12,18 @@ from ...design.trajectories.stored_bound import MissingBound, find_bound
 from ...runtime.ssp.documents import tag
 from ...runtime.ssp.types import WHOLE
 from ...runtime.system.prepared import PreparedSystem
-from .declared import LANDING, MEASURES, BoundValues, Budget, Figure, Item, Limit, Limits, Phase, Phases
+from .declared import (
+    LANDING,
+    MEASURES,
+    BoundValues,
+    BudgetFigure,
+    BudgetItem,
+    FigureDeclaration,
+    Limit,
+    LimitsFigure,
+    PhasesFigure,
+    SequencerPhase,
+)
 from .history_readers import SECOND
 from .signal_reader import NUMBERS, MissingSignalError, SignalReader
 
@@ -28,13 +39,13 @@ def bound_values(prepared: PreparedSystem) -> BoundValues | None:
     return BoundValues(names, {LANDING: bound.propellant, **bound.pieces})
 
 
-def read_phases(reader: SignalReader, element: etree._Element) -> Phases:
+def read_phases(reader: SignalReader, element: etree._Element) -> PhasesFigure:
     attributes = reader.attributes(element, ("signal",), ("spent", "status", "status_times", "title"))
     if "status" in attributes and "status_times" in attributes:
         raise reader.refuse(element, "status and status_times", "give one of them")
     parts = reader.parts(element, ("Phase", "Meaning"))
     signal = reader.scalar(element, "signal", WHOLE)
-    return Phases(
+    return PhasesFigure(
         title=reader.title(element, signal.label),
         signal=signal,
         phases=_phases(reader, element, parts["Phase"]),
@@ -46,10 +57,12 @@ def read_phases(reader: SignalReader, element: etree._Element) -> Phases:
     )
 
 
-def _phases(reader: SignalReader, element: etree._Element, parts: Sequence[etree._Element]) -> tuple[Phase, ...]:
+def _phases(
+    reader: SignalReader, element: etree._Element, parts: Sequence[etree._Element]
+) -> tuple[SequencerPhase, ...]:
     if not parts:
         raise reader.refuse(element, "no Phase", 'write <Phase value="1" name="..."/>')
-    phases: list[Phase] = []
+    phases: list[SequencerPhase] = []
     open_ended: set[int] = set()  # values that no later Phase can share
     for part in parts:
         name = reader.attributes(part, ("value", "name"), ("until",))["name"]
@@ -63,7 +76,7 @@ def _phases(reader: SignalReader, element: etree._Element, parts: Sequence[etree
             until = reader.scalar(part, "until", (*NUMBERS, "Boolean"))
         else:
             open_ended.add(value)
-        phases.append(Phase(value, name, until))
+        phases.append(SequencerPhase(value, name, until))
     for phase, part in zip(phases, parts, strict=True):
         if phase.value not in open_ended:
             raise reader.refuse(part, f"no Phase of value {phase.value} without until", "add the one that follows")
@@ -81,13 +94,13 @@ def _meanings(reader: SignalReader, parts: Sequence[etree._Element]) -> dict[int
     return meanings
 
 
-def read_limits(reader: SignalReader, element: etree._Element) -> Limits:
+def read_limits(reader: SignalReader, element: etree._Element) -> LimitsFigure:
     reader.attributes(element, (), ("title", "when"))
     parts = reader.parts(element, ("Limit",))["Limit"]
     if not parts:
         raise reader.refuse(element, "no Limit", 'write <Limit signal="..." most="..."/>')
     limits = tuple(_limit(reader, part) for part in parts)
-    return Limits(
+    return LimitsFigure(
         title=reader.title(element, "Limits"),
         limits=limits,
         when=reader.scalar(element, "when", (*NUMBERS, "Boolean")) if "when" in element.attrib else None,
@@ -115,7 +128,7 @@ def _limit(reader: SignalReader, element: etree._Element) -> Limit:
     return Limit(signal, attributes.get("name") or signal.label, minimum, maximum, less, measure)
 
 
-def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[Figure]) -> Budget:
+def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[FigureDeclaration]) -> BudgetFigure:
     """Read a budget of the phases that are declared before it."""
     reader.attributes(element, (), ("title",))
     declared = [item for item in element.itersiblings(preceding=True) if tag(item) == "Phases"]
@@ -123,7 +136,7 @@ def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[
         raise reader.refuse(element, f"{len(declared)} Phases before it", "write one, with the attribute spent")
     if "spent" not in declared[0].attrib:
         raise reader.refuse(element, "the Phases before it have no spent", 'give them spent="..."')
-    phases = [figure for figure in before if isinstance(figure, Phases) and figure.spent is not None]
+    phases = [figure for figure in before if isinstance(figure, PhasesFigure) and figure.spent is not None]
     if not phases:
         raise MissingSignalError("the consumption of phases is not available")
     parts = reader.parts(element, ("Item",))["Item"]
@@ -132,10 +145,12 @@ def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[
     bound = bound_values(reader.prepared)
     names = [phase.name for phase in phases[0].phases]
     items = tuple(_item(reader, part, names, bound) for part in parts)
-    return Budget(title=reader.title(element, "Budget"), of=phases[0], items=items, bound=bound, notes=())
+    return BudgetFigure(title=reader.title(element, "Budget"), of=phases[0], items=items, bound=bound, notes=())
 
 
-def _item(reader: SignalReader, element: etree._Element, phases: Sequence[str], bound: BoundValues | None) -> Item:
+def _item(
+    reader: SignalReader, element: etree._Element, phases: Sequence[str], bound: BoundValues | None
+) -> BudgetItem:
     attributes = reader.attributes(element, ("name",), ("phases", "plus", "minus"))
     named, plus, minus = (reader.words(element, name) for name in ("phases", "plus", "minus"))
     if not named and not plus and not minus:
@@ -150,4 +165,4 @@ def _item(reader: SignalReader, element: etree._Element, phases: Sequence[str], 
             )
         if name not in bound.names:
             raise reader.refuse(element, f"{name}: no such bound", suggestion(name, bound.names))
-    return Item(attributes["name"], named, plus, minus)
+    return BudgetItem(attributes["name"], named, plus, minus)

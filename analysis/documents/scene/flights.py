@@ -13,7 +13,7 @@ import numpy as np
 from ...runtime.flight.results import Flight
 from ..common.colours import COLOURS
 from ..figures.declared import Signal
-from ..figures.scene.declared import Attitude, Body, Position, Scene, Site
+from ..figures.scene.declared import Attitude, Body, Position, SceneFigure, Site
 from .notes import frame_note, size_note
 from .poses import LocalFrame, attitudes, local_frame, positions, signals_of
 from .quaternions import normalise
@@ -38,7 +38,7 @@ class FlightsView:
     notes: list[str]
 
 
-def flights_view(scene: Scene, flights: Sequence[RecordedFlight]) -> FlightsView | None:
+def flights_view(scene: SceneFigure, flights: Sequence[RecordedFlight]) -> FlightsView | None:
     """Return the scene of all flights, or None where they recorded no position of a body.
 
     Flights have samples at times of their own; between these, positions are on straight lines. After its end a flight

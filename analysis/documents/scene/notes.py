@@ -8,10 +8,10 @@ import numpy as np
 
 from ...runtime.flight.results import Result
 from ..common.quantities import display_unit, number
-from ..figures.scene.declared import Arrow, Body, Scene, Thrust, ThrustAxis
+from ..figures.scene.declared import Arrow, Body, SceneFigure, Thrust, ThrustAxis
 
 
-def scene_notes(scene: Scene, result: Result) -> list[str]:
+def scene_notes(scene: SceneFigure, result: Result) -> list[str]:
     """Return the sentences below a view, and those on its omissions."""
     return [
         frame_note(scene),
@@ -24,7 +24,7 @@ def scene_notes(scene: Scene, result: Result) -> list[str]:
     ]
 
 
-def frame_note(scene: Scene) -> str:
+def frame_note(scene: SceneFigure) -> str:
     """Describe the axes of the scene."""
     axes = ", ".join(f"{axis} {name}" if axis != name else axis for axis, name in zip("xyz", scene.axes, strict=True))
     return f"Frame: {scene.frame or 'of the signals'}; {axes}."

@@ -17,7 +17,7 @@ from ..figures.scene.declared import (
     Geographic,
     Position,
     Quaternion,
-    Scene,
+    SceneFigure,
     Site,
     ThrustAxis,
     WindAngles,
@@ -40,13 +40,13 @@ class LocalFrame(NamedTuple):
     radius: float
 
 
-def compute_poses(scene: Scene, flight: Flight) -> list[Pose]:
+def compute_poses(scene: SceneFigure, flight: Flight) -> list[Pose]:
     """Return the pose of each body at each sample, in the scene's frame."""
     frame = local_frame(scene, flight)
     return [Pose(positions(body, flight, frame), attitudes(body, flight, frame)) for body in scene.bodies]
 
 
-def local_frame(scene: Scene, flight: Flight) -> LocalFrame | None:
+def local_frame(scene: SceneFigure, flight: Flight) -> LocalFrame | None:
     """Return the frame at the ground below the first body's last finite sample, or None for Cartesian positions."""
     position = scene.bodies[0].position
     if not isinstance(position, Geographic) or scene.surface is None or scene.surface.radius is None:

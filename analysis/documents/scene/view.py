@@ -27,7 +27,7 @@ from ..figures.scene.declared import (
     Jets,
     Line,
     Panel,
-    Scene,
+    SceneFigure,
     Site,
     Vector,
 )
@@ -174,7 +174,7 @@ class SceneView:
     camera: CameraStart = START
 
 
-def scene_view(scene: Scene, result: Result) -> SceneView | None:
+def scene_view(scene: SceneFigure, result: Result) -> SceneView | None:
     """Return the scene of a flight, or None for one without samples."""
     if not result.time.size:
         return None
@@ -216,7 +216,7 @@ def find_origin(position: np.ndarray) -> np.ndarray:
     return finite[:, -1] if finite.size else np.zeros(3)
 
 
-def ground_view(scene: Scene, position: np.ndarray) -> GroundView | None:
+def ground_view(scene: SceneFigure, position: np.ndarray) -> GroundView | None:
     """Return the ground of a scene below a flight with these positions (m), [3, n], or None where it has none."""
     surface = scene.surface
     if surface is None:

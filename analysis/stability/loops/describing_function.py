@@ -27,7 +27,7 @@ INTEGRAL = "unit of the input times s"
 
 
 @dataclass(frozen=True)
-class Element:
+class ElementKind:
     """One kind of element.
 
     ``gain`` gives N (complex, shape (n,)) for amplitudes (shape (n,), positive) and complete parameters;
@@ -125,8 +125,8 @@ _QUANTISER_LEVELS = 100  # N is within 1e-3 of 1 from there on
 _PULSE_STEPS = 700  # N is within 1e-3 of 1 from there on
 _DEAD_ZONES = 1e4  # N is within 2e-4 of 1 from there on
 
-ELEMENTS: dict[str, Element] = {
-    "relay": Element(
+ELEMENTS: dict[str, ElementKind] = {
+    "relay": ElementKind(
         gain=_relay,
         required={"level": OUTPUT},
         optional={"dead_zone": INPUT, "hysteresis": INPUT},
@@ -137,7 +137,7 @@ ELEMENTS: dict[str, Element] = {
         note="on where the input leaves +-(dead_zone + hysteresis), off where it is back within "
         "+-(dead_zone - hysteresis); without a dead zone it changes over at +-hysteresis",
     ),
-    "dead zone": Element(
+    "dead zone": ElementKind(
         gain=lambda amplitude, parameters: 1.0 - _saturation_function(parameters["dead_zone"], amplitude) + 0j,
         required={"dead_zone": INPUT},
         positive=("dead_zone",),
@@ -145,7 +145,7 @@ ELEMENTS: dict[str, Element] = {
         farthest=lambda parameters: _DEAD_ZONES * parameters["dead_zone"],
         note="0 within +-dead_zone, outside the input less the dead zone (slope 1)",
     ),
-    "saturation": Element(
+    "saturation": ElementKind(
         gain=lambda amplitude, parameters: _saturation_function(parameters["limit"], amplitude) + 0j,
         required={"limit": INPUT},
         positive=("limit",),
@@ -153,7 +153,7 @@ ELEMENTS: dict[str, Element] = {
         output=lambda parameters: parameters["limit"],
         note="the input within +-limit (slope 1), else the limit",
     ),
-    "quantiser": Element(
+    "quantiser": ElementKind(
         gain=_quantiser,
         required={"step": INPUT},
         positive=("step",),
@@ -161,7 +161,7 @@ ELEMENTS: dict[str, Element] = {
         farthest=lambda parameters: _QUANTISER_LEVELS * parameters["step"],
         note="the nearest whole multiple of step",
     ),
-    "carried pulses": Element(
+    "carried pulses": ElementKind(
         gain=_staircase,
         required={"least_pulse": INTEGRAL},
         positive=("least_pulse",),
@@ -171,7 +171,7 @@ ELEMENTS: dict[str, Element] = {
         "integrated over time, and what is fired is a staircase in steps of least_pulse, one behind at the most",
         of_integral=True,
     ),
-    "pulse width": Element(
+    "pulse width": ElementKind(
         gain=_pulse_width,
         required={"level": OUTPUT},
         optional={"dead_zone": INPUT, "gain": RATIO},

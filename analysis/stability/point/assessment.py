@@ -11,7 +11,7 @@ from ..loops.curves import Response, cache_response, dense
 from ..loops.margin_values import Margins, Quantity
 from ..loops.margins import classical, robust
 from ..loops.readings import Classical, Curve, Robust
-from ..request.declaration import Limits
+from ..request.declaration import MarginLimits
 from ..results.requirement import Requirement, Scope, grows
 
 LOWEST = 1e-6  # of the Nyquist frequency: below, a linear model's integrators are not resolved
@@ -80,7 +80,7 @@ def assess(
     return Assessment(curve, crossings, robust(response, low, high, include=include), notes)
 
 
-def requirements(margins: Margins, limits: Limits, outside: Sequence[str] = ()) -> tuple[Requirement, ...]:
+def requirements(margins: Margins, limits: MarginLimits, outside: Sequence[str] = ()) -> tuple[Requirement, ...]:
     """Return the project's limits against one loop; ``outside`` names growing memory that is not in it."""
     if margins.stable is None:
         note = "poles are not known without a linearisation"

@@ -17,7 +17,7 @@ from ...runtime.process.opening import open_simulation
 from ...runtime.ssp.given_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..request.channels import Channel
-from ..request.declaration import Point
+from ..request.declaration import PointDeclaration
 from ..results.requirement import Verdict
 
 LONGEST = 50_000  # communication points of a hyperperiod
@@ -59,7 +59,7 @@ class Bench:
     def __init__(
         self,
         prepared: PreparedSystem,
-        point: Point,
+        point: PointDeclaration,
         channels: Sequence[Channel],
         varied: Sequence[str] = (),
         recorded: Sequence[str] = (),

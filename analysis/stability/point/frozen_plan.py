@@ -5,7 +5,7 @@ from __future__ import annotations
 from ....common.errors import InputError
 from ....fmus_src.roles import FROZEN
 from ...runtime.system.prepared import PreparedSystem
-from ..request.declaration import Point
+from ..request.declaration import PointDeclaration
 from .bench import Bench
 
 SAME = 1e-6  # relative, of a value that is held
@@ -25,7 +25,7 @@ def frozen_outputs(prepared: PreparedSystem) -> dict[str, tuple[str, float]]:
     return frozen
 
 
-def check_frozen_plan(prepared: PreparedSystem, point: Point) -> None:
+def check_frozen_plan(prepared: PreparedSystem, point: PointDeclaration) -> None:
     """Fly to the operating point and refuse a component that does not hold its plan on the way.
 
     Raises InputError, and StudyError where the point is not found.

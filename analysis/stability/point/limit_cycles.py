@@ -16,7 +16,7 @@ from ..loops.describing_function import ELEMENTS, amplitude_range, complete_para
 from ..loops.harmonic_balance import predict
 from ..loops.oscillation import find_oscillation
 from ..request.channels import Channel
-from ..request.declaration import Element
+from ..request.declaration import NonlinearElement
 from ..results.responses import LimitCycle, Nonlinearity
 from .bench import StudyError
 
@@ -26,7 +26,7 @@ FEWEST = 100  # communication points of a flight that could show an oscillation
 
 
 def element_report(
-    element: Element,
+    element: NonlinearElement,
     channel: Channel,
     unit: str | None,
     response: Response,

@@ -13,7 +13,7 @@ from ..loops.curves import Response, interpolate, quotient
 from ..loops.readings import Classical, Curve, Robust, decibels
 from ..loops.refinement import refine
 from ..request.channels import Channel
-from ..request.declaration import Limits
+from ..request.declaration import MarginLimits
 from ..results.report import LoopReport
 from ..results.requirement import Verdict
 from ..results.responses import AmplitudePoint, Measured
@@ -42,7 +42,7 @@ class LoopStudy:
     bench: Bench
     channel: Channel
     model: LoopModel | None
-    limits: Limits
+    limits: MarginLimits
     notes: dict[str, str] = field(default_factory=dict)
     injector: Injector | None = None
     measured: Measured | None = None

@@ -12,7 +12,7 @@ from ..loops.disk import joint_disk_margin
 from ..loops.margin_values import UNSTABLE, Margins, Quantity
 from ..loops.readings import decibel_size, degree_size
 from ..request.channels import Channel, channels_of
-from ..request.declaration import Limits, Loop, Point
+from ..request.declaration import LoopDeclaration, MarginLimits, PointDeclaration
 from ..request.request import Subject
 from ..results.report import JointReport, PointReport
 from ..results.requirement import Requirement, Scope
@@ -31,7 +31,9 @@ TENTH = 0.1  # relative change of L at which the frozen-time linearisation is no
 class PointStudy:
     """The loops of one point. Use as a context manager."""
 
-    def __init__(self, subject: Subject, point: Point, loops: Sequence[Loop], varied: Sequence[str] = ()) -> None:
+    def __init__(
+        self, subject: Subject, point: PointDeclaration, loops: Sequence[LoopDeclaration], varied: Sequence[str] = ()
+    ) -> None:
         self.point, self.loops = point, tuple(loops)
         self.prepared = subject.at(point)
         channels = [
@@ -72,7 +74,7 @@ class PointStudy:
         ports = {port.channel.name: port for port in self.linear.model.ports}
         return [loop_model(self.linear, ports[name]).margins() for name in names]
 
-    def loop_study(self, channel: Channel, limits: Limits) -> LoopStudy:
+    def loop_study(self, channel: Channel, limits: MarginLimits) -> LoopStudy:
         notes = {} if self.linear is not None else {"linearisation": self.why_not}
         return LoopStudy(self.bench, channel, self.model(channel), limits, notes)
 
@@ -118,7 +120,7 @@ class PointStudy:
             worst = max(worst, float(np.max(abs(second[near] / first[near] - 1.0), initial=0.0)))
         return worst
 
-    def joint(self, loop: Loop, limits: Limits) -> JointReport | None:
+    def joint(self, loop: LoopDeclaration, limits: MarginLimits) -> JointReport | None:
         """Report all channels of a loop at once, None where it has one, or no linear model.
 
         Raises StudyError where the margin is not resolved over frequency.

@@ -11,7 +11,7 @@ from ....common.errors import InputError, suggestion
 from ...runtime.ssp.names import elements
 from ...runtime.system.network import Network
 from ...runtime.system.options import STEP_ROUNDING
-from .declaration import Loop
+from .declaration import LoopDeclaration
 
 AXES = ("x", "y", "z")
 Signals = Mapping[str, np.ndarray]
@@ -82,7 +82,7 @@ class Channel:
         return self.injection_for({**signals, **before})
 
 
-def channels_of(loop: Loop, network: Network, step: float) -> list[Channel]:
+def channels_of(loop: LoopDeclaration, network: Network, step: float) -> list[Channel]:
     """Return the channels of a loop in a network with communication step ``step`` (s). Raises InputError."""
     where = f"loop {loop.name}"
     cut = _connectors(network, loop.cut, where)
@@ -117,7 +117,7 @@ def channels_of(loop: Loop, network: Network, step: float) -> list[Channel]:
     return [replace(channel, returned=back) for channel, back in zip(named, returned, strict=True)]
 
 
-def _period(loop: Loop, network: Network, step: float, where: str) -> int:
+def _period(loop: LoopDeclaration, network: Network, step: float, where: str) -> int:
     """Return the sample period in communication points."""
     if loop.period is None:
         return 1

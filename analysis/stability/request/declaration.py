@@ -9,7 +9,7 @@ from ..loops.margin_values import Quantity
 
 
 @dataclass(frozen=True)
-class Limits:
+class MarginLimits:
     """The least margins that pass; gains in dB and phases in deg, as they are agreed and shown."""
 
     gain_margin_db: float = 6.0
@@ -29,7 +29,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Point:
+class PointDeclaration:
     """Operating point of a linearisation: the first communication point at ``time`` (s) or later that fits its rates.
 
     ``signal`` and ``falls_to`` choose instead the first communication point at which a signal is no larger than a
@@ -47,7 +47,7 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Element:
+class NonlinearElement:
     """A nonlinear element at a loop's cut: its describing function's kind and parameters.
 
     ``layer`` changes the operating point for the simulation that a predicted limit cycle is compared with: the FMUs
@@ -61,7 +61,7 @@ class Element:
 
 
 @dataclass(frozen=True)
-class Loop:
+class LoopDeclaration:
     """A loop and where it is cut: ``cut`` is a connector or a vector of connectors, each component a channel.
 
     With ``direction``, a vector of three connectors, the cut is the vector ``cut`` (its size) times ``direction``,
@@ -80,7 +80,7 @@ class Loop:
     returned: str | None = None
     period: float | None = None
     amplitude: float | None = None
-    elements: tuple[Element, ...] = ()
+    elements: tuple[NonlinearElement, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -99,9 +99,9 @@ class Sweep:
 class Declaration:
     """All that a system declares of its stability."""
 
-    limits: Limits = Limits()
-    points: tuple[Point, ...] = ()
-    loops: tuple[Loop, ...] = ()
+    limits: MarginLimits = MarginLimits()
+    points: tuple[PointDeclaration, ...] = ()
+    loops: tuple[LoopDeclaration, ...] = ()
     sweeps: tuple[Sweep, ...] = ()
 
     @property

@@ -12,7 +12,7 @@ from ...runtime.ssp.annotations import AnnotationReader
 from ...runtime.ssp.description import Description
 from ...runtime.system.options import Layer
 from ..loops.describing_function import ELEMENTS, complete_parameters
-from .declaration import Declaration, Element, Limits, Loop, Point, Sweep
+from .declaration import Declaration, LoopDeclaration, MarginLimits, NonlinearElement, PointDeclaration, Sweep
 
 ANNOTATION = "org.perilune.stability"
 LAYER_ELEMENTS = ("Use", "ParameterSet", "Set")
@@ -40,24 +40,24 @@ class _Reader(AnnotationReader):
                     raise self.refuse(elements[position], f"the name {name} is taken", "give it another one")
         return Declaration(self.limits(children["Limits"]), points, loops, sweeps)
 
-    def limits(self, elements: list[etree._Element]) -> Limits:
-        names = [item.name for item in fields(Limits)]
+    def limits(self, elements: list[etree._Element]) -> MarginLimits:
+        names = [item.name for item in fields(MarginLimits)]
         values: dict[str, float | None] = {}
         for element in elements:
             self.attributes(element, (), names)
             values |= {
                 name: self.number(element, name, positive=True) for name in names if element.get(name) is not None
             }
-        return Limits(**values)  # type: ignore[arg-type]
+        return MarginLimits(**values)  # type: ignore[arg-type]
 
-    def point(self, element: etree._Element) -> Point:
+    def point(self, element: etree._Element) -> PointDeclaration:
         values = self.attributes(element, ("name",), ("time", "signal", "falls_to", "until", "phase"))
         if ("signal" in values) != ("falls_to" in values) or ("signal" in values) == ("time" in values):
             raise self.refuse(element, "neither a time nor a signal that falls_to a value, or both", "give one of them")
         time, until = self.number(element, "time"), self.number(element, "until")
         if time is not None and until is not None and until <= time:
             raise self.refuse(element, f"it lasts until {until:g} s but is at {time:g} s", "give a later end")
-        return Point(
+        return PointDeclaration(
             name=values["name"],
             time=time,
             signal=values.get("signal"),
@@ -85,7 +85,7 @@ class _Reader(AnnotationReader):
             values[item[key]] = item[value]
         return values
 
-    def loop(self, element: etree._Element, points: set[str]) -> Loop:
+    def loop(self, element: etree._Element, points: set[str]) -> LoopDeclaration:
         values = self.attributes(
             element,
             ("name", "cut", "points"),
@@ -99,7 +99,7 @@ class _Reader(AnnotationReader):
                 raise self.refuse(element, f"no point {name}", suggestion(name, points))
         if len(set(names)) < len(names):
             raise self.refuse(element, "a point is given twice", "give it once")
-        return Loop(
+        return LoopDeclaration(
             name=values["name"],
             cut=values["cut"],
             points=names,
@@ -112,7 +112,7 @@ class _Reader(AnnotationReader):
             elements=tuple(self.element(item) for item in self.parts(element, ("Element",))["Element"]),
         )
 
-    def element(self, element: etree._Element) -> Element:
+    def element(self, element: etree._Element) -> NonlinearElement:
         name, kind = element.get("name", "").strip(), element.get("kind", "").strip()
         if not name:
             raise self.refuse(element, "no name", 'write name="..."')
@@ -125,9 +125,9 @@ class _Reader(AnnotationReader):
             complete_parameters(kind, values)
         except ValueError as error:
             raise self.refuse(element, str(error), "fix it") from error
-        return Element(name, kind, values, self.layer(self.parts(element, LAYER_ELEMENTS)))
+        return NonlinearElement(name, kind, values, self.layer(self.parts(element, LAYER_ELEMENTS)))
 
-    def sweep(self, element: etree._Element, loops: dict[str, Loop]) -> Sweep:
+    def sweep(self, element: etree._Element, loops: dict[str, LoopDeclaration]) -> Sweep:
         values = self.attributes(element, ("name", "loop", "point", "parameter", "low", "high"))
         loop = loops.get(values["loop"])
         if loop is None or values["point"] not in loop.points:

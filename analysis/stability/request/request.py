@@ -16,7 +16,7 @@ from ...runtime.ssp.reading import read_description
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.options import Layer, SystemOptions
 from ...runtime.system.prepared import PreparedSystem, prepare_system
-from .declaration import Declaration, Loop, Point
+from .declaration import Declaration, LoopDeclaration, PointDeclaration
 from .reading import read_declaration
 
 
@@ -39,13 +39,13 @@ class Request:
     draws: Path | None = None
     at: tuple[float, ...] = ()
 
-    def loops_at(self, point: Point) -> list[Loop]:
+    def loops_at(self, point: PointDeclaration) -> list[LoopDeclaration]:
         return [loop for loop in self.declaration.loops if point.name in loop.points]
 
-    def loop(self, name: str) -> Loop:
+    def loop(self, name: str) -> LoopDeclaration:
         return next(loop for loop in self.declaration.loops if loop.name == name)
 
-    def point(self, name: str) -> Point:
+    def point(self, name: str) -> PointDeclaration:
         return next(point for point in self.declaration.points if point.name == name)
 
 
@@ -103,13 +103,13 @@ def _select(description: Description, names: Sequence[str], at: Sequence[float],
     if not names and not declared.loops:
         remedy = "name a loop in the SSD, or cut one with `loops` COMPONENT.CONNECTOR `at`"
         raise InputError(description.file, "", "declares no loops", remedy)
-    cuts = [Point(f"t = {time:g} s", time=time) for time in at or (0.0,)]
-    wanted: list[Loop] = []
+    cuts = [PointDeclaration(f"t = {time:g} s", time=time) for time in at or (0.0,)]
+    wanted: list[LoopDeclaration] = []
     for name in dict.fromkeys(names or by_name):
         if name not in by_name and "." not in name:
             remedy = f"{suggestion(name, by_name)}, or cut one" if by_name else "it names none; cut one"
             raise InputError("`loops`", name, "the SSD names no such loop", f"{remedy} with COMPONENT.CONNECTOR")
-        wanted.append(by_name.get(name) or Loop(name, cut=name, points=tuple(point.name for point in cuts)))
+        wanted.append(by_name.get(name) or LoopDeclaration(name, cut=name, points=tuple(point.name for point in cuts)))
     points, sweeps = (*declared.points, *cuts), declared.sweeps
     if at:
         requested = {name for loop in wanted for name in loop.points}
@@ -140,7 +140,7 @@ def _remaining(layer: Layer, options: SystemOptions) -> Layer:
     return replace(layer, use=use, set=values)
 
 
-def _shift(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
+def _shift(points: Sequence[PointDeclaration], at: Sequence[float]) -> list[PointDeclaration]:
     """Return points with the settings of declared ones at other times. Raises InputError where one is after their
     end."""
     shifted = []
@@ -185,7 +185,7 @@ class Subject:
         options = self.options.among(**layers)
         return replace(self, options=options if step is None else options.but(step=step))
 
-    def at(self, point: Point, study: Layer | None = None) -> PreparedSystem:
+    def at(self, point: PointDeclaration, study: Layer | None = None) -> PreparedSystem:
         """Prepare the system at a point, with ``study`` over all other layers. Raises InputError."""
         options = self.options.among(operating_point=point.layer, study=study or Layer())
         return prepare_system(self.system, options, self.fmus)

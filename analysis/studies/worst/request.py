@@ -11,7 +11,7 @@ from ...campaigns.definition.plan import BatchPlan
 from ...runtime.system.options import SystemOptions
 from ...stability.dispersion import vary
 from ...stability.point.point_study import PointStudy
-from ...stability.request.declaration import Loop, Point
+from ...stability.request.declaration import LoopDeclaration, PointDeclaration
 from ...stability.request.request import Request, Subject, read_request
 
 OF_A_LOOP = ("margin", "point", "at")
@@ -30,8 +30,8 @@ class MarginAsked:
     """A loop at an operating point of a study that has a campaign; small enough to be sent to every worker."""
 
     request: Request
-    loop: Loop
-    point: Point
+    loop: LoopDeclaration
+    point: PointDeclaration
 
     @property
     def plan(self) -> BatchPlan:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from ....common.paths import SYSTEMS
 from ....fmus_src.roles import FINISHED
-from ...documents.figures.declared import Figure, Limits, Unavailable
+from ...documents.figures.declared import FigureDeclaration, LimitsFigure, UnavailableFigure
 from ...documents.of.simulation.figures.limits import Verdict, evaluate, limit_lines
 from ...runtime.flight.results import Flight, Result, status_lines
 from ...runtime.system.prepared import PreparedSystem
@@ -22,18 +22,18 @@ REMEDIES = {
 }
 
 
-def flight_lines(prepared: PreparedSystem, figures: Sequence[Figure], result: Result) -> list[str]:
+def flight_lines(prepared: PreparedSystem, figures: Sequence[FigureDeclaration], result: Result) -> list[str]:
     """Return the end of a flight: status, limits, statuses of components."""
     lines = [f"{prepared.archive.name}: {result.ending}"]
     for figure in figures:
-        if isinstance(figure, Limits):
+        if isinstance(figure, LimitsFigure):
             lines += limit_lines(figure, result)
-        elif isinstance(figure, Unavailable) and figure.has_limits:
+        elif isinstance(figure, UnavailableFigure) and figure.has_limits:
             lines += [f"{figure.title}: {Verdict.NOT_EVALUATED}, {note}" for note in figure.notes]
     return [*lines, *status_lines(prepared.network, result)]
 
 
-def flight_problems(prepared: PreparedSystem, figures: Sequence[Figure], result: Result) -> list[str]:
+def flight_problems(prepared: PreparedSystem, figures: Sequence[FigureDeclaration], result: Result) -> list[str]:
     """Return a line for each reason why a flight did not complete, or violates a limit of its SSD."""
     file, lines = prepared.network.file, []
     if not result.complete:
@@ -42,7 +42,7 @@ def flight_problems(prepared: PreparedSystem, figures: Sequence[Figure], result:
     elif _is_cut_off(prepared, result):
         lines.append(f"{FINISHED} was never true until the stop time, {result.time[-1]:g} s; give `stop_time`")
     for figure in figures if result.complete else ():
-        if isinstance(figure, Limits):
+        if isinstance(figure, LimitsFigure):
             named = {
                 verdict: [limit.name for limit, each in evaluate(figure, result) if each is verdict]
                 for verdict in Verdict
@@ -52,7 +52,7 @@ def flight_problems(prepared: PreparedSystem, figures: Sequence[Figure], result:
             if named[Verdict.NOT_EVALUATED]:
                 names = ", ".join(named[Verdict.NOT_EVALUATED])
                 lines.append(f"limits not evaluated: {names}: {figure.obstacle(result)}")
-        elif isinstance(figure, Unavailable) and figure.has_limits:
+        elif isinstance(figure, UnavailableFigure) and figure.has_limits:
             lines += [f"limits not evaluated: {note}" for note in figure.notes]
     return [f"{file}: {line}" for line in lines]
 

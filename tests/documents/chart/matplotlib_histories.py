@@ -11,7 +11,7 @@ from perilune.analysis.documents.common.colours import FAINT, GREEN, INK, ORANGE
 from perilune.analysis.documents.common.panels import HALF_WIDTH
 from perilune.analysis.documents.common.quantities import display_factor, display_unit
 from perilune.analysis.documents.common.style import WIDTH, house_style, new_figure, plain_ticks
-from perilune.analysis.documents.figures.declared import Band, Curve, Error
+from perilune.analysis.documents.figures.declared import BandFigure, CurveFigure, ErrorFigure
 from perilune.analysis.documents.interactive.charts import Chart
 from perilune.analysis.documents.of.simulation.figures import band_figure, history_figures
 from perilune.analysis.documents.of.simulation.figures.section import HEIGHT, select_rows
@@ -33,7 +33,7 @@ def _read(unit: str, time: np.ndarray, draw: Callable[[Axes], None], width: floa
     return chart
 
 
-def error_charts(error: Error, run: Result) -> list[Chart]:
+def error_charts(error: ErrorFigure, run: Result) -> list[Chart]:
     """Return the panels of an error, as `history_figures` orders them."""
     chosen, rows = select_rows(error.rows, run)
     time = run.time[rows]
@@ -61,7 +61,7 @@ def error_charts(error: Error, run: Result) -> list[Chart]:
     return charts
 
 
-def curve_charts(curve: Curve, run: Result) -> list[Chart]:
+def curve_charts(curve: CurveFigure, run: Result) -> list[Chart]:
     """Return the plot of curves as wide as the page, or their panels."""
     chosen, rows = select_rows(curve.rows, run)
     time = run.time[rows]
@@ -84,7 +84,7 @@ def curve_charts(curve: Curve, run: Result) -> list[Chart]:
     ]
 
 
-def band_charts(band: Band, run: Result) -> list[Chart]:
+def band_charts(band: BandFigure, run: Result) -> list[Chart]:
     """Return the whole history of a band and its zoom."""
     time, name = run.time, band.signal.unit_name
     factor = display_factor(name)

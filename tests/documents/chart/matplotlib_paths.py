@@ -11,7 +11,7 @@ from perilune.analysis.documents.common.colours import BLUE, FAINT, GREEN, look
 from perilune.analysis.documents.common.panels import far
 from perilune.analysis.documents.common.quantities import display_factor, label_with_unit
 from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
-from perilune.analysis.documents.figures.declared import Band, Path, Signal
+from perilune.analysis.documents.figures.declared import BandFigure, PathFigure, Signal
 from perilune.analysis.documents.interactive.charts import Chart
 from perilune.analysis.documents.of.simulation.figures.section import select_rows
 from perilune.analysis.runtime.flight.results import Result
@@ -27,7 +27,7 @@ def _read(draw: Callable[[Axes], None], height: float, width: float) -> Chart:
     return chart
 
 
-def path_chart(path: Path, run: Result, height: float, width: float, intervals: int) -> Chart:
+def path_chart(path: PathFigure, run: Result, height: float, width: float, intervals: int) -> Chart:
     """Return a path of scalars in m whose axes have separate scales."""
     chosen, rows = select_rows(path.rows, run)
 
@@ -56,7 +56,7 @@ def path_chart(path: Path, run: Result, height: float, width: float, intervals: 
     return _read(draw, height, width)
 
 
-def against_chart(band: Band, run: Result, other: Signal, height: float, width: float) -> Chart:
+def against_chart(band: BandFigure, run: Result, other: Signal, height: float, width: float) -> Chart:
     """Return a band over another signal that spans no decades."""
 
     def draw(axes: Axes) -> None:

@@ -10,7 +10,7 @@ from dataclasses import replace
 import pytest
 
 import perilune
-from perilune.analysis.documents.figures.declared import Band, Curve, Error
+from perilune.analysis.documents.figures.declared import BandFigure, CurveFigure, ErrorFigure
 from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
@@ -20,7 +20,7 @@ from tests.support.documents.subsections import figure_sections
 from tests.support.lengths import either
 
 SYSTEMS = ("satellite_pointing", "orbital_attitude", "hover_transfer", "entry_attitude", "landing_mission")
-BY_MATPLOTLIB = {Error: error_charts, Curve: curve_charts, Band: band_charts}
+BY_MATPLOTLIB = {ErrorFigure: error_charts, CurveFigure: curve_charts, BandFigure: band_charts}
 
 
 @pytest.mark.usefixtures("fmus")
@@ -35,4 +35,4 @@ def test_constructed_equals_read_back(system):
         for picture, expected in zip(plotted[: len(expected_charts)], expected_charts, strict=True):
             (chart,) = picture.charts
             assert plain(replace(chart, title="")) == plain(expected), figure.title
-        assert len(plotted) == len(expected_charts) + (len(figure.against) if isinstance(figure, Band) else 0)
+        assert len(plotted) == len(expected_charts) + (len(figure.against) if isinstance(figure, BandFigure) else 0)

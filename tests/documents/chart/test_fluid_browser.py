@@ -12,7 +12,7 @@ import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 
-from perilune.analysis.documents.figures.declared import Curve
+from perilune.analysis.documents.figures.declared import CurveFigure
 from tests.support.documents.run_page import write_run_report
 from tests.support.pages.driven import driven, scroll_to_plot
 from tests.support.pages.own_samples import TIME, flown, scalar
@@ -66,7 +66,8 @@ def are_apart(one, other):
 def test_the_cursor_over_a_figure_that_remains_a_picture(browser, tmp_path):
     """Its numbers have more digits than a page; the cursor is where the other figure has it."""
     curves = [
-        Curve(title, (), (scalar(f"ship.{title}"),), (title,), None, None, True, None) for title in ("level", "height")
+        CurveFigure(title, (), (scalar(f"ship.{title}"),), (title,), None, None, True, None)
+        for title in ("level", "height")
     ]
     run = flown(level=1e9 + np.sin(TIME), height=np.sin(TIME))
     write_run_report(run, tmp_path / "page.html", "Two", curves)

@@ -11,7 +11,13 @@ from dataclasses import replace
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.documents.figures.declared import Band, Error, Group, Pulses, Unavailable
+from perilune.analysis.documents.figures.declared import (
+    BandFigure,
+    ErrorFigure,
+    GroupDeclaration,
+    PulsesFigure,
+    UnavailableFigure,
+)
 from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.runtime.flight.program import layout_of
 from perilune.analysis.runtime.flight.simulation import Simulation
@@ -76,20 +82,20 @@ def test_all_that_can_be_asked_for(folder, loaded):
         '<Error estimate="observer.estimated_angles[2]" truth="plant.angles[2]" sigma="observer.yaw_sigma"'
         ' after="60"/>',
     )
-    assert isinstance(angles, Band)
+    assert isinstance(angles, BandFigure)
     assert (angles.title, angles.name, angles.labels) == ("plant.angles", "settled", ("roll", "yaw", "pitch"))
     assert angles.signal.names == ("plant.angles[1]", "plant.angles[2]", "plant.angles[3]")
     assert angles.signal.factor == pytest.approx(1.0 / DEGREE, rel=1e-15)
     assert (angles.low, angles.high, angles.signal.unit_name, angles.about) == (-0.5, 0.5, "deg", ())
-    assert isinstance(rates, Band)
+    assert isinstance(rates, BandFigure)
     assert (rates.title, rates.name, rates.labels) == ("Rates", "within the band", ("[1]", "[2]", "[3]"))
     assert (rates.low, rates.high, rates.signal.unit_name) == (None, 0.05, "rad/s")
     assert rates.about == (0.0, 0.0, -0.0011)
     assert rates.signal.offsets == (0.0, 0.0, 0.0011)
-    assert isinstance(pulses, Pulses)
+    assert isinstance(pulses, PulsesFigure)
     assert pulses.count.names == ("pulses.pulse_count",)
     assert (len(pulses.remainder.names), pulses.total.label, pulses.labels) == (3, "plant.jet_seconds", ("x", "y", "z"))
-    assert isinstance(error, Error)
+    assert isinstance(error, ErrorFigure)
     assert error.title == "observer.estimated_angles[2] less plant.angles[2]"
     assert (error.sigma.names, error.after, error.labels) == (("observer.yaw_sigma",), 60.0, ("",))
     assert not any(figure.notes for figure in (angles, rates, pulses, error))
@@ -196,7 +202,7 @@ def test_a_group_has_figures_alone(folder, loaded, inside):
 def test_figures_have_the_group_that_they_are_in(folder, loaded):
     inside = f'{BAND}<Group title=" Errors " folded="true">{BAND}{BAND}</Group><Group title="x">{BAND}</Group>{BAND}'
     _, figures = read(folder, loaded, inside)
-    errors, open_one = Group("Errors", is_folded=True), Group("x", is_folded=False)
+    errors, open_one = GroupDeclaration("Errors", is_folded=True), GroupDeclaration("x", is_folded=False)
     assert [figure.group for figure in figures] == [None, errors, errors, open_one, None]
     assert {replace(figure, group=None) for figure in figures} == {figures[0]}
 
@@ -263,11 +269,11 @@ def test_what_an_fmu_that_is_put_in_lacks_is_said_and_not_refused(tmp_path, tiny
     with pytest.raises(InputError, match=r"Pulses \(line \d+\): lengths ramp\.y: its unit is m, required is s"):
         swapped(tmp_path, tiny, inside, {"body": "ramp"})
     attitude, error, pulses = swapped(tmp_path, tiny, inside, {"body": "whole", "ramp": "gain"})
-    assert attitude == Unavailable("Attitude", ("signal body.y: no such signal, with whole as body",))
-    assert isinstance(error, Error)
+    assert attitude == UnavailableFigure("Attitude", ("signal body.y: no such signal, with whole as body",))
+    assert isinstance(error, ErrorFigure)
     assert error.sigma is None
     assert error.notes == ("Left out: sigma body.y: no such signal, with whole as body.",)
-    assert pulses == Unavailable("Pulses", ("lengths ramp.y: its unit is m, required is s, with gain as ramp",))
+    assert pulses == UnavailableFigure("Pulses", ("lengths ramp.y: its unit is m, required is s, with gain as ramp",))
 
 
 def test_units_with_factor_and_offset(tmp_path, tiny):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.documents.figures.declared import Budget, Limits, Phases
+from perilune.analysis.documents.figures.declared import BudgetFigure, LimitsFigure, PhasesFigure
 from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.documents.of.simulation.figures.limits import is_met
 from perilune.analysis.documents.of.simulation.figures.phase_figure import (
@@ -41,7 +41,7 @@ def one(figures, kind):
 
 
 def test_phases_are_those_that_the_sequencer_tells(figures, result):
-    phases = one(figures, Phases)
+    phases = one(figures, PhasesFigure)
     spans = spans_of(phases, result)
     named = {phase.name: phase.value for phase in phases.phases}
     assert [span.name for span in spans] == list(named)[2:]
@@ -58,7 +58,7 @@ def test_phases_are_those_that_the_sequencer_tells(figures, result):
 
 def test_the_budget_is_what_was_flown_over_its_bound(figures, result):
     """The pieces' bounds cancel, so that the items together are what all phases from the braking on used up."""
-    budget = one(figures, Budget)
+    budget = one(figures, BudgetFigure)
     spent = consumption_by_phase(budget, result)
     amounts = [amount(item, spent, budget.bound) for item in budget.items]
     mass = result["plant.mass"]
@@ -70,7 +70,7 @@ def test_the_budget_is_what_was_flown_over_its_bound(figures, result):
 
 
 def test_limits_are_kept_where_the_monitor_says_so(figures, result):
-    limits = one(figures, Limits)
+    limits = one(figures, LimitsFigure)
     assert result.final()["touchdown.within_limits"]
     assert all(is_met(limit, result) for limit in limits.limits)
     hard = perilune.simulate("landing_mission", parameters=["start_9.ssv"], set={"plant.initial_velocity[3]": -6.0})

@@ -12,7 +12,7 @@ import pytest
 from lxml import etree, html
 
 import perilune
-from perilune.analysis.documents.figures.declared import Pulses, Signal, Unavailable
+from perilune.analysis.documents.figures.declared import PulsesFigure, Signal, UnavailableFigure
 from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.documents.run_page import write_run_report
@@ -104,7 +104,7 @@ def test_a_page_without_figures_has_no_such_section(tmp_path):
 
 
 def test_they_are_on_the_page_above_the_time_histories(tmp_path):
-    figures = (ANGLES, PULSES, ERROR, Unavailable("Jets & more", ("lengths: no such signal",)))
+    figures = (ANGLES, PULSES, ERROR, UnavailableFigure("Jets & more", ("lengths: no such signal",)))
     page = page_of(flown(angles=angles(), **pulses(), **errors()), tmp_path, *figures)
     assert_self_contained(page)
     headings = [part.text for part in parse(page).xpath("//h2 | //h3")]
@@ -212,7 +212,7 @@ def test_many_pulses_stay_small():
     signal = vector("ship.lengths", 3, SECOND)
     signals = dict(zip(signal.names, lengths, strict=True))
     result = replace(run_result(), time=0.2 * np.arange(rows), signals=signals)
-    actual = one(Pulses("Jets", (), signal, None, None, None, ("x", "y", "z")), result)
+    actual = one(PulsesFigure("Jets", (), signal, None, None, None, ("x", "y", "z")), result)
     assert count_of(actual) == 3 * (rows - 1)
     assert sum(len(panel.figure.svg) for panel in actual.panels) < 20 * 3 * rows  # a bar is two points of few letters
 

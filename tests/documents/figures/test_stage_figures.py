@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from lxml import etree, html
 
-from perilune.analysis.documents.figures.declared import Arc, BoundValues, Rows
+from perilune.analysis.documents.figures.declared import Arc, BoundValues, SampleRange
 from perilune.analysis.documents.of.simulation.figures.limits import limit_entries, limit_lines
 from perilune.analysis.documents.of.simulation.figures.phase_figure import spans_of, statuses_of
 from perilune.analysis.documents.of.simulation.figures.section import align
@@ -297,7 +297,7 @@ def test_curves_each_and_together():
 
 @pytest.mark.parametrize("figure", [PATH, CURVE, replace(ERROR, rows=WHERE)])
 def test_where_nothing_was_flown(figure):
-    section = one(replace(figure, rows=Rows(scalar("ship.phase"), 8.0, 9.0)), mission())
+    section = one(replace(figure, rows=SampleRange(scalar("ship.phase"), 8.0, 9.0)), mission())
     assert notes(section) == ["Not plotted: no sample where ship.phase is 8 to 9."]
     assert section.plot is None
     assert section.panels == []

@@ -16,13 +16,13 @@ from perilune.analysis.documents.figures import stage_readers
 from perilune.analysis.documents.figures.declared import (
     Arc,
     BoundValues,
-    Budget,
-    Curve,
-    Item,
-    Limits,
-    Path,
-    Phases,
-    Unavailable,
+    BudgetFigure,
+    BudgetItem,
+    CurveFigure,
+    LimitsFigure,
+    PathFigure,
+    PhasesFigure,
+    UnavailableFigure,
 )
 from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.runtime.system.options import SystemOptions
@@ -62,7 +62,7 @@ def read(folder, loaded, inside):
 def test_phases_and_limits(folder, loaded):
     limits = '<Limits title="End"><Limit signal="plant.angles[2]" least="-1" most="2" unit="deg" name="yaw"/></Limits>'
     phases, actual = read(folder, loaded, f"{PHASES}\n{limits}")
-    assert isinstance(phases, Phases)
+    assert isinstance(phases, PhasesFigure)
     assert [(phase.value, phase.name) for phase in phases.phases] == [(1, "first"), (1, "then this"), (3, "last")]
     assert [phase.until and phase.until.label for phase in phases.phases] == ["observer.yaw_sigma", None, None]
     assert (phases.title, phases.spent.label, phases.spent.unit_name) == ("plant.status", "plant.jet_seconds", "s")
@@ -71,7 +71,7 @@ def test_phases_and_limits(folder, loaded):
         None,
         {2: "it is late"},
     )
-    assert isinstance(actual, Limits)
+    assert isinstance(actual, LimitsFigure)
     (limit,) = actual.limits
     assert (limit.name, limit.least, limit.most, limit.signal.unit_name) == ("yaw", -1.0, 2.0, "deg")
     assert limit.signal.factor == pytest.approx(180.0 / math.pi, rel=1e-15)
@@ -112,13 +112,13 @@ def test_paths_and_curves(folder, loaded):
         '<Curve title="All" signals="plant.angles[1] plant.angles[3]" labels="roll pitch" together="true" unit="deg"'
         ' high="3" where="plant.status" to="2"/>\n<Curve signals="plant.jet_seconds"/>',
     )
-    assert isinstance(path, Path)
+    assert isinstance(path, PathFigure)
     assert (path.title, path.equal, path.x.label) == ("plant.angles[2] over plant.angles[1]", True, "plant.angles[1]")
     assert (path.rows.signal.label, path.rows.low, path.rows.high) == ("plant.status", 1.0, 3.0)
     assert [(point.x.label, point.y.label, point.name) for point in path.points] == [
         ("plant.angles[2]", "plant.angles[3]", "goal")
     ]
-    assert isinstance(curve, Curve)
+    assert isinstance(curve, CurveFigure)
     assert ([signal.unit_name for signal in curve.signals], curve.labels) == (["deg", "deg"], ("roll", "pitch"))
     assert (curve.low, curve.high, curve.together, curve.rows.low, curve.rows.high) == (None, 3.0, True, None, 2.0)
     assert (bare.title, bare.labels, bare.together, bare.rows) == (
@@ -130,7 +130,7 @@ def test_paths_and_curves(folder, loaded):
 
 
 def test_an_arc_takes_its_radius_from_a_parameter():
-    arcs = [figure.x for figure in read_figures(prepare_system("landing_mission")) if isinstance(figure, Path)]
+    arcs = [figure.x for figure in read_figures(prepare_system("landing_mission")) if isinstance(figure, PathFigure)]
     assert [(arc.position.label, arc.radius) for arc in arcs if isinstance(arc, Arc)] == [
         ("plant.position", 1737400.0)
     ] * 2
@@ -166,11 +166,11 @@ def keep(monkeypatch, bound):
 def test_a_budget_takes_the_bound_that_the_system_keeps(folder, loaded, monkeypatch, bound, values):
     keep(monkeypatch, bound)
     phases, budget = read(folder, loaded, f"{PHASES}\n{BUDGET}")
-    assert isinstance(budget, Budget)
+    assert isinstance(budget, BudgetFigure)
     assert (budget.title, budget.of, budget.bound) == ("Spent", phases, values)
     first, second = budget.items
-    assert first == Item("a", ("first", "then this"), ("landing", "transfer"), ())
-    assert second == Item("b", (), (), ("landing",))
+    assert first == BudgetItem("a", ("first", "then this"), ("landing", "transfer"), ())
+    assert second == BudgetItem("b", (), (), ("landing",))
 
 
 ONE = '<Phase value="1" name="a"/>'
@@ -329,13 +329,13 @@ def test_what_an_fmu_that_is_put_in_lacks_is_said(tiny_folder, tmp_path):
         options = SystemOptions(use={slot: str(tiny / f"{name}.fmu") for slot, name in use.items()})
         return read_figures(prepare_system(path, options))
 
-    assert [type(figure) for figure in figures("ramp.y", {})] == [Phases, Budget]
+    assert [type(figure) for figure in figures("ramp.y", {})] == [PhasesFigure, BudgetFigure]
     phases, budget = figures("ramp.y", {"ramp": "gain"})
-    assert phases == Unavailable("Steps", ("signal ramp.count: no such signal, with gain as ramp",))
-    assert budget == Unavailable("Budget", ("the consumption of phases is not available",))
+    assert phases == UnavailableFigure("Steps", ("signal ramp.count: no such signal, with gain as ramp",))
+    assert budget == UnavailableFigure("Budget", ("the consumption of phases is not available",))
     phases, budget = figures("body.y", {"body": "whole"})
     assert phases.notes == ("Left out: spent body.y: no such signal, with whole as body.",)
-    assert budget == Unavailable("Budget", ("the consumption of phases is not available",))
+    assert budget == UnavailableFigure("Budget", ("the consumption of phases is not available",))
 
 
 def test_limits_that_an_event_has_to_happen_for(folder, loaded):
@@ -368,8 +368,10 @@ def test_limits_of_an_fmu_that_is_put_in_and_lacks_them_are_not_evaluated(tiny_f
 def test_ours_is_valid_and_its_bound_is_kept(capsys):
     assert main(["validate", "landing_mission"]) == 0
     assert capsys.readouterr().out == "landing_mission: OK\n"  # no note: the bound that it keeps is that of its values
-    (budget,) = (figure for figure in read_figures(prepare_system("landing_mission")) if isinstance(figure, Budget))
+    (budget,) = (
+        figure for figure in read_figures(prepare_system("landing_mission")) if isinstance(figure, BudgetFigure)
+    )
     assert set(budget.bound.names) == set(budget.bound.values) == {"landing", "braking", "transfer", "approach"}
     other = prepare_system("landing_mission", SystemOptions(set={"sequencer.redesignation_1[1]": 0.0}))
-    (budget,) = (figure for figure in read_figures(other) if isinstance(figure, Budget))
+    (budget,) = (figure for figure in read_figures(other) if isinstance(figure, BudgetFigure))
     assert "was made for another transfer.aside" in budget.bound.missing

@@ -8,7 +8,7 @@ import shutil
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.documents.figures.declared import Unavailable
+from perilune.analysis.documents.figures.declared import UnavailableFigure
 from perilune.analysis.documents.figures.reading import read_figures
 from perilune.analysis.documents.figures.scene.declared import (
     Angles,
@@ -17,7 +17,7 @@ from perilune.analysis.documents.figures.scene.declared import (
     Line,
     Panel,
     Quaternion,
-    Scene,
+    SceneFigure,
     ThrustAxis,
     WindAngles,
 )
@@ -88,7 +88,7 @@ def test_all_that_can_be_declared(read):
             more='title="Meeting" frame="inertial" axes="east north up"',
         )
     )
-    assert isinstance(whole, Scene)
+    assert isinstance(whole, SceneFigure)
     assert (whole.title, whole.frame, whole.axes, whole.up) == ("Meeting", "inertial", ("east", "north", "up"), "z")
     assert whole.surface.radius is None
     first, second = whole.bodies
@@ -328,12 +328,12 @@ def test_what_an_fmu_that_is_put_in_lacks_is_said_and_not_refused(tmp_path, tiny
         return read_figures(prepare_system(path, options))
 
     (whole,) = figures()
-    assert isinstance(whole, Scene)
+    assert isinstance(whole, SceneFigure)
     (less,) = figures(ramp="angle")
-    assert isinstance(less, Scene)
+    assert isinstance(less, SceneFigure)
     assert (less.bodies[0].name, less.lines) == ("it", ())
     assert less.notes == ("Left out: while ramp.count: no such signal, with angle as ramp.",)
     inside = scene(body('angles="hull.count" sequence="z"'), more='title="Meeting"')
     path = pack(tmp_path / "t.ssp", tiny_folder / "native", with_report(document(elements), inside))
     (gone,) = figures(hull="angle")
-    assert gone == Unavailable("Meeting", ("angles hull.count: no such signal, with angle as hull",))
+    assert gone == UnavailableFigure("Meeting", ("angles hull.count: no such signal, with angle as hull",))

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import perilune
-from perilune.analysis.documents.figures.scene.declared import Cartesian, Scene
+from perilune.analysis.documents.figures.scene.declared import Cartesian, SceneFigure
 from perilune.analysis.documents.scene.notes import scene_notes
 from perilune.analysis.documents.scene.view import remaining_pulses, scene_view
 from perilune.fmus_src.mathlib.actuators.jets import jet_strength, jet_wrench
@@ -40,7 +40,7 @@ def flights(fmus):
     def flight_of(name):
         if name not in made:
             result = perilune.simulate(name)
-            (declared,) = (figure for figure in result.figures if isinstance(figure, Scene))
+            (declared,) = (figure for figure in result.figures if isinstance(figure, SceneFigure))
             made[name] = (result, declared, embed("scene", "scene", scene_view(declared, result)))
         return made[name]
 
@@ -114,7 +114,7 @@ def test_the_capsules_wind_angles(flights):
 def test_arrows_of_an_earth_satellite(fmus):
     """The field that the environment states in body axes lies along the one that it states in inertial axes."""
     flight = perilune.simulate("earth_pointing", stop_time=100.0)
-    (declared,) = (figure for figure in flight.figures if isinstance(figure, Scene))
+    (declared,) = (figure for figure in flight.figures if isinstance(figure, SceneFigure))
     sun, field = scene_view(declared, flight).arrows
     rows = instants(flight.time.size)
     for arrow, name in ((sun, "sun_direction"), (field, "magnetic_field")):

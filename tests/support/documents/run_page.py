@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from perilune.analysis.documents.diagram.diagram import Diagram
-from perilune.analysis.documents.figures.declared import Figure
+from perilune.analysis.documents.figures.declared import FigureDeclaration
 from perilune.analysis.documents.of.simulation.run import RunContext, run_document
 from perilune.analysis.documents.render.html import write_document
 from perilune.analysis.runtime.flight.results import Result
@@ -14,7 +14,7 @@ def write_run_report(
     result: Result,
     path: Path,
     title: str,
-    figures: Sequence[Figure] = (),
+    figures: Sequence[FigureDeclaration] = (),
     diagram: Diagram | None = None,
     command: str = "",
 ) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from markupsafe import Markup
 
 from perilune.analysis.documents.common.panels import Panel
-from perilune.analysis.documents.figures.declared import Figure
+from perilune.analysis.documents.figures.declared import FigureDeclaration
 from perilune.analysis.documents.interactive.charts import Drawing
 from perilune.analysis.documents.model import Group, Note, Table, Text
 from perilune.analysis.documents.of.simulation import histories, trajectory
@@ -59,12 +59,12 @@ def read_subsection(subsection: Group) -> ReadSubsection:
     return read
 
 
-def figure_sections(figures: Sequence[Figure], result: Result) -> list[ReadSubsection]:
+def figure_sections(figures: Sequence[FigureDeclaration], result: Result) -> list[ReadSubsection]:
     """Return the figures that a system declares as a page shows them."""
     return [read_subsection(each) for each in figure_groups.figure_sections(figures, result)]
 
 
-def joint_findings(figures: Sequence[Figure], result: Result) -> list[Markup]:
+def joint_findings(figures: Sequence[FigureDeclaration], result: Result) -> list[Markup]:
     """Return the sentences on several bands."""
     return [rich_markup(each, is_sentence=True) for each in figure_groups.joint_findings(figures, result)]
 

@@ -7,32 +7,32 @@ import numpy as np
 
 from perilune.analysis.documents.figures.declared import (
     BoundValues,
-    Budget,
-    Curve,
-    Item,
+    BudgetFigure,
+    BudgetItem,
+    CurveFigure,
     Limit,
-    Limits,
-    Path,
-    Phase,
-    Phases,
-    Point,
-    Rows,
+    LimitsFigure,
+    PathFigure,
+    PathPoint,
+    PhasesFigure,
+    SampleRange,
+    SequencerPhase,
 )
 from perilune.analysis.runtime.ssp.conversions import Unit
 from tests.support.pages.own_samples import DEG, DEGREE, TIME, flown, scalar
 
 METRE = Unit("m", (0, 1, 0, 0, 0, 0, 0, 0))
 KILOGRAM = Unit("kg", (1, 0, 0, 0, 0, 0, 0, 0))
-PHASES = Phases(
+PHASES = PhasesFigure(
     title="Phases",
     notes=(),
     signal=scalar("ship.phase"),
     phases=(
-        Phase(1, "burn", None),
-        Phase(2, "coast", None),
-        Phase(4, "capture", scalar("ship.done")),
-        Phase(4, "hover", None),
-        Phase(5, "descent", None),
+        SequencerPhase(1, "burn", None),
+        SequencerPhase(2, "coast", None),
+        SequencerPhase(4, "capture", scalar("ship.done")),
+        SequencerPhase(4, "hover", None),
+        SequencerPhase(5, "descent", None),
     ),
     spent=scalar("ship.mass", KILOGRAM),
     status=scalar("ship.status"),
@@ -46,18 +46,18 @@ SPANS = [  # name, begin, end (s), spent (kg)
     ("hover", 165.0, 180.0, 3.0),
     ("descent", 180.0, 200.0, 8.0),
 ]
-BUDGET = Budget(
+BUDGET = BudgetFigure(
     title="Budget",
     notes=(),
     of=PHASES,
     items=(
-        Item("bound", (), ("landing",), ()),
-        Item("capture and descent over it", ("capture", "descent"), (), ("landing",)),
-        Item("hover", ("hover",), (), ()),
+        BudgetItem("bound", (), ("landing",), ()),
+        BudgetItem("capture and descent over it", ("capture", "descent"), (), ("landing",)),
+        BudgetItem("hover", ("hover",), (), ()),
     ),
     bound=BoundValues(("landing",), {"landing": 9.5}),
 )
-LIMITS = Limits(
+LIMITS = LimitsFigure(
     title="Contact",
     notes=(),
     limits=(
@@ -66,17 +66,17 @@ LIMITS = Limits(
         Limit(scalar("ship.x", METRE), "east", -10.0, 10.0),
     ),
 )
-WHERE = Rows(scalar("ship.phase"), 4.0, None)
-PATH = Path(
+WHERE = SampleRange(scalar("ship.phase"), 4.0, None)
+PATH = PathFigure(
     title="Plan view",
     notes=(),
     x=scalar("ship.x", METRE),
     y=scalar("ship.y", METRE),
     equal=True,
-    points=(Point(scalar("ship.site_x", METRE), scalar("ship.site_y", METRE), "site"),),
+    points=(PathPoint(scalar("ship.site_x", METRE), scalar("ship.site_y", METRE), "site"),),
     rows=WHERE,
 )
-CURVE = Curve(
+CURVE = CurveFigure(
     title="Tilt",
     notes=(),
     signals=(scalar("ship.tilt", DEG, 1.0 / DEGREE), scalar("ship.lean", DEG, 1.0 / DEGREE)),

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from perilune.analysis.documents.figures.declared import Band, Error, Pulses, Signal
+from perilune.analysis.documents.figures.declared import BandFigure, ErrorFigure, PulsesFigure, Signal
 from perilune.analysis.runtime.ssp.conversions import Unit
 from tests.support.pages.samples import run_result
 
@@ -43,7 +43,7 @@ def flown(**signals):
     )
 
 
-ANGLES = Band(
+ANGLES = BandFigure(
     title="Angles",
     notes=(),
     signal=vector("ship.angles", 2, DEG, 1.0 / DEGREE),
@@ -53,7 +53,7 @@ ANGLES = Band(
     about=(),
     labels=("roll", "yaw"),
 )
-PULSES = Pulses(
+PULSES = PulsesFigure(
     title="Jets",
     notes=(),
     lengths=vector("ship.lengths", 2, SECOND),
@@ -62,7 +62,7 @@ PULSES = Pulses(
     total=scalar("ship.spent", SECOND),
     labels=("x", "y"),
 )
-ERROR = Error(
+ERROR = ErrorFigure(
     title="Error",
     notes=(),
     estimate=scalar("ship.estimate", RADIAN),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from perilune.analysis.documents.figures.scene.declared import Body, Cartesian, Scene, Surface
+from perilune.analysis.documents.figures.scene.declared import Body, Cartesian, SceneFigure, Surface
 from perilune.analysis.runtime.ssp.conversions import Unit
 from tests.support.pages.own_samples import RADIAN, flown, scalar, vector
 
@@ -17,7 +17,7 @@ def body(name="ship", position=None, attitude=None, **more):
 
 def scene(*bodies, surface=None, **more):
     declared = {"title": "Scene", "notes": (), "frame": "inertial", "axes": ("x", "y", "z"), "up": "z"}
-    return Scene(**(declared | {"surface": surface, "bodies": bodies, "sites": (), "lines": ()} | more))
+    return SceneFigure(**(declared | {"surface": surface, "bodies": bodies, "sites": (), "lines": ()} | more))
 
 
 def cartesian():

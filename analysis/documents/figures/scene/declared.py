@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from ..declared import Figure, Signal
+from ..declared import FigureDeclaration, Signal
 
 Vector = tuple[float, float, float]
 AxisNames = tuple[str, str, str]
@@ -177,7 +177,7 @@ class Arrow:
 
 
 @dataclass(frozen=True)
-class Scene(Figure):
+class SceneFigure(FigureDeclaration):
     """Bodies in a ``frame``, whose ``axes`` have names; ``up`` is one of them."""
 
     frame: str

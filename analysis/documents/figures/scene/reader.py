@@ -15,7 +15,7 @@ from ..signal_reader import NUMBERS, MissingSignalError, SignalReader
 from .arrow_reader import read_arrow
 from .attributes import check_length, read_available, read_signal, read_vector
 from .body_reader import read_body
-from .declared import GROUND, AxisLetter, AxisNames, Geographic, Line, Scene, Site, Surface
+from .declared import GROUND, AxisLetter, AxisNames, Geographic, Line, SceneFigure, Site, Surface
 
 SCENE = ("frame", "axes", "up", "title")
 SPHERE = ("radius", "centre", "name")
@@ -23,7 +23,7 @@ KINDS = ("plane", "sphere")
 LOCAL_FRAME, LOCAL_AXES = "local, at the ground below the last sample", ("east", "north", "up")
 
 
-def read_scene(reader: SignalReader, element: etree._Element) -> Scene:
+def read_scene(reader: SignalReader, element: etree._Element) -> SceneFigure:
     """Read the scene. Raises InputError with the line, and MissingSignalError for a body whose FMU was substituted."""
     reader.attributes(element, (), SCENE)
     children = reader.parts(element, ("Surface", "Body", "Site", "Line", "Arrow"))
@@ -52,7 +52,7 @@ def read_scene(reader: SignalReader, element: etree._Element) -> Scene:
     starts = {name: name in available for name in names}
     arrows = read_available(reader, children["Arrow"], lambda item: read_arrow(reader, item, bodies, starts))
     axes, up = _axes(reader, element, local, surface)
-    return Scene(
+    return SceneFigure(
         title=reader.title(element, "Scene"),
         notes=tuple(reader.notes),
         frame=LOCAL_FRAME if local else element.get("frame", "").strip(),

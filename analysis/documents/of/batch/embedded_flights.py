@@ -16,7 +16,7 @@ from ...common.colours import COLOURS
 from ...common.quantities import display_factor, display_unit
 from ...common.signals import vector_of
 from ...figures.reading import read_figures
-from ...figures.scene.declared import Scene
+from ...figures.scene.declared import SceneFigure
 from ...scene.flights import FlightsView, RecordedFlight, flights_view
 from ...scene.poses import signals_of
 from ..campaign.recorded_names import axis_of, is_real, names_of_record, unit_of
@@ -97,13 +97,13 @@ def embedded_flights(batch: BatchResult) -> EmbeddedFlights | None:
     )
 
 
-def _declared_scene(batch: BatchResult) -> Scene | None:
+def _declared_scene(batch: BatchResult) -> SceneFigure | None:
     """Return the scene that the system declares, as its first variant has it. Raises InputError."""
     prepared = batch.plan.prepare(next(iter(batch.plan.campaign.variants())))
-    return next((figure for figure in read_figures(prepared) if isinstance(figure, Scene)), None)
+    return next((figure for figure in read_figures(prepared) if isinstance(figure, SceneFigure)), None)
 
 
-def _scene_names(scene: Scene | None) -> set[str]:
+def _scene_names(scene: SceneFigure | None) -> set[str]:
     bodies = () if scene is None else scene.bodies
     sites = () if scene is None else scene.sites
     poses = [part for body in bodies for part in (body.position, body.attitude)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ....runtime.flight.results import Result
-from ...figures.declared import Figure
+from ...figures.declared import FigureDeclaration
 from ...model import Fold, Group, Node, Note, Text
 from ...pictures import Figures
 from .figures.groups import figure_sections, joint_findings
@@ -13,7 +13,7 @@ from .histories import time_histories
 from .trajectory import trajectory_figures, trajectory_legend, trajectory_reading
 
 
-def simulation_nodes(simulation: Result, figures: Sequence[Figure]) -> list[Node]:
+def simulation_nodes(simulation: Result, figures: Sequence[FigureDeclaration]) -> list[Node]:
     """Return the ``figures`` that the system declares, trajectories, states and commands, and other signals folded."""
     histories = time_histories(simulation)
     others = f"Other signals: {histories.folded} plots, constant and duplicate signals"

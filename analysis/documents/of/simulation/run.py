@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from ....runtime.flight.results import Result
 from ...cell import Code, Quantity
-from ...figures.declared import Figure
-from ...figures.scene.declared import Scene as SceneDeclared
+from ...figures.declared import FigureDeclaration
+from ...figures.scene.declared import SceneFigure
 from ...model import (
     Document,
     Group,
@@ -66,7 +66,7 @@ class RunContext:
     """
 
     title: str
-    figures: Sequence[Figure] = ()
+    figures: Sequence[FigureDeclaration] = ()
     draw_diagram: Callable[[], Diagram] | None = None
     command: str = ""
     lines: Sequence[str] = ()
@@ -114,7 +114,7 @@ def _header(result: Result, context: RunContext, limits: Sequence[Group]) -> lis
     ]
 
 
-def _verdict(result: Result, figures: Sequence[Figure]) -> Verdict:
+def _verdict(result: Result, figures: Sequence[FigureDeclaration]) -> Verdict:
     limits = limit_document(figures, result)
     texts = []
     for verdict in (LimitVerdict.VIOLATED, LimitVerdict.NOT_EVALUATED, LimitVerdict.MET):
@@ -167,9 +167,9 @@ def _sections(result: Result, context: RunContext, groups: Sequence[FigureGroup]
     ]
 
 
-def _scene(figures: Sequence[Figure], result: Result) -> Section | None:
+def _scene(figures: Sequence[FigureDeclaration], result: Result) -> Section | None:
     """Return the section of the scene that a system declares; None without one, and for a run without samples."""
-    declared = next((figure for figure in figures if isinstance(figure, SceneDeclared)), None)
+    declared = next((figure for figure in figures if isinstance(figure, SceneFigure)), None)
     view = None if declared is None else scene_view(declared, result)
     if declared is None or view is None:
         return None

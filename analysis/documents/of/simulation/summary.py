@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ....runtime.flight.results import Result
 from ...cell import Cell, Vector
-from ...figures.declared import Band, Figure, Limits
+from ...figures.declared import BandFigure, FigureDeclaration, LimitsFigure
 from ...model import Node, Table, Text
 from ...pictures import Plot
 from .figures.limits import limit_rows
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 MOST_PLOTTED = 3  # signals of a run without a path
 
 
-def notebook_nodes(result: Result, figures: Sequence[Figure]) -> list[Node]:
+def notebook_nodes(result: Result, figures: Sequence[FigureDeclaration]) -> list[Node]:
     """Return what a notebook shows of a run."""
     tables = [
         Table((figure.title, "value", "limit", "unit", ""), limit_rows(figure, result))
         for figure in figures
-        if isinstance(figure, Limits)
+        if isinstance(figure, LimitsFigure)
     ]
     if not tables:
         rows: list[list[Cell]] = [
@@ -41,11 +41,11 @@ def notebook_nodes(result: Result, figures: Sequence[Figure]) -> list[Node]:
     ]
 
 
-def main_plot(result: Result, figures: Sequence[Figure]) -> Drawing | None:
+def main_plot(result: Result, figures: Sequence[FigureDeclaration]) -> Drawing | None:
     """Return the trajectory, else signals with a tolerance band, else vectors, else the first signals."""
     if not result.time.size:
         return None
-    signals = [figure.signal for figure in figures if isinstance(figure, Band)]
+    signals = [figure.signal for figure in figures if isinstance(figure, BandFigure)]
     bands = [signal.names[0] if len(signal.names) == 1 else signal.label for signal in signals]
     vectors = [row.label for row in key_values(result) if len(row.values) > 1]
     return trajectory_plot(result) or signal_plot(result, (bands or vectors or list(result.signals))[:MOST_PLOTTED])

@@ -22,7 +22,7 @@ from ...common.quantities import number
 from ...interactive.charts import Chart
 from ...pictures import Figure
 from .charts.bode import bode_charts
-from .charts.frequency import Limits, margin_words, sensitivity_chart
+from .charts.frequency import LimitLines, margin_words, sensitivity_chart
 from .charts.nyquist import INVERSE, balance_chart, nichols_chart, nyquist_chart
 from .charts.poles import are_crowded, cloud_chart, intervals, pole_chart, poles_of
 from .charts.sets import amplitude_charts, describing_chart, joint_chart, margin_chart, step_chart, sweep_charts
@@ -173,7 +173,7 @@ def joint_figure(joint: JointReport, name: str) -> Figure:
 
 def sweep_figure(sweep: SweepReport, report: StabilityReport, name: str) -> Figure:
     """Return margins over a parameter with the study's limits."""
-    limits = Limits(report.limits.get("gain_margin_db"), report.limits.get("phase_margin_deg"), None)
+    limits = LimitLines(report.limits.get("gain_margin_db"), report.limits.get("phase_margin_deg"), None)
     words = f"Gain and phase margin of {sweep.loop} over {sweep.parameter}, {sweep.values.size} values"
     if unstable := sum(item.unstable for item in sweep.margins):
         words += f", {unstable} of them unstable"

@@ -17,7 +17,7 @@ from ....runtime.flight.results import Result
 from ....studies.worst.outcome import WorstResult
 from ...cell import Cell, Code, Quantity, Rich
 from ...common.quantities import label_with_unit
-from ...figures.declared import Figure
+from ...figures.declared import FigureDeclaration
 from ...figures.reading import read_figures
 from ...model import Document, Medium, Node, Note, Only, Section, Table, Text, Verdict
 from ...pictures import Figures
@@ -29,7 +29,7 @@ from .worst_points import box_lanes, objective_of
 DIGITS = 6
 DECIMALS = 3  # of fractions of the search box
 
-Simulate = Callable[[], tuple[Result, Sequence[Figure]]]
+Simulate = Callable[[], tuple[Result, Sequence[FigureDeclaration]]]
 
 
 def worst_document(study: WorstResult, folder: Path | None = None, simulate: Simulate | None = None) -> Document:
@@ -216,7 +216,7 @@ def _simulation(study: WorstResult, simulate: Simulate) -> list[Node]:
     return [Text(["status ", Code(simulation.status), *end, chosen]), *simulation_nodes(simulation, figures)]
 
 
-def simulate_worst(study: WorstResult, plan: BatchPlan) -> tuple[Result, list[Figure]]:
+def simulate_worst(study: WorstResult, plan: BatchPlan) -> tuple[Result, list[FigureDeclaration]]:
     """Return the worst case with the bits of the search; ``plan`` is that of the study. Raises InputError."""
     plotted = study.flown.draws
     names = [*input_names(plan.campaign), *(name for name in plotted if stream_component(name) is not None)]

@@ -14,7 +14,7 @@ from ....chart.quantity import quantity_curve
 from ....chart.ticks import axis_ends
 from ....common.colours import FAINT, GREEN, INK
 from ....common.quantities import display_factor, display_unit
-from ....figures.declared import Band, Signal
+from ....figures.declared import BandFigure, Signal
 from ....interactive.charts import NO_BOX, Chart
 from ....model import Group
 from .section import displayed, figure_group, history_figure, legend_of, time_chart
@@ -27,7 +27,7 @@ MOST_DECADES = 6  # ticks of a logarithmic abscissa
 WIDE = 4.0  # range of the signal over the width of the band from which a zoom is plotted
 
 
-def inside(band: Band, result: Result) -> np.ndarray:
+def inside(band: BandFigure, result: Result) -> np.ndarray:
     """Return whether each sample of each element is within the band, limits included; nan is not."""
     values = band.values(result)
     low, high = (-np.inf if band.low is None else band.low), (np.inf if band.high is None else band.high)
@@ -52,7 +52,7 @@ def settling_text(name: str, time: np.ndarray, condition: np.ndarray) -> list[In
     return text if name == SETTLED else [*text, f" ({name})"]
 
 
-def band_section(band: Band, result: Result, name: str) -> Group:
+def band_section(band: BandFigure, result: Result, name: str) -> Group:
     """Return the section of a band; ``name`` must differ between the figures of a page."""
     within, values, time = inside(band, result), band.plot_values(result), result.time
     row = settling_row(np.logical_and.reduce(within))
@@ -102,7 +102,7 @@ def _ends(values: np.ndarray, limits: list[float]) -> tuple[float, float]:
     return ends
 
 
-def _spans(band: Band, result: Result) -> list[tuple[float, float]]:
+def _spans(band: BandFigure, result: Result) -> list[tuple[float, float]]:
     """Return begin and end (s) of the shaded intervals."""
     if band.shade is None:
         return []
@@ -113,7 +113,7 @@ def _spans(band: Band, result: Result) -> list[tuple[float, float]]:
     return [(float(time[begin]), float(time[end])) for begin, end in zip(begins, ends, strict=True)]
 
 
-def against_chart(band: Band, result: Result, other: Signal) -> Chart:
+def against_chart(band: BandFigure, result: Result, other: Signal) -> Chart:
     """Return the chart of a band's signal over another one, on a logarithmic scale where that spans decades."""
     abscissa, unit = other.plot_values(result)[0], display_unit(other.unit_name)
     label = f"{other.label}, {unit}" if unit else other.label
@@ -151,7 +151,7 @@ def _zoom_limits(values: np.ndarray, low: float, high: float) -> tuple[float, fl
     return low - margin, high + margin
 
 
-def _findings(band: Band, time: np.ndarray, within: np.ndarray) -> list[Inline]:
+def _findings(band: BandFigure, time: np.ndarray, within: np.ndarray) -> list[Inline]:
     text = settling_text(band.name, time, np.logical_and.reduce(within))
     if len(within) == 1:
         return text
@@ -163,7 +163,7 @@ def _findings(band: Band, time: np.ndarray, within: np.ndarray) -> list[Inline]:
     return [*text, ": ", *join(elements, ", ")]
 
 
-def _caption(band: Band, unit: str, row: int | None) -> list[Inline]:
+def _caption(band: BandFigure, unit: str, row: int | None) -> list[Inline]:
     """Return the caption: band, subtracted values, marks."""
     name = band.signal.unit_name
     text: list[Inline] = ["green: ", value_range(band.low, band.high, name), f" {unit} for {band.signal.label}"]

@@ -9,9 +9,20 @@ import numpy as np
 
 from .....runtime.flight.results import Result
 from ....cell import Inline, Rich
-from ....figures.declared import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses, Unavailable
-from ....figures.declared import Group as DeclaredGroup
-from ....figures.scene.declared import Scene
+from ....figures.declared import (
+    BandFigure,
+    BudgetFigure,
+    CurveFigure,
+    ErrorFigure,
+    FigureDeclaration,
+    GroupDeclaration,
+    LimitsFigure,
+    PathFigure,
+    PhasesFigure,
+    PulsesFigure,
+    UnavailableFigure,
+)
+from ....figures.scene.declared import SceneFigure
 from ....model import Group, Table
 from .band_figure import band_section, inside, settling_text
 from .history_figures import curve_section, error_section
@@ -31,60 +42,70 @@ class FigureGroup(NamedTuple):
     figures: list[Group]
 
 
-def figure_groups(figures: Sequence[Figure], result: Result, system: str) -> tuple[list[Group], list[FigureGroup]]:
+def figure_groups(
+    figures: Sequence[FigureDeclaration], result: Result, system: str
+) -> tuple[list[Group], list[FigureGroup]]:
     """Return the tables of limits, which a header counts, and other figures by group.
 
     Figures without a group stand under the ``system``'s name.
     """
     limits: list[Group] = []
-    by_group: dict[DeclaredGroup, list[Group]] = {}
+    by_group: dict[GroupDeclaration, list[Group]] = {}
     for figure, subsection in _subsections(figures, result, is_counted=False):
-        judges = isinstance(figure, Limits) or (isinstance(figure, Unavailable) and figure.has_limits)
-        members = limits if judges else by_group.setdefault(figure.group or DeclaredGroup(system, is_folded=False), [])
+        judges = isinstance(figure, LimitsFigure) or (isinstance(figure, UnavailableFigure) and figure.has_limits)
+        members = (
+            limits if judges else by_group.setdefault(figure.group or GroupDeclaration(system, is_folded=False), [])
+        )
         members.append(subsection)
     return limits, [FigureGroup(group.title, group.is_folded, members) for group, members in by_group.items()]
 
 
-def figure_sections(figures: Sequence[Figure], result: Result) -> list[Group]:
+def figure_sections(figures: Sequence[FigureDeclaration], result: Result) -> list[Group]:
     """Return each figure but a scene below its heading, in the order of the SSD; none for a run without samples."""
     return [subsection for _, subsection in _subsections(figures, result, is_counted=True)]
 
 
-def _subsections(figures: Sequence[Figure], result: Result, *, is_counted: bool) -> list[tuple[Figure, Group]]:
+def _subsections(
+    figures: Sequence[FigureDeclaration], result: Result, *, is_counted: bool
+) -> list[tuple[FigureDeclaration, Group]]:
     if not result.time.size:
         return []
-    plotted = [figure for figure in figures if not isinstance(figure, Scene)]
+    plotted = [figure for figure in figures if not isinstance(figure, SceneFigure)]
     return [(figure, _subsection(figure, result, f"figure{index}", is_counted)) for index, figure in enumerate(plotted)]
 
 
-def _subsection(figure: Figure, result: Result, name: str, is_counted: bool) -> Group:
-    if isinstance(figure, Error | Curve | Path) and figure.rows is not None and not figure.rows.select(result).any():
+def _subsection(figure: FigureDeclaration, result: Result, name: str, is_counted: bool) -> Group:
+    if (
+        isinstance(figure, ErrorFigure | CurveFigure | PathFigure)
+        and figure.rows is not None
+        and not figure.rows.select(result).any()
+    ):
         return figure_group(figure.title, notes=[["Not plotted: no sample where ", *condition_text(figure.rows), "."]])
     match figure:
-        case Band():
+        case BandFigure():
             return band_section(figure, result, name)
-        case Pulses():
+        case PulsesFigure():
             return pulse_section(figure, result, name)
-        case Error():
+        case ErrorFigure():
             return error_section(figure, result, name)
-        case Curve():
+        case CurveFigure():
             return curve_section(figure, result, name)
-        case Path():
+        case PathFigure():
             return path_section(figure, result, name)
-        case Phases():
+        case PhasesFigure():
             return phase_section(figure, result, name)
-        case Limits():
+        case LimitsFigure():
             return limit_section(figure, result, is_counted)
-        case Budget():
+        case BudgetFigure():
             return budget_section(figure, result)
     return figure_group(figure.title, notes=[f"Not plotted: {note}." for note in figure.notes])
 
 
-def joint_findings(figures: Sequence[Figure], result: Result) -> list[Rich]:
+def joint_findings(figures: Sequence[FigureDeclaration], result: Result) -> list[Rich]:
     """Return the time from which all bands of one name hold, where several have it."""
     conditions: dict[str, list[np.ndarray]] = {}
     for band in figures:
-        if isinstance(band, Band) and result.time.size:
+        if isinstance(band, BandFigure) and result.time.size:
             conditions.setdefault(band.name, []).append(np.logical_and.reduce(inside(band, result)))
     findings: list[Rich] = []
     for name, bands in conditions.items():
@@ -95,7 +116,7 @@ def joint_findings(figures: Sequence[Figure], result: Result) -> list[Rich]:
     return findings
 
 
-def limit_section(limits: Limits, result: Result, is_counted: bool) -> Group:
+def limit_section(limits: LimitsFigure, result: Result, is_counted: bool) -> Group:
     """Return the table of limits, how many are met and which not if ``is_counted``, or why none is evaluated."""
     violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is Verdict.VIOLATED]
     obstacle = limits.obstacle(result)

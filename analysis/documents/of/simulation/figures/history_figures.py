@@ -15,7 +15,7 @@ from ....chart.quantity import quantity_curve
 from ....chart.ticks import axis_ends
 from ....common.colours import FAINT, ORANGE
 from ....common.quantities import display_factor, display_unit
-from ....figures.declared import Curve, Error
+from ....figures.declared import CurveFigure, ErrorFigure
 from ....interactive.charts import Chart
 from ....model import Group
 from ....pictures import Figure
@@ -28,7 +28,7 @@ ROUNDING = 1e-12  # of times, which are start + n h
 WIDE = 4.0  # range of the errors over that of the last quarter from which a zoom is plotted
 
 
-def error_section(error: Error, result: Result, name: str) -> Group:
+def error_section(error: ErrorFigure, result: Result, name: str) -> Group:
     """Return the section of an error; ``name`` must differ between the figures of a page."""
     chosen, rows = select_rows(error.rows, result)
     time = result.time[rows]
@@ -51,7 +51,7 @@ def error_section(error: Error, result: Result, name: str) -> Group:
 
 
 def _figures(
-    error: Error, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, name: str
+    error: ErrorFigure, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, name: str
 ) -> list[Figure]:
     unit_name = error.estimate.unit_name
     unit, factor = display_unit(unit_name), display_factor(unit_name)
@@ -92,7 +92,7 @@ def _final_range(values: np.ndarray, sigma: np.ndarray) -> float | None:
 
 
 def _findings(
-    error: Error, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, changed: np.ndarray
+    error: ErrorFigure, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, changed: np.ndarray
 ) -> list[Rich]:
     """Return the fractions of samples within 1 and 3 sigma where the estimate ``changed``; none without a sigma."""
     start = time[0] if error.after is None else error.after
@@ -130,7 +130,7 @@ def _normal(times: float) -> float:
     return float(2.0 * ndtr(times) - 1.0)
 
 
-def _caption(error: Error, sigma: np.ndarray) -> list[Inline]:
+def _caption(error: ErrorFigure, sigma: np.ndarray) -> list[Inline]:
     text: list[Inline] = [f"line: {error.estimate.label} minus {error.truth.label}"]
     if error.sigma is not None and not np.any(np.isfinite(sigma)):
         text.append(f"; {error.sigma.label} is 0 throughout, no standard deviation")
@@ -142,7 +142,7 @@ def _caption(error: Error, sigma: np.ndarray) -> list[Inline]:
     return sentence(text)
 
 
-def curve_section(curve: Curve, result: Result, name: str) -> Group:
+def curve_section(curve: CurveFigure, result: Result, name: str) -> Group:
     """Return the section of curves; ``name`` must differ between the figures of a page."""
     chosen, rows = select_rows(curve.rows, result)
     time = result.time[rows]
@@ -173,7 +173,7 @@ def curve_section(curve: Curve, result: Result, name: str) -> Group:
     return figure_group(curve.title, figures=figures, notes=notes)
 
 
-def _curve_caption(curve: Curve, unit: str) -> list[Inline]:
+def _curve_caption(curve: CurveFigure, unit: str) -> list[Inline]:
     text: list[Inline] = [f"line: {', '.join(signal.label for signal in curve.signals)}"]
     limits = [limit for limit in (curve.low, curve.high) if limit is not None]
     if limits:

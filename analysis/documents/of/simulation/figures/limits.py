@@ -10,7 +10,7 @@ from typing import Any
 from .....runtime.flight.results import Flight
 from ....cell import Cell, Grade, Judged, Quantity
 from ....common.quantities import NONE, display_unit
-from ....figures.declared import Figure, Limit, Limits, Unavailable
+from ....figures.declared import FigureDeclaration, Limit, LimitsFigure, UnavailableFigure
 from ....render.words import cell_text
 from .words import value_range
 
@@ -27,7 +27,7 @@ LABELS = {Verdict.MET: "PASS", Verdict.VIOLATED: "FAIL", Verdict.NOT_EVALUATED: 
 GRADES: dict[Verdict, Grade] = {Verdict.MET: "pass", Verdict.VIOLATED: "fail", Verdict.NOT_EVALUATED: "not-applicable"}
 
 
-def evaluate(limits: Limits, result: Flight) -> list[tuple[Limit, Verdict]]:
+def evaluate(limits: LimitsFigure, result: Flight) -> list[tuple[Limit, Verdict]]:
     """Return the limits in their order, each with its verdict."""
     if limits.obstacle(result):
         return [(limit, Verdict.NOT_EVALUATED) for limit in limits.limits]
@@ -42,7 +42,7 @@ def is_met(limit: Limit, result: Flight) -> bool:
     return above and below and abs(value) < float("inf")
 
 
-def limit_lines(limits: Limits, result: Flight) -> list[str]:
+def limit_lines(limits: LimitsFigure, result: Flight) -> list[str]:
     """Return a line for each limit, for a terminal; angles in deg."""
     obstacle = limits.obstacle(result)
     form = "{0} ({2} {3}): {4}, {5}" if obstacle else "{0} {1} {3} ({2} {3}): {4}"
@@ -50,25 +50,25 @@ def limit_lines(limits: Limits, result: Flight) -> list[str]:
     return [" ".join(line.replace(" )", ")").split()) for line in lines]
 
 
-def limit_rows(limits: Limits, result: Flight) -> list[tuple[Cell, ...]]:
+def limit_rows(limits: LimitsFigure, result: Flight) -> list[tuple[Cell, ...]]:
     """Return a row for each limit: its name, the final value, the limit, their unit, the verdict."""
     return [_row(limit, verdict, result) for limit, verdict in evaluate(limits, result)]
 
 
-def limit_document(figures: Sequence[Figure], result: Flight) -> list[dict[str, Any]]:
+def limit_document(figures: Sequence[FigureDeclaration], result: Flight) -> list[dict[str, Any]]:
     """Return all limits that a system declares as JSON, an object each."""
     document: list[dict[str, Any]] = []
     for figure in figures:
-        if isinstance(figure, Limits):
+        if isinstance(figure, LimitsFigure):
             document += limit_entries(figure, result)
-        elif isinstance(figure, Unavailable) and figure.has_limits:
+        elif isinstance(figure, UnavailableFigure) and figure.has_limits:
             document += [
                 {"name": figure.title, "verdict": Verdict.NOT_EVALUATED, "reason": note} for note in figure.notes
             ]
     return document
 
 
-def limit_entries(limits: Limits, result: Flight) -> list[dict[str, Any]]:
+def limit_entries(limits: LimitsFigure, result: Flight) -> list[dict[str, Any]]:
     """Return limits as JSON: values in ``unit``, None where there is none; the reason where one is not evaluated."""
     obstacle = limits.obstacle(result)
     return [

@@ -20,7 +20,7 @@ from ....chart.ticks import axis_ends
 from ....common.colours import BLUE, INK, look
 from ....common.panels import HALF_WIDTH, far
 from ....common.quantities import display_unit, label_with_unit
-from ....figures.declared import Arc, Path, Signal
+from ....figures.declared import Arc, PathFigure, Signal
 from ....interactive.charts import NO_BOX, Chart, Curve, Marker
 from ....model import Group
 from ....pictures import Figure
@@ -34,7 +34,7 @@ WIDE_INTERVALS, Y_INTERVALS = 10, 6  # between ticks, at most
 WHITE = "#ffffff"
 
 
-def path_section(path: Path, result: Result, name: str) -> Group:
+def path_section(path: PathFigure, result: Result, name: str) -> Group:
     """Return the section of a path; ``name`` must differ between the figures of a page."""
     chosen, rows = select_rows(path.rows, result)
 
@@ -63,7 +63,7 @@ def path_section(path: Path, result: Result, name: str) -> Group:
     )
 
 
-def path_ends(path: Path, position: np.ndarray, others: Sequence[np.ndarray]) -> tuple[Ends, Ends]:
+def path_ends(path: PathFigure, position: np.ndarray, others: Sequence[np.ndarray]) -> tuple[Ends, Ends]:
     """Return the ends of both axes around a path and the positions of its points, as `path_chart` gets them."""
     x, y = np.concatenate([position, *others], axis=1)
     up = axis_ends(y, Y_MARGIN)
@@ -73,7 +73,7 @@ def path_ends(path: Path, position: np.ndarray, others: Sequence[np.ndarray]) ->
 
 
 def path_chart(
-    path: Path,
+    path: PathFigure,
     time: np.ndarray,
     position: np.ndarray,
     others: Sequence[np.ndarray],
@@ -115,7 +115,7 @@ def _final_mark(index: int) -> Marker:
     return marker(style.marker, 9.0, style.colour, fill="", width=1.6)
 
 
-def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
+def _scales(path: PathFigure, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     """Return the factors of both axes: km where lengths in m are long; the same with equal scales."""
     metres = [signal.unit_name == "m" for signal in (path.x, path.y)]
     if path.equal and all(metres):
@@ -125,7 +125,7 @@ def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     return first, second
 
 
-def _over_ground(path: Path) -> bool:
+def _over_ground(path: PathFigure) -> bool:
     """Return True if the ordinate is the altitude over the sphere of the abscissa."""
     return isinstance(path.x, Arc) and path.y.label.rpartition(".")[2] == "altitude"
 
@@ -134,7 +134,7 @@ def _axis(signal: Signal | Arc, scale: float) -> str:
     return label_with_unit(signal.label, "km" if scale != 1.0 else display_unit(signal.unit_name))
 
 
-def _caption(path: Path) -> list[Inline]:
+def _caption(path: PathFigure) -> list[Inline]:
     text: list[Inline] = ["circle: end"]
     if path.points:
         names = ", ".join(f"{point.name} ({point.x.label}, {point.y.label})" for point in path.points)

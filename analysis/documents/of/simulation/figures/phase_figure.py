@@ -14,7 +14,7 @@ from ....chart.axes import lane_axis, linear_axis
 from ....chart.marks import SQUARE, instant
 from ....common.colours import BLUE, INK, VERMILION
 from ....common.quantities import display_unit, label_with_unit, number
-from ....figures.declared import BoundValues, Budget, Item, Phase, Phases
+from ....figures.declared import BoundValues, BudgetFigure, BudgetItem, PhasesFigure, SequencerPhase
 from ....interactive.charts import NO_BOX, Area, Chart, Note
 from ....interactive.measures import TICK_SIZE
 from ....model import Group, Table
@@ -33,7 +33,7 @@ class Span:
     spent: float | None
 
 
-def spans_of(phases: Phases, flight: Flight) -> list[Span]:
+def spans_of(phases: PhasesFigure, flight: Flight) -> list[Span]:
     """Return the phases in the order of the flight; a value without a name is its own name.
 
     A phase lasts from its first sample to the first sample of the next one, the last phase to the end.
@@ -58,7 +58,7 @@ def spans_of(phases: Phases, flight: Flight) -> list[Span]:
     ]
 
 
-def _subphases(named: Sequence[Phase], flight: Flight, begin: int, end: int) -> list[tuple[int, str]]:
+def _subphases(named: Sequence[SequencerPhase], flight: Flight, begin: int, end: int) -> list[tuple[int, str]]:
     """Return the first row and name of the phases with one value between two rows, without phases that have no row."""
     starts: list[tuple[int, str]] = []
     for phase in named:
@@ -71,7 +71,7 @@ def _subphases(named: Sequence[Phase], flight: Flight, begin: int, end: int) -> 
     return starts
 
 
-def statuses_of(phases: Phases, flight: Flight) -> list[tuple[int, float]] | None:
+def statuses_of(phases: PhasesFigure, flight: Flight) -> list[tuple[int, float]] | None:
     """Return each status with the time (s) of its first occurrence, in order; None where no status is declared."""
     if phases.status_times is not None:
         times = phases.status_times.values(flight)[:, -1]
@@ -94,7 +94,7 @@ NEAR_THE_EDGE = 0.88  # of a window, from which the duration is written on the l
 Window = tuple[float, float]
 
 
-def phase_section(phases: Phases, result: Result, name: str) -> Group:
+def phase_section(phases: PhasesFigure, result: Result, name: str) -> Group:
     """Return the section of the phases; ``name`` must differ between the figures of a page."""
     spans, statuses = spans_of(phases, result), statuses_of(phases, result)
     windows = _windows(spans, statuses or [])
@@ -173,7 +173,11 @@ def _status(time: float, numbers: str) -> Note:
 
 
 def _figures(
-    phases: Phases, spans: Sequence[Span], statuses: Sequence[tuple[int, float]], windows: Sequence[Window], name: str
+    phases: PhasesFigure,
+    spans: Sequence[Span],
+    statuses: Sequence[tuple[int, float]],
+    windows: Sequence[Window],
+    name: str,
 ) -> list[Figure]:
     """Return a figure for each of several windows, or one as wide as the page."""
     lanes = dict.fromkeys(span.name for span in spans)
@@ -189,7 +193,7 @@ def _figures(
     return figures
 
 
-def _table(phases: Phases, spans: Sequence[Span]) -> Table:
+def _table(phases: PhasesFigure, spans: Sequence[Span]) -> Table:
     heads = ["phase", "start, s", "duration, s"]
     unit = None if phases.spent is None else phases.spent.unit_name
     if phases.spent is not None:
@@ -206,7 +210,7 @@ def _table(phases: Phases, spans: Sequence[Span]) -> Table:
     return Table(heads, list(zip(*columns, strict=True)))
 
 
-def _findings(phases: Phases, statuses: Sequence[tuple[int, float]]) -> list[Rich]:
+def _findings(phases: PhasesFigure, statuses: Sequence[tuple[int, float]]) -> list[Rich]:
     """Return each status with the time of its first occurrence and its meaning."""
     if not statuses:
         return ["status 0 throughout"]
@@ -220,7 +224,7 @@ def _findings(phases: Phases, statuses: Sequence[tuple[int, float]]) -> list[Ric
     ]
 
 
-def consumption_by_phase(budget: Budget, result: Result) -> dict[str, float]:
+def consumption_by_phase(budget: BudgetFigure, result: Result) -> dict[str, float]:
     """Return the consumption of each phase that occurred, summed over its occurrences."""
     spent: dict[str, float] = {}
     for span in spans_of(budget.of, result):
@@ -229,7 +233,7 @@ def consumption_by_phase(budget: Budget, result: Result) -> dict[str, float]:
     return spent
 
 
-def amount(item: Item, spent: Mapping[str, float], bound: BoundValues | None) -> float | None:
+def amount(item: BudgetItem, spent: Mapping[str, float], bound: BoundValues | None) -> float | None:
     """Return the amount of an item; None where one of its phases did not occur or the bound is missing."""
     values = {} if bound is None else bound.values
     if any(name not in spent for name in item.phases) or any(name not in values for name in (*item.plus, *item.minus)):
@@ -238,7 +242,7 @@ def amount(item: Item, spent: Mapping[str, float], bound: BoundValues | None) ->
     return math.fsum((*used, *(values[name] for name in item.plus), *(-values[name] for name in item.minus)))
 
 
-def budget_section(budget: Budget, result: Result) -> Group:
+def budget_section(budget: BudgetFigure, result: Result) -> Group:
     """Return the table of a budget."""
     spent = consumption_by_phase(budget, result)
     unit = budget.of.spent.unit_name if budget.of.spent is not None else None
@@ -257,7 +261,7 @@ def budget_section(budget: Budget, result: Result) -> Group:
     return figure_group(budget.title, table=table, notes=notes)
 
 
-def _sum_text(item: Item) -> str:
+def _sum_text(item: BudgetItem) -> str:
     """Return the terms of an item."""
     parts = []
     if item.phases:

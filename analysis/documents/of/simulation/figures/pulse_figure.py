@@ -11,7 +11,7 @@ from ....chart.quantity import quantity_curve
 from ....chart.ticks import axis_ends
 from ....common.colours import BLUE, FAINT, VERMILION
 from ....common.quantities import label_with_unit, number
-from ....figures.declared import Pulses
+from ....figures.declared import PulsesFigure
 from ....interactive.charts import Area, Chart
 from ....model import Group
 from ....pictures import Figure
@@ -23,7 +23,7 @@ BAR = 1.1  # pt; the duration of a pulse would not be visible
 THIN = 0.6  # pt, the line at 0 and that of the remainder
 
 
-def pulse_lengths(pulses: Pulses, result: Result) -> np.ndarray:
+def pulse_lengths(pulses: PulsesFigure, result: Result) -> np.ndarray:
     """Return the signed lengths (s) of the pulses that start at each sample, [axes, samples]; 0 where none starts.
 
     Pulses of the last sample are left out: a command acts over the step after its sample.
@@ -36,7 +36,7 @@ def pulse_lengths(pulses: Pulses, result: Result) -> np.ndarray:
     return lengths
 
 
-def pulse_section(pulses: Pulses, result: Result, name: str) -> Group:
+def pulse_section(pulses: PulsesFigure, result: Result, name: str) -> Group:
     """Return the section of pulses; ``name`` must differ between the figures of a page."""
     lengths = pulse_lengths(pulses, result)
     if not np.any(lengths):
@@ -54,7 +54,7 @@ def pulse_section(pulses: Pulses, result: Result, name: str) -> Group:
     )
 
 
-def pulse_charts(pulses: Pulses, result: Result, lengths: np.ndarray) -> list[tuple[str, Chart]]:
+def pulse_charts(pulses: PulsesFigure, result: Result, lengths: np.ndarray) -> list[tuple[str, Chart]]:
     """Return a chart of each axis with its heading, and one of the thruster on-time so far, where that is declared.
 
     A bar stands for a pulse, from 0 to its length (s); all axes have the same ends. ``lengths`` as `pulse_lengths`
@@ -92,7 +92,7 @@ def _bars(time: np.ndarray, lengths: np.ndarray, sign: float, colour: str) -> Ar
     return Area(np.repeat(time[rows], 2), heads.ravel(), (False, False), colour.lower(), 1.0, BAR)
 
 
-def _findings(pulses: Pulses, lengths: np.ndarray) -> list[Inline]:
+def _findings(pulses: PulsesFigure, lengths: np.ndarray) -> list[Inline]:
     text = _amount(lengths)
     if len(lengths) == 1:
         return text
@@ -107,7 +107,7 @@ def _amount(lengths: np.ndarray) -> list[Inline]:
     return [f"{number(count)} {'pulse' if count == 1 else 'pulses'}, ", duration]
 
 
-def _caption(pulses: Pulses, result: Result) -> list[Inline]:
+def _caption(pulses: PulsesFigure, result: Result) -> list[Inline]:
     text = f"bars: {pulses.lengths.label}, at the start of each pulse, height: its duration"
     if pulses.remainder is not None:
         is_zero = not np.any(pulses.remainder.values(result))

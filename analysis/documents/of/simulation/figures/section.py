@@ -13,7 +13,7 @@ from ....cell import LegendEntry, Quantity, Rich
 from ....chart.axes import linear_axis
 from ....common.colours import look
 from ....common.quantities import in_display_unit
-from ....figures.declared import Rows
+from ....figures.declared import SampleRange
 from ....interactive.charts import NO_BOX, Area, Chart, Curve, Rule
 from ....model import Group, Node, Note, Table, Text
 from ....pictures import Figure, Figures
@@ -73,7 +73,7 @@ def history_figure(
     return Figure(label, name, description, replace(chart, title=unit), HEIGHT, is_wide=is_wide)
 
 
-def select_rows(rows: Rows | None, result: Result) -> tuple[np.ndarray, slice]:
+def select_rows(rows: SampleRange | None, result: Result) -> tuple[np.ndarray, slice]:
     """Return whether each sample belongs to a figure, and from the first of them to the last; at least one does."""
     chosen = np.ones(result.time.size, dtype=bool) if rows is None else rows.select(result)
     selected = np.flatnonzero(chosen)

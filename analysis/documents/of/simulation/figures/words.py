@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from ....cell import Inline, Interval, Quantity, Rich
-from ....figures.declared import Rows
+from ....figures.declared import SampleRange
 
 
-def condition_text(rows: Rows) -> list[Inline]:
+def condition_text(rows: SampleRange) -> list[Inline]:
     """Return the condition of a selection of samples."""
     unit = rows.signal.unit_name
     condition = (

@@ -143,7 +143,7 @@ def faint_line(x: np.ndarray, y: np.ndarray) -> charts.Curve:
 
 
 @dataclass(frozen=True)
-class Limits:
+class LimitLines:
     """The limits that figures show, as they are required of the loop; None: not required."""
 
     gain: float | None  # dB
@@ -151,7 +151,7 @@ class Limits:
     modulus: float | None
 
 
-def limits_of(loop: LoopReport) -> Limits:
+def limits_of(loop: LoopReport) -> LimitLines:
     """Return the limits among a loop's requirements."""
     limits = {item.quantity: item.limit for item in loop.requirements}
-    return Limits(limits.get(Quantity.GAIN), limits.get(Quantity.PHASE), limits.get(Quantity.MODULUS))
+    return LimitLines(limits.get(Quantity.GAIN), limits.get(Quantity.PHASE), limits.get(Quantity.MODULUS))

@@ -26,7 +26,7 @@ from .frequency import (
     MEASURED,
     REQUIRED,
     WHITE,
-    Limits,
+    LimitLines,
     faint_line,
     gain_mark,
     has_measurement,
@@ -149,7 +149,7 @@ def nichols_chart(loop: LoopReport) -> Chart:
     )
 
 
-def _zone(limits: Limits) -> tuple[list[Area], list[Note]]:
+def _zone(limits: LimitLines) -> tuple[list[Area], list[Note]]:
     """Return a diamond with corners at the required margins (dB, deg), and their sizes, empty where one is missing."""
     gain, phase = limits.gain, limits.phase
     if gain is None or phase is None:

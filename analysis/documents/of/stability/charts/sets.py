@@ -23,7 +23,7 @@ from ....chart.ticks import axis_ends
 from ....common.colours import BLUE, GREEN, INK, VERMILION
 from ....common.quantities import display_factor, label_with_unit
 from ....interactive.charts import NO_BOX, Area, Axis, Chart, Curve
-from .frequency import COMPLEMENTARY, DOTS, PEAK, REQUIRED, WHITE, Limits, frequency_axis, in_db
+from .frequency import COMPLEMENTARY, DOTS, PEAK, REQUIRED, WHITE, LimitLines, frequency_axis, in_db
 
 BINS = 24
 DECADES = 20.0  # ratio of the ends of an abscissa from which on it is logarithmic
@@ -146,7 +146,7 @@ def _abscissa(x: np.ndarray, label: str) -> Axis:
     return fine_axis(ends, label=label) if is_logarithmic else linear_axis(ends, 5, label=label)
 
 
-def sweep_charts(sweep: SweepReport, limits: Limits) -> tuple[Chart, Chart]:
+def sweep_charts(sweep: SweepReport, limits: LimitLines) -> tuple[Chart, Chart]:
     """Return gain and phase margin over a parameter, the limits, where they are crossed; hatched: unstable."""
     unstable = np.array([each.unstable for each in sweep.margins])
     gain = np.array([math.nan if each.unstable else decibels(each.gain) for each in sweep.margins])
