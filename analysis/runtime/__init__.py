@@ -1,1 +1,1 @@
-"""The co-simulation master: a system is read, resolved and simulated."""
+"""Co-simulation master: reads, resolves and simulates a system."""

@@ -1,4 +1,4 @@
-"""The complete memory of a system between two communication points, wherever its FMUs are."""
+"""Interface to the complete memory of a system at a communication point, in this process or another."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Snapshot = TypeVar("Snapshot")
 
 @dataclass(frozen=True)
 class Cell:
-    """One real number that the system remembers: an FMU's variable, or the last value of a connector."""
+    """One real number of a system's memory: a variable of an FMU, or the last value exchanged at a connector."""
 
     name: str
     unit: str | None
@@ -22,26 +22,26 @@ class Cell:
 
 
 class BaseMemory(ABC, Generic[Snapshot]):
-    """The memory of a simulation's FMUs and connectors as real numbers, ``cells``; nothing else is remembered.
+    """Complete memory of a simulation's FMUs and connectors; ``cells`` are its real numbers.
 
-    Whole numbers, and what FMUs name as frozen (random number generators, covariances), are saved and put back, but
-    are no cells.
+    Integers, and the variables that FMUs declare frozen (random number generators, covariances), are saved and restored
+    but are not cells.
     """
 
     cells: list[Cell]
 
     @abstractmethod
     def read(self) -> np.ndarray:
-        """Read the values of all cells now."""
+        """Return the current values of all cells, in their order."""
 
     @abstractmethod
     def take(self, point: int) -> Snapshot:
-        """Save everything at communication point ``point``; `release` it in the end."""
+        """Save the complete memory at communication point ``point``. Free it with `release`."""
 
     @abstractmethod
     def put_back(self, snapshot: Snapshot, cell: Cell | None = None, number: float = 0.0) -> None:
-        """Restore everything as it was, but for one cell's value."""
+        """Restore a snapshot; if ``cell`` is passed, with that cell set to ``number``."""
 
     @abstractmethod
     def release(self, snapshot: Snapshot) -> None:
-        """Free what `take` saved."""
+        """Free the memory of a snapshot."""

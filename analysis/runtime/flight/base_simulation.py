@@ -1,4 +1,4 @@
-"""A system that flies again and again, wherever its FMUs are: what all simulations have in common."""
+"""Interface of all simulations, in this process or in another: a system that can be simulated repeatedly."""
 
 from __future__ import annotations
 
@@ -24,11 +24,14 @@ NOTHING = np.zeros((0, 0))  # no excitation
 
 
 class Choices(TypedDict, total=False):
-    """``varied`` names the parameters (``component.variable``) that simulations may change; ``wanted`` the signals to
-    record (None: all outputs, connected inputs and system connectors), ``more`` other variables to record; ``faults``
-    those that act unless `set_faults` says otherwise; ``excited`` the connectors that `advance` may add signals to;
-    ``open_end``: `advance` may pass the stop time, of which FMUs then receive none; ``log`` receives the FMUs'
-    messages."""
+    """Options of a simulation.
+
+    ``varied`` names the parameters (``component.variable``) that may change between simulations; ``wanted`` the signals
+    to record (None: all outputs, connected inputs and system connectors); ``more`` further variables to record.
+    ``faults`` act unless `set_faults` replaces them. ``excited`` names the connectors to which `advance` may add
+    signals. With ``open_end``, `advance` may pass the stop time, and FMUs receive no stop time. ``log`` receives the
+    FMUs' messages.
+    """
 
     varied: Collection[str]
     wanted: Collection[str] | None
@@ -40,9 +43,10 @@ class Choices(TypedDict, total=False):
 
 
 class BaseSimulation(ABC):
-    """Use it as a context manager: it frees the instances. Not shared between threads, but for `interrupt`, `give_up`.
+    """System that can be simulated repeatedly. A context manager: leaving it frees the instances.
 
-    Raises InputError for names that the system does not have.
+    Only `interrupt` and `give_up` may be called from another thread. Raises InputError for names that the system does
+    not have.
     """
 
     recorder: FlightRecorder
@@ -68,9 +72,9 @@ class BaseSimulation(ABC):
         self._log = choices.get("log")
 
     def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> Result:
-        """Simulate one flight from the start, with ``values`` for varied parameters; every n-th row is kept.
+        """Simulate from the start with these ``values`` of varied parameters, and record every ``every``-th row.
 
-        The arrays of the result are the simulation's own and are overwritten by the next flight.
+        The arrays of the result belong to the simulation and are overwritten by its next run.
         """
         flight = self.run(values or {}, every=every)
         return Result(
@@ -80,69 +84,72 @@ class BaseSimulation(ABC):
         )
 
     def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
-        """Simulate and return the flight alone, for batches; see `fly`."""
+        """Simulate as `fly` does, and return the flight without units and provenance; for batches."""
         self.set(values)
         return self.advance(-1, self.prepared.steps, every=every)
 
     @property
     def group_size(self) -> int:
-        """Maximum number of flights for `fly_group`, which takes less time for each than `run`; 0: none."""
+        """Maximum number of simulations in one call of `fly_group`, which is faster than `run`; 0 if unsupported."""
         return 0
 
     def fly_group(self, table: FlightTable) -> FlightGroup:
-        """Fly the first flights of a table, each from its start, at least one of them.
+        """Simulate at least the first row of a table, and as many of those that follow as fit, each from its start.
 
-        A flight that does not reach its end is the last. Arrays as in `fly`.
+        Stops after a simulation that does not complete. Arrays are overwritten as in `fly`.
         """
         raise NotImplementedError(f"{type(self).__name__} has flights one at a time")
 
     def fuse(self) -> None:
-        """Fly from now on with steps compiled as one function, as `FUSED` does, where the system allows it."""
+        """Compile the steps into one function for later simulations, as with `FUSED`, if the system allows it."""
         return
 
     @abstractmethod
     def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
-        """Say what flies behind what was announced before, two flights at most: `run` takes as long as ever, or less.
+        """Announce the values and faults of a coming `run`, which may let it start earlier; at most two are pending.
 
-        The arrays of the last flight are left alone by the first announcement, and not by the second.
+        The first announcement leaves the arrays of the last flight intact, the second may overwrite them.
         """
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
-        """Give varied parameters other values, from the next start on."""
+        """Set varied parameters for later starts."""
         for name, value in values.items():
             self.layout.parameters[self._varied[name]] = value
 
     @abstractmethod
     def set_faults(self, faults: Sequence[Fault | None]) -> None:
-        """Set other values and windows of faults, from the next start on.
+        """Set values and windows of faults for later starts.
 
-        There is one for each that the simulation was made with, on its connector and of its kind, or None where that
-        one does not fly.
+        ``faults`` has one entry for each fault that the simulation was created with, of the same connector and kind, or
+        None to disable that fault.
         """
 
     @abstractmethod
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
-        """Simulate from communication point ``first`` to ``last``, as FMUs and buffers are; rows first + 1 to last.
+        """Simulate on from communication point ``first`` to ``last``; return rows ``first`` + 1 to ``last``.
 
-        -1 restarts, which adds row 0. ``excitation`` [r, e] is added to the excited connectors at the r
-        communication points after ``first``. ``last`` may be after the stop time where the simulation has an
-        open end; every n-th row is kept. Arrays as in `fly`.
+        With ``first`` = -1 the simulation restarts, and row 0 is included. ``excitation`` [r, e] is added to the
+        excited connectors at the r communication points after ``first``. ``last`` may lie beyond the stop time if the
+        simulation has an open end. Every ``every``-th row is recorded. Arrays are overwritten as in `fly`.
         """
 
     def interrupt(self, halt: bool = True) -> None:
-        """End the flight that is under way in another thread at its next communication point, and all later ones."""
+        """End the simulation running in another thread, and later ones, at their next communication points.
+
+        ``halt=False`` withdraws the request.
+        """
         self.recorder.halt[0] = halt
 
     @abstractmethod
     def give_up(self, why: str) -> bool:
-        """End a flight in another thread that reaches no communication point; returns whether that can be done."""
+        """End a simulation in another thread that reaches no communication point; return False if impossible."""
 
     @abstractmethod
     def memory(self) -> BaseMemory[Any]:
-        """Return the memory of the FMUs. Raises InputError where one does not describe its serialisation."""
+        """Return the memory of the FMUs. Raises InputError if one does not describe its serialised state."""
 
     def provenance(self) -> Provenance:
-        """Return parameter values, hashes, options and version: what the result depends on."""
+        """Return what determines the result: parameter values, hashes, options and version."""
         return provenance_of(self.prepared, self.settings, self.layout.parameters, self._faults, self.signal_names)
 
     @abstractmethod

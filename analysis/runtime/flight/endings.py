@@ -1,4 +1,4 @@
-"""Endings of a simulation: the outcome that the loop leaves, as a status and a message."""
+"""How a simulation ended: the outcome of the loop, translated to a status and a message."""
 
 from __future__ import annotations
 
@@ -39,7 +39,10 @@ READ_BACKS = (codes.READ_BACK, codes.WHOLE_READ_BACK, codes.TEXT_READ_BACK, code
 
 
 class Outcome(NamedTuple):
-    """`arrays.Buffers.outcome`: how it ended; at which component, slot or parameter; the rest of failures only."""
+    """Contents of `arrays.Buffers.outcome`: end code, and the component, slot or parameter concerned.
+
+    ``function``, ``fmi_status`` and ``instruction`` describe failures only.
+    """
 
     code: int
     subject: int
@@ -50,7 +53,7 @@ class Outcome(NamedTuple):
 
     @property
     def is_well(self) -> bool:
-        """True if nothing has gone wrong."""
+        """True if the simulation ended without a failure."""
         return self.code in (codes.STOP_TIME, codes.FINISHED, codes.INTERRUPTED)
 
     @property
@@ -64,7 +67,7 @@ class Outcome(NamedTuple):
 
     @property
     def is_fatal(self) -> bool:
-        """True if no instance of the FMU may be used again (FMI 2.0, fmi2Fatal), or its status is none of FMI's."""
+        """True if no instance of the FMU may be used again: fmi2Fatal (FMI 2.0), or an undefined status."""
         return self.code == codes.FAILED and not 0 <= self.fmi_status < fmi2.fmi2Fatal
 
     @property
@@ -79,7 +82,7 @@ class Outcome(NamedTuple):
         return int(program.instructions[self.instruction, codes.CODE]) in READ_BACKS
 
     def is_refused_again(self, program: arrays.Program) -> bool:
-        """Return True if an FMU refused parameters in initialisation mode."""
+        """Return True if an FMU refused parameters in initialisation mode, after it had accepted them before."""
         if not (self.is_error or self._failure(fmi2.fmi2Discard)):
             return False
         row = program.instructions[self.instruction]
@@ -92,10 +95,9 @@ class Outcome(NamedTuple):
 
 
 def end_request(instance: Instance) -> float | None:
-    """Return the time (s) at which an FMU that discarded a step requests the end of the simulation; None without a
-    request.
+    """Return the time (s) at which an FMU that discarded a step asks to end the simulation, or None.
 
-    Our own never does: a step that a block refuses is a failure, of which pythonfmu makes such a wish.
+    Perilune's FMUs never ask: pythonfmu reports the failed step of a block as such a request.
     """
     if instance.fmu.is_own or instance.fmu.version == 3:  # which says so with the step
         return None
@@ -115,7 +117,7 @@ def in_words(
     fmi3: arrays.Fmi3 | None,
     instances: Mapping[str, Instance],
 ) -> tuple[str, str]:
-    """Return status and message of a flight; ``time`` (s) is that of its last communication point."""
+    """Return the status and the message of an outcome; ``time`` (s) is that of the last communication point."""
     code, subject = outcome.code, outcome.subject
     status = STATUS[code]
     if code == codes.NONFINITE:
@@ -165,9 +167,9 @@ def in_words(
 def ended_in_words(
     time: float, begin: float, end: float, subject: int, instances: Mapping[str, Instance]
 ) -> tuple[str, str]:
-    """Return status and message of a flight that an FMU has ended at ``time`` (s), in its step from begin to end.
+    """Return status and message of a simulation that an FMU ended at ``time`` (s) during its step from begin to end.
 
-    It has failed where the time is not in that step.
+    The status is ``failed`` if ``time`` is outside the step.
     """
     allowed = load_library().perilune_time_allowance(begin, end)
     if not begin - allowed <= time <= end + allowed:  # NaN is not, either
@@ -181,7 +183,7 @@ def ended_in_words(
 def _outside_words(
     said: str, last: float, begin: float, end: float, subject: int, instances: Mapping[str, Instance]
 ) -> str:
-    """Return the message on a lastSuccessfulTime (s) that is not in the step from begin to end."""
+    """Return status and message for a lastSuccessfulTime (s) outside the step from begin to end."""
     component, instance = list(instances.items())[subject]
     log = " | ".join(instance.messages) or "no message in its log"
     step = f"its step from {begin:.12g} s to {end:.12g} s"
@@ -189,14 +191,14 @@ def _outside_words(
 
 
 def _limits(name: str, instances: Mapping[str, Instance]) -> str:
-    """Return the limits that the number of a component's connector exceeds."""
+    """Return the name of the limits that a connector's value exceeds."""
     component, variable = split_name(name, instances)
     stored = instances[component].fmu.variables[variable].representation
     return "the 32 bits of an Integer" if stored.name == "Int32" else f"the limits of {stored.name}"
 
 
 def check_initialisation(outcome: Outcome, program: arrays.Program, count: int) -> list[bool]:
-    """Return for each of ``count`` components if a restarted flight has brought it through initialisation."""
+    """Return, for each of ``count`` components, whether it left initialisation mode in the last start."""
     reached = [True] * count
     if outcome.is_well or outcome.instruction >= program.phases[0]:
         return reached

@@ -1,4 +1,4 @@
-"""Consecutive flights: inputs and records of the loop for them."""
+"""Groups of consecutive simulations: inputs and records of the loop."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ RECORD_BYTES = 2**23  # of a group: dozens of long flights, thousands of short o
 
 
 def group_of(table: FlightTable, keys: Mapping[str, Key], parameters: Parameters, margin: float) -> arrays.Group:
-    """Return a table as arrays for the loop, whose times may lack ``margin`` (s)."""
+    """Return a table as arrays for the loop; ``margin`` (s) is subtracted from fault windows to allow for rounding."""
     real = [name for name in table.values if parameters.types[keys[name]] == "Real"]
     whole = [name for name in table.values if name not in real]
     window = np.empty((table.flights, len(table.faults), 2))
@@ -47,7 +47,7 @@ def _columns(table: FlightTable, names: Sequence[str], dtype: type) -> np.ndarra
 
 
 def flights_in_group(signals: int, rows: int) -> int:
-    """Return the number of flights of ``rows`` rows that the record of a group holds, one at least."""
+    """Return the number of flights of ``rows`` rows that fit into the record of a group, at least one."""
     return max(1, RECORD_BYTES // (8 * rows * (signals + 1)))
 
 
@@ -57,7 +57,7 @@ def _positions(names: Sequence[str], keys: Mapping[str, Key], parameters: Parame
 
 @dataclass
 class FlightGroup:
-    """Flights as `Flight` has them, their rows one behind another: those of flight k end before row ``ends[k]``."""
+    """Records of consecutive flights, concatenated: the rows of flight k end before row ``ends[k]``."""
 
     time: np.ndarray
     signals: Mapping[str, np.ndarray]
@@ -68,7 +68,7 @@ class FlightGroup:
 
     @classmethod
     def of(cls, flight: Flight) -> Self:
-        """Return a group of one flight."""
+        """Return a group that consists of one flight."""
         ends, complete = np.array([flight.time.size]), np.array([flight.complete])
         return cls(flight.time, flight.signals, ends, [flight.status], complete, [flight.message])
 
@@ -78,11 +78,11 @@ class FlightGroup:
         return np.concatenate([[0], self.ends[:-1]])
 
     def last(self, values: np.ndarray) -> np.ndarray:
-        """Return the last entry of each flight of a column of rows, NaN of a flight without rows."""
+        """Return the last entry of each flight in a column of rows; NaN for a flight without rows."""
         if not values.size:
             return np.full(self.ends.size, np.nan)
         return np.where(self.ends > self.starts, values[self.ends - 1], np.nan)
 
     def rows(self, flight: int) -> slice:
-        """Return the rows of a flight, by its number in the group."""
+        """Return the slice of rows of a flight, by its number in the group."""
         return slice(int(self.starts[flight]), int(self.ends[flight]))

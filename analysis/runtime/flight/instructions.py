@@ -1,4 +1,4 @@
-"""From schedule and layout to the loop's instructions: what is done, in which order, in each step."""
+"""Instructions of the loop, written from schedule and layout: what each step does, in order."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ Orders = Fmi2Orders | Fmi3Orders
 
 
 class InstructionList(Rows):
-    """Collects instructions.
+    """Writer of a system's instructions.
 
-    ``orders`` write those of the components. ``connections`` [component] lists the terms of each connection that feeds
-    a component, in order; the last entry is for system connectors. Connections and ``fault_slots`` are numbered as in
-    the program's arrays; ``drives`` [component] are (first, count) of the inputs driven over time, the last entry of
-    those of system connectors; ``texts`` has the places of Strings, ``binaries`` those of Binaries.
+    ``orders`` write the calls of each component. ``connections`` [component] lists the terms of the connections to a
+    component, in order; its last entry is for system connectors. Connections and ``fault_slots`` are numbered as in the
+    program's arrays. ``drives`` [component] is (first, count) of the inputs driven over time, the last entry for system
+    connectors. ``texts`` and ``binaries`` hold the positions of Strings and Binaries.
     """
 
     def __init__(
@@ -44,9 +44,9 @@ class InstructionList(Rows):
         self.drives = drives
 
     def connect(self, group: int, known: Collection[int] | None = None) -> None:
-        """Write values over the connections that feed a component; group -1: system connectors.
+        """Write the transfer of values over the connections to a component; group -1: the system connectors.
 
-        With ``known`` only those whose values come from these components alone.
+        If ``known`` is passed, only connections whose values originate in these components are written.
         """
         group %= len(self.connections)
         run: list[int] = []
@@ -67,17 +67,20 @@ class InstructionList(Rows):
                 self.rows.append(run)
 
     def drive(self, group: int, *, started: bool) -> None:
-        """Write the values over time of a component's driven inputs; group -1: of system connectors.
+        """Write the values of a component's inputs driven over time; group -1 stands for the system connectors.
 
-        Before all has ``started`` they are the initialisation's, then those of the communication point.
+        Unless ``started``, the values are those of the initialisation, otherwise those of the communication point.
         """
         first, count = self.drives[group]
         if count:
             self.rows.append([codes.DRIVE, int(started), 0, first, count, 0, 0])
 
     def set(self, component: int, known: Collection[int] | None = None) -> None:
-        """Write inputs of a component; in the initialisation those whose source is not
-        ``known`` keep their start values."""
+        """Set the inputs of a component.
+
+        In the initialisation, ``known`` are the components already computed; inputs from others keep their start
+        values.
+        """
         for code, texts in self.texts:
             for start, source, target in texts.connections[component]:
                 if known is None or start in known:
@@ -89,34 +92,34 @@ class InstructionList(Rows):
         self.orders[component].set(begun, started=known is None)
 
     def carry(self, component: int) -> None:
-        """Carry values and faults to the inputs of a component without setting them."""
+        """Write connected values and faults to the input slots of a component, without a call of its FMU."""
         self.orders[component].take_bases()
         self.connect(component)
         self.orders[component].carry()
 
     def get(self, component: int) -> None:
-        """Get outputs of a component, at the end of the step."""
+        """Get the outputs of a component at the end of its step."""
         self.orders[component].get()
 
     def read(self, component: int) -> None:
-        """Get outputs of a component, and its other recorded variables, whose values may be anything."""
+        """Get the outputs of a component and its other recorded variables; the latter may be non-finite."""
         self.orders[component].get()
         self.orders[component].read()
 
     def step(self, component: int, period: int = 1) -> None:
-        """Write a step that ends with this communication step and begins ``period`` of them earlier."""
+        """Write a step over ``period`` communication steps that ends at the current one."""
         self.orders[component].step(0 if period == 1 else period)
 
     def reset(self) -> None:
-        """Reset every FMU to the state after instantiation, its flight ended."""
+        """Terminate every FMU and reset it to the state after instantiation."""
         for orders in self.orders:
             orders.reset()
 
     def initialise(self, order: Sequence[int]) -> None:
-        """Write parameters, initialisation mode, one exchange in ``order`` that settles the start.
+        """Write parameters and initialisation mode, with one exchange of values in the sequence ``order``.
 
-        A component before its sources has the declared start values as inputs, on which the outputs that it passes on
-        do not depend.
+        A component that comes before its sources has declared start values at its inputs; the outputs passed on do not
+        depend on these inputs.
         """
         for orders in self.orders:
             orders.enter_initialization()
@@ -134,22 +137,21 @@ class InstructionList(Rows):
             self.read(component)  # again: there are FMUs that compute outputs only when they leave initialisation
 
     def side_by_side(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
-        """Step all, with the inputs that they have, then read all: Jacobi's way."""
+        """Step all components with their current inputs, then read all outputs (Jacobi's method)."""
         for component in components:
             self.step(component, periods.get(component, 1))
         for component in components:
             self.read(component)
 
     def in_turn(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
-        """Step each with inputs of the end of its step."""
+        """Step each component with inputs from the end of its step."""
         for component in components:
             self.set(component)
             self.step(component, periods.get(component, 1))
             self.read(component)
 
     def hand_over(self, components: Sequence[int]) -> None:
-        """Write the end of every communication point, the first one too: inputs for the next step, system
-        connectors."""
+        """Write the end of a communication point: set the inputs for the next step and the system connectors."""
         for component in components:
             self.set(component)
         self.connect(-1)
@@ -158,10 +160,10 @@ class InstructionList(Rows):
 def write_instructions(
     instructions: InstructionList, names: Sequence[str], schedule: Schedule, algorithm: str, periods: Mapping[str, int]
 ) -> tuple[np.ndarray, int, np.ndarray]:
-    """Return the instruction array, the end of resetting in it, and the ends of the initialisation and of each part.
+    """Return the instructions, and the ends of resetting, of the initialisation and of each part.
 
-    Step n works off part n modulo the parts' number: there is one for each communication step until all ``periods`` (of
-    components, in communication steps, where longer than 1) have come round together.
+    Step n executes part n modulo the number of parts. There is one part for each communication step up to the least
+    common multiple of ``periods``, which are numbers of communication steps by component (those above 1).
     """
     instructions.begin()
     index = {name: position for position, name in enumerate(names)}
@@ -194,10 +196,10 @@ def write_renewal(
     periods: Mapping[str, int],
     part: int,
 ) -> dict[int, np.ndarray]:
-    """Write instructions that pass on a system's inputs, and parameters with faults, changed between two steps.
+    """Write instructions that update inputs after a system's inputs or faulty parameters changed between two steps.
 
-    They are by component, of those that step in the next ``part`` with the inputs of its start. Arguments as of
-    `write_instructions`.
+    Returns them by component, for the components that step in the next ``part`` with inputs from its start. Other
+    arguments as for `write_instructions`.
     """
     renewed = {}
     for component in _ahead(names, schedule, algorithm):
@@ -211,13 +213,12 @@ def write_renewal(
 
 
 def _ahead(names: Sequence[str], schedule: Schedule, algorithm: str) -> Sequence[int]:
-    """Return the components that step with the inputs of the step's start."""
+    """Return the components that step with inputs from the start of the step."""
     return range(len(names)) if algorithm == "jacobi" else [names.index(name) for name in schedule.sources_first]
 
 
 def write_ending(instructions: InstructionList, component: int) -> np.ndarray:
-    """Write the instructions of a last row: the outputs of the FMU that ends the simulation, carried to all
-    connectors."""
+    """Write the instructions of the last row when an FMU ends the simulation: its outputs, passed to all connectors."""
     instructions.begin()
     instructions.read(component)
     for other in range(len(instructions.orders)):

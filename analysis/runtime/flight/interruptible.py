@@ -1,4 +1,4 @@
-"""Flights off the caller's thread, which stays free to hear Ctrl-C and to look at the clock."""
+"""Simulation in a second thread, so that the caller's thread can react to Ctrl-C and to timeouts."""
 
 from __future__ import annotations
 
@@ -23,34 +23,33 @@ PATIENCE = 1.5  # s that a flight has to reach its next communication point
 
 
 class StuckError(TimeoutError):
-    """A step of an FMU that does not return; the flight's thread and instances are lost. The message says when."""
+    """Step of an FMU that does not return: thread and instances are lost. The message names the time of the step."""
 
 
 def fly(simulation: BaseSimulation, timeout: float | None = None) -> Result:
-    """Simulate one flight. Ctrl-C ends it at its next communication point: its rows so far are returned,
-    ``interrupted``.
+    """Simulate once. Ctrl-C and ``timeout`` (s of wall time) end it at the next communication point.
 
-    So does a ``timeout`` (s of the wall clock): ``timed_out``. Raises KeyboardInterrupt or StuckError where no point is
-    reached within PATIENCE: a step of an FMU cannot be cut.
+    The rows recorded so far are returned with the status ``interrupted`` or ``timed_out``. Raises KeyboardInterrupt or
+    StuckError if no communication point is reached within PATIENCE, since the step of an FMU cannot be interrupted.
     """
     work = partial(_within, simulation, timeout, simulation.fly)
     return wait(work, simulation.interrupt, partial(simulation.give_up, "was interrupted"))
 
 
 def run(simulation: BaseSimulation, values: Mapping[str, ParameterValue], timeout: float | None = None) -> Flight:
-    """Simulate a trial likewise, in a thread that does not receive Ctrl-C."""
+    """Simulate one trial with the same timeout, in a thread that does not receive Ctrl-C."""
     return _within(simulation, timeout, partial(simulation.run, values))
 
 
 def nothing_flown(simulation: BaseSimulation, message: str) -> Flight:
-    """Return the flight of a step that did not return: its rows are lost with it."""
+    """Return a flight without rows, for a simulation whose step did not return and whose rows are lost."""
     nothing = np.empty(0)
     types = {name: simulation.layout.types[name] for name in simulation.signal_names}
     return Flight(nothing, dict.fromkeys(types, nothing), types, HUNG, message)
 
 
 def _within(simulation: BaseSimulation, timeout: float | None, work: Callable[[], Flown]) -> Flown:
-    """Return a flight that is interrupted after ``timeout`` seconds of wall time."""
+    """Return the flight that ``work`` simulates, interrupted after ``timeout`` seconds of wall time."""
     if timeout is None:
         return work()
     future = _start(work)
@@ -74,13 +73,12 @@ def _within(simulation: BaseSimulation, timeout: float | None, work: Callable[[]
 
 
 def _point(simulation: BaseSimulation) -> float:
-    """Return the time (s) of the communication point under way, or of the last one."""
+    """Return the time (s) of the communication point being computed, or of the last one."""
     return simulation.prepared.start + simulation.recorder.point * simulation.prepared.step
 
 
 def progress_text(prepared: PreparedSystem, recorder: FlightRecorder) -> str:
-    """Return the progress of a flight in words: the communication point under way, and the last component that
-    stepped."""
+    """Return progress as text: the communication point being computed, and the component that stepped last."""
     if not recorder.point:
         return "in the initialisation"
     time = prepared.start + recorder.point * prepared.step
@@ -88,10 +86,9 @@ def progress_text(prepared: PreparedSystem, recorder: FlightRecorder) -> str:
 
 
 def wait(work: Callable[[], T], interrupt: Callable[[], None], give_up: Callable[[], object]) -> T:
-    """Return the result of ``work``, run in a thread; Ctrl-C calls ``interrupt``, waits a while for the rest, and gives
-    up.
+    """Return the result of ``work``, executed in a thread; on Ctrl-C interrupt it, and give up after PATIENCE.
 
-    Elsewhere than in the main thread, which alone hears of it, the work is done at once.
+    Outside the main thread, the only one to receive Ctrl-C, ``work`` is executed directly.
     """
     if threading.current_thread() is not threading.main_thread():
         return work()
@@ -115,7 +112,7 @@ def _start(work: Callable[[], T]) -> Future[T]:
 
 
 def _start_into(work: Callable[[], T], future: Future[T]) -> None:
-    """Do the work in a thread that does not keep the process from ending."""
+    """Execute ``work`` in a daemon thread, which does not keep the process alive; set its result in ``future``."""
 
     def run() -> None:
         try:

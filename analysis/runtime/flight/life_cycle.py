@@ -1,4 +1,4 @@
-"""The instances of a simulation from flight to flight: terminated, then reset or instantiated again."""
+"""Life cycle of FMU instances between simulations: terminated, then reset or instantiated again."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ from .instructions import InstructionList
 
 
 class LifeCycle:
-    """Permitted next calls of each instance, by the state machine of FMI 2.0 (co-simulation).
+    """States of all instances in the state machine of FMI 2.0 co-simulation, and the calls they permit.
 
-    Our own FMUs are terminated and reset by the loop itself after a flight without errors. Others are handled here:
-    those whose reset cannot be trusted, and those that returned an error or discarded a step, which the trial of a
-    reset need not have reached, are instantiated again. A flight is ended when the next one begins, since until then it
-    can continue. ``note_subject`` is called with the number of each component before one of its functions is.
+    After a simulation without errors the loop terminates and resets Perilune's FMUs itself. All others are handled
+    here. An FMU is instantiated again if its reset is not trusted, or if it returned an error or discarded a step,
+    since the test of its reset need not have covered that state. Instances are terminated only when the next simulation
+    begins, as this one may still be continued. ``note_subject`` is called with the number of a component before any of
+    its functions is called.
     """
 
     def __init__(
@@ -45,7 +46,7 @@ class LifeCycle:
         self._discarded: set[str] = set()  # discarded a step, to end the simulation or not
 
     def note(self, outcome: Outcome, program: arrays.Program) -> None:
-        """Remember how the loop has left the instances."""
+        """Record the state in which the loop has left the instances."""
         self._fresh = False
         if outcome.is_well and not self._broken:
             self._running = self._instances.keys()
@@ -60,9 +61,9 @@ class LifeCycle:
             self._discarded.add(names[outcome.subject])
 
     def make_ready(self) -> bool:
-        """Get the instances ready for a start; returns whether the loop is to terminate and reset them.
+        """Prepare the instances for a start; return True if the loop itself must terminate and reset them.
 
-        Raises InputError where one cannot be instantiated again.
+        Raises InputError if an FMU cannot be instantiated again.
         """
         if self._fresh:
             return False
@@ -86,7 +87,7 @@ class LifeCycle:
         return False
 
     def _is_reset(self, name: str, instance: Instance) -> bool:
-        """Return True if an instance has been reset, and is thereby as good as a new one."""
+        """Reset an instance if its reset is trusted; return True on success."""
         sound = instance.fmu.is_self_contained or name not in self._broken | self._discarded
         if not instance.is_there or not self._terminate(name, instance) or not sound:
             return False
@@ -104,7 +105,7 @@ class LifeCycle:
         return True
 
     def _terminate(self, name: str, instance: Instance) -> bool:
-        """End an instance's flight, if it has one that can be ended; returns whether all went well."""
+        """Terminate an instance if it is initialised; return False if its FMU reports an error."""
         if name in self._running:
             self._running = self._running - {name}
             try:
@@ -114,7 +115,7 @@ class LifeCycle:
         return True
 
     def _readdress(self, index: int, instance: Instance) -> None:
-        """Let the program call the new instance of a component."""
+        """Replace the addresses of a component's former instance in the program."""
         rows = self._program.instructions
         calls = (rows[:, codes.INSTANCE] != 0) & (rows[:, codes.COMPONENT] == index)
         in_memory = calls & np.isin(rows[:, codes.CODE], codes.IN_MEMORY)
@@ -128,9 +129,9 @@ class LifeCycle:
         self._instructions.addresses[index] = (instance.address, addresses)
 
     def close(self, fatal: str | None = None) -> None:
-        """End all flights and free the instances, but for those of the FMU whose digest is ``fatal``.
+        """Terminate and free all instances, except those of the FMU with the digest ``fatal``.
 
-        After fmi2Fatal no instance of it may be used again, nor freed (FMI 2.0).
+        After fmi2Fatal no instance of an FMU may be used or freed (FMI 2.0).
         """
         for index, (name, instance) in enumerate(self._instances.items()):
             self._note_subject(index)

@@ -1,4 +1,4 @@
-"""The complete memory of a system between two communication points: saved, put back, read and changed."""
+"""Complete memory of a system in this process: saved, restored, read and changed at a communication point."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Snapshot:
 
 
 class Piece:
-    """The real variables of one FMU, read in one call."""
+    """Cells of one FMU, read in one call."""
 
     def __init__(self, instance: Instance, references: np.ndarray, size: int) -> None:
         self._instance = instance
@@ -51,7 +51,7 @@ class Piece:
         )
 
     def read(self) -> np.ndarray:
-        """Read their values; the array is used again by the next call."""
+        """Return the current values. The array is reused by the next call."""
         if self._references.size:
             references, values = self._pointers
             slave = self._instance.slave
@@ -63,9 +63,9 @@ class Piece:
 
 
 class Memory(BaseMemory[Snapshot]):
-    """The memory of a simulation in this process.
+    """Memory of a simulation in this process.
 
-    Raises InputError where an FMU does not tell how it serialises its memory.
+    Raises InputError if an FMU does not describe its serialised state, or keeps state outside it.
     """
 
     def __init__(
@@ -102,12 +102,12 @@ class Memory(BaseMemory[Snapshot]):
                 self._slots.append(slot)
 
     def read(self) -> np.ndarray:
-        """Read the values of all cells now."""
+        """Return the current values of all cells, in their order."""
         parts = [piece.read() for piece in self._pieces]
         return np.concatenate([*parts, self._buffers.values[self._slots]])
 
     def take(self, point: int) -> Snapshot:
-        """Save everything at communication point ``point``; `release` it in the end."""
+        """Save the complete memory at communication point ``point``. Free it with `release`."""
         states, serialized = {}, {}
         for component, instance in self._instances.items():
             states[component] = instance.state()
@@ -119,7 +119,7 @@ class Memory(BaseMemory[Snapshot]):
         )
 
     def put_back(self, snapshot: Snapshot, cell: Cell | None = None, number: float = 0.0) -> None:
-        """Restore everything as it was, but for one cell's value."""
+        """Restore a snapshot; if ``cell`` is passed, with that cell set to ``number``."""
         for component, instance in self._instances.items():
             instance.set_state(snapshot.states[component])
         buffers = self._buffers
@@ -140,7 +140,7 @@ class Memory(BaseMemory[Snapshot]):
         instance.free_state(state)
 
     def release(self, snapshot: Snapshot) -> None:
-        """Free what `take` saved."""
+        """Free the memory of a snapshot."""
         for component, state in snapshot.states.items():
             self._instances[component].free_state(state)
 
@@ -148,7 +148,7 @@ class Memory(BaseMemory[Snapshot]):
 def _find_cells(fmu: Fmu, frozen: set[int]) -> dict[int, Variable]:
     """Return the variables that are cells, by their index in the serialised state.
 
-    That is the value reference; the elements of an array follow on that of their array.
+    The index is the value reference; elements of an array have consecutive indices from their array's reference.
     """
     remembered: dict[int, Variable] = {}
     for variable in fmu.variables.values():
@@ -159,7 +159,10 @@ def _find_cells(fmu: Fmu, frozen: set[int]) -> dict[int, Variable]:
 
 
 def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
-    """Return the encoding of an FMU's serialised state, and the value references that are no cells."""
+    """Return the encoding of an FMU's serialised state, and the value references declared frozen.
+
+    Raises InputError if the FMU declares neither, or has external state.
+    """
     if fmu.external_state:
         names = ", ".join(fmu.external_state)
         problem = f"{names} is external state, which cannot be saved or perturbed"

@@ -1,4 +1,4 @@
-"""Parameters of a flight in the loop's arrays."""
+"""Parameters of a simulation in the loop's arrays."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ _set_once: set[str] = set()
 
 
 class Parameters:
-    """Values by (component, variable); those of a component and type are contiguous.
+    """Values by (component, variable); those of one component and type are contiguous.
 
-    ``ranges`` [component, type of TYPE_KIND, 4] are the first one, how many there are, and how many of them, the first
-    ones, are set again in initialisation mode and read back after it. Those of a component of FMI 3.0 are
-    ``transfers``, rows of ``table``, one for each variable with all its elements. Those that are ``tuned`` change in
-    flight and are not read back.
+    ``ranges`` [component, type of TYPE_KIND, 4] are the first parameter and three counts: of those to set, to set again
+    in initialisation mode, and to read back. The parameters of a component of FMI 3.0 are ``transfers``, rows of
+    ``table``, one for each variable with all of its elements. Those in ``tuned`` change during simulation and are not
+    read back.
     """
 
     def __init__(
@@ -87,7 +87,7 @@ class Parameters:
                 self[key] = self._start(*key)
 
     def _place_transfers(self, component: str, fmu: Fmu, given: list[str]) -> ComponentTransfers:
-        """Return the transfers of a component of FMI 3.0, which takes whole arrays."""
+        """Return the transfers of a component of FMI 3.0, in which arrays are set as a whole."""
         transfers = ComponentTransfers()
         arrays_of: dict[str, list[Variable]] = {}
         for variable in whole(fmu.variables.values(), set(given)):
@@ -115,11 +115,14 @@ class Parameters:
         return transfers
 
     def _grade(self, component: str, variable: Variable, *, driven: bool) -> int:
-        """Return 0: set in initialisation mode too, and read back; 1: not read back; 2: set before initialisation mode
-        only.
+        """Return the treatment of a parameter: 0, 1 or 2.
 
-        FMI 2.0 permits setting inputs and variables with initial="exact" in that mode; the FMU calculates others itself
-        from then on, and a connected input is set again.
+        - 0: set again in initialisation mode, and read back
+        - 1: set again in initialisation mode, but not read back
+        - 2: set only before initialisation mode
+
+        In that mode FMI 2.0 permits setting inputs and variables with initial="exact" only; the FMU computes the others
+        itself, and a connected input is set by its connection.
         """
         settable = variable.causality in ("input", "parameter") or variable.initial == "exact"
         if not settable or (driven and variable.causality == "input"):
@@ -128,7 +131,7 @@ class Parameters:
         return int(f"{component}.{variable.name}" in self._tuned or (variable.array or variable.name) in unreadable)
 
     def _start(self, component: str, name: str) -> ParameterValue:
-        """Return the start of an element that has no value, but whose array is set."""
+        """Return the start value of an element that was not set, in an array that is set as a whole."""
         variable = self._network.fmus[component].variables[name]
         if variable.start is None:
             problem = f"{name} has neither a value nor a start, and its array is set as a whole"
@@ -160,8 +163,7 @@ class Parameters:
             self[key] = value
 
     def value_in(self, values: arrays.Settings, words: np.ndarray, position: int) -> ParameterValue:
-        """Return the value at a position of arrays of the same layout, those read back; ``words`` are those of FMI
-        3.0."""
+        """Return the value at a position of arrays with this layout; ``words`` are those of FMI 3.0."""
         kind = self.types[self.keys[position]]
         if kind == "String":
             address = int(values.text[position])
@@ -173,17 +175,19 @@ class Parameters:
         return bool(values.whole[position]) if kind == "Boolean" else int(values.whole[position])
 
     def _view(self, words: np.ndarray, position: int) -> np.ndarray:
-        """Return the one value of FMI 3.0 that is stored for a position, as a view."""
+        """Return a view of the one value of FMI 3.0 stored at a position."""
         dtype, first = self._layout[position]
         return words.view(np.uint8)[first : first + np.dtype(dtype).itemsize].view(dtype)
 
     def is_one_by_one(self, component: str) -> bool:
-        """Return True if a component's parameters are read back one by one, since it does not return all of them."""
+        """Return True if a component's parameters are to be read back one by one, because some cannot be read."""
         return self._network.fmus[component].digest in _one_by_one
 
     def learn_unreadable(self, first: int, count: int) -> None:
-        """Note not to read back a parameter that an FMU does not return, or one of ``count``
-        that is to be identified yet."""
+        """Note that an FMU does not return a parameter, so that it is no longer read back.
+
+        If ``count`` > 1, the parameter is one of several: note to read them one by one, which identifies it.
+        """
         component, name = self.keys[first]
         fmu = self._network.fmus[component]
         name = fmu.variables[name].array or name
@@ -195,13 +199,13 @@ class Parameters:
             warnings.warn(text, stacklevel=2)
 
     def is_set_once(self, component: str) -> bool:
-        """Return True if a component refuses parameters in initialisation mode."""
+        """Return True if the FMU of a component refuses parameters in initialisation mode."""
         return self._network.fmus[component].digest in _set_once
 
     def learn_set_once(self, component: str) -> None:
-        """Note not to set an FMU's parameters in initialisation mode, which it has refused; they are read back."""
+        """Note that an FMU refuses parameters in initialisation mode; they are set before it, and still read back."""
         _set_once.add(self._network.fmus[component].digest)
 
     def blank(self) -> arrays.Settings:
-        """Return arrays of the same layout, to read into."""
+        """Return zeroed arrays of the same layout, to read parameters into."""
         return arrays.Settings(*(np.zeros_like(array) for array in self.values))

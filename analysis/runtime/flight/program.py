@@ -1,4 +1,4 @@
-"""From network, settings and schedule to the arrays that the loop runs on."""
+"""Builds the arrays that the loop runs on from network, settings and schedule."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ from .parameters import Key, Parameters
 
 @dataclass
 class Layout:
-    """Layout of the arrays: slots by name, the parameters, the Strings and Binaries that are exchanged.
+    """Layout of the arrays: slots by name, parameters, exchanged Strings and Binaries.
 
-    ``unfed`` are slots of array elements that nothing is connected to, whose array is given as a whole; ``bases`` those
-    of what parameters that change in flight have without the change.
+    ``unfed`` are the slots of elements without a connection, in arrays that are set as a whole; ``bases`` those of the
+    unchanged values of parameters that change during simulation.
     """
 
     slots: dict[str, int]
@@ -60,10 +60,10 @@ def build_program(
     injections: Sequence[Injection],
     more: Collection[str] = (),
 ) -> tuple[arrays.Program, arrays.Fmi3 | None, InstructionList, Layout]:
-    """Build arrays for the loop, those of FMI 3.0 if there is any, and the writer of instructions.
+    """Return the loop's arrays, those for FMI 3.0 or None, the writer of instructions, and the layout.
 
-    ``wanted`` names what is recorded (None: all that is exchanged), ``more`` what else is. Only outputs that are
-    connected or recorded are fetched, and of other variables those that are named.
+    ``wanted`` names the signals to record (None: all exchanged ones), ``more`` further ones. Outputs are read only if
+    they are connected or recorded, other variables only if they are named.
     """
     builder = _Builder(prepared.network, settings, wanted, injections, more)
     program, instructions = builder.program(prepared, instances)
@@ -77,7 +77,7 @@ def layout_of(
     injections: Sequence[Injection] = (),
     more: Collection[str] = (),
 ) -> Layout:
-    """Return the layout of a simulation before it starts; arguments as of `build_program`."""
+    """Return the layout of a simulation without building its program; arguments as for `build_program`."""
     return _Builder(network, settings, wanted, injections, more).layout()
 
 
@@ -120,13 +120,15 @@ class _Builder:
                 self.signals.add(node.name, 0, start, node.type_name or "Real", unit)
 
     def _texts(self, index: int) -> list[list[tuple[Sequence[Variable], int]]]:
-        """Return the Strings and Binaries of a component with their first rows: inputs, outputs."""
+        """Return the Strings and Binaries of a component with their first rows, for inputs and for outputs."""
         kinds = (self.texts, self.binaries)
         return [[(each.variables[index][way], int(each.ranges[index, way, 0])) for each in kinds] for way in (0, 1)]
 
     def _drives(self) -> tuple[list[str], list[tuple[int, int]]]:
-        """Return the inputs driven over time by component, those of system connectors last;
-        first and count of each group."""
+        """Return the names of inputs driven over time, grouped by component with system connectors last.
+
+        Also returns (first, count) of each group.
+        """
         groups: dict[str, list[str]] = {name: [] for name in (*self.names, "")}
         for name in self.network.driven:
             groups[split_name(name, self.network.fmus)[0]].append(name)
@@ -195,7 +197,7 @@ class _Builder:
         )
 
     def fmi3(self, instances: Mapping[str, Callee]) -> arrays.Fmi3 | None:
-        """Return the additional arrays of a system with FMUs of FMI 3.0."""
+        """Return the additional arrays of a system with FMUs of FMI 3.0, else None."""
         if not self.transfers:
             return None
         start = np.zeros(len(self.slots), dtype=np.uint64)
@@ -232,7 +234,7 @@ class _Builder:
 
 
 def _tolerance(fmu: Fmu) -> float:
-    """Return the relative tolerance that an FMU proposes for its solver, NaN where it proposes none."""
+    """Return the relative tolerance that an FMU proposes for its solver, NaN if it proposes none."""
     experiment = fmu.description.defaultExperiment
     return float(experiment.tolerance) if experiment is not None and experiment.tolerance is not None else np.nan
 

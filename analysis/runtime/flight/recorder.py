@@ -14,7 +14,7 @@ OUTCOME_WORDS = codes.INSTRUCTION + 1
 
 
 class Phase(IntEnum):
-    """Activity of a simulation's FMUs."""
+    """Activity of a simulation: the group of FMI calls being executed."""
 
     IDLE = 0
     INSTANTIATION = 1
@@ -25,10 +25,10 @@ class Phase(IntEnum):
 
 @dataclass(eq=False)
 class FlightRecorder:
-    """``record`` [signals, rows] and ``times`` [rows] (s) of a flight; ``outcome`` is the loop's, see `arrays.Buffers`.
+    """``record`` [signals, rows] and ``times`` [rows] (s) of a flight; for ``outcome`` see `arrays.Buffers`.
 
-    ``halt`` [1] ends the flight at its next communication point, if someone sets it. ``phase`` [2] is what the
-    simulation does, one of `Phase`, and the component that it does it with.
+    Setting ``halt`` [1] ends the flight at its next communication point. ``phase`` [2] is the current `Phase` and the
+    component concerned.
     """
 
     record: np.ndarray = field(default_factory=lambda: np.empty((0, 0)))
@@ -38,9 +38,9 @@ class FlightRecorder:
     phase: np.ndarray = field(default_factory=lambda: np.zeros(2, dtype=np.int64))
 
     def reserve(self, signals: int, rows: int, step: float) -> None:
-        """Reserve room for the rows of a simulation.
+        """Allocate memory for the rows of a simulation, unless enough is allocated already.
 
-        Raises ExcessError, which names the ``step`` (s), where memory does not do.
+        Raises ExcessError if memory does not suffice; its message names ``step`` (s).
         """
         if self.times.size < rows:
             check_room(signals, rows, step)
@@ -51,21 +51,23 @@ class FlightRecorder:
         self.times = np.empty(rows)
 
     def enter(self, phase: Phase, component: int = 0) -> None:
-        """Note what is done next."""
+        """Record the phase that begins, and the component concerned."""
         self.phase[:] = phase, component
 
     @property
     def point(self) -> int:
-        """The communication point that is being computed, or the last one."""
+        """Number of the communication point being computed, or of the last one."""
         return int(self.outcome[codes.POINT_REACHED])
 
     @property
     def subject(self) -> int:
-        """The number of the component that was the last to step."""
+        """Number of the component that stepped last."""
         return int(self.outcome[codes.SUBJECT])
 
 
 def rows_between(first: int, last: int, every: int = 1) -> int:
-    """Return the number of rows of a flight between two communication points, -1 for its start,
-    with every n-th row kept."""
+    """Return the number of rows to allocate for a flight from point ``first`` (-1: its start) to point ``last``.
+
+    Every ``every``-th row is recorded.
+    """
     return (last - max(first, 0)) // every + 2

@@ -45,20 +45,20 @@ ENDINGS = {
 
 
 def require_pandas() -> None:
-    """Raise ImportError, with what to install, where pandas is missing."""
+    """Raise ImportError, with the command that installs it, if pandas is missing."""
     if find_spec("pandas") is None:
         raise ImportError("to_pandas needs pandas, which is not here; pip install 'perilune[notebook]'")
 
 
 @dataclass(repr=False)
 class Flight:
-    """One flight in memory. Row n of every signal is its value at ``time[n]`` (s).
+    """One simulation in memory. Row n of every signal is its value at ``time[n]`` (s).
 
-    ``status`` is ``finished`` (the system's own end), ``stop_time``, ``terminated`` (an FMU ended it, at any time),
-    ``nonfinite`` (a component gave NaN or infinity), ``failed`` (an FMU reported an error, or did not take a
-    parameter), ``interrupted`` (by Ctrl-C), ``timed_out`` (it took longer than it may), ``crashed`` (an FMU ended its
+    ``status`` is ``finished`` (the system ended itself), ``stop_time``, ``terminated`` (an FMU asked to end),
+    ``nonfinite`` (a component returned NaN or infinity), ``failed`` (an FMU reported an error, or did not take a
+    parameter), ``interrupted`` (by Ctrl-C), ``timed_out`` (it exceeded its time limit), ``crashed`` (an FMU ended its
     process), ``hung`` (a call of an FMU did not return) or ``out_of_memory``; ``message`` explains the last eight.
-    ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
+    ``signals`` are float64 arrays, also for Integers and Booleans; ``types`` are FMI's.
     """
 
     time: np.ndarray
@@ -68,9 +68,9 @@ class Flight:
     message: str
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """Return a signal by name, ``component.variable``: [n], or [n, k] for a vector of k elements by its name.
+        """Return the signal ``component.variable``, of shape [n], or by name a vector of k elements, [n, k].
 
-        Raises KeyError with the nearest names.
+        Raises KeyError, with the most similar names.
         """
         if name in self.signals:
             return self.signals[name]
@@ -84,7 +84,7 @@ class Flight:
 
     @property
     def ending(self) -> str:
-        """Cause and time of the end, in words, with the number of samples."""
+        """Text with cause and time of the end, and the number of samples."""
         end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
         return f"{ENDINGS.get(self.status, self.status)}{end}, {self.time.size} samples"
 
@@ -93,7 +93,7 @@ class Flight:
         return self.status in COMPLETE
 
     def final(self) -> dict[str, float | int | bool]:
-        """Return last values by signal, with their types."""
+        """Return the last value of each signal, in its type."""
         convert = {"Integer": int, "Enumeration": int, "Boolean": bool}
         if not self.time.size:
             return {}
@@ -101,7 +101,7 @@ class Flight:
 
 
 class Provenance(TypedDict):
-    """Inputs that determine a simulation, as plain values. Times in s."""
+    """Inputs that determine a simulation, serialisable as JSON. Times in s."""
 
     system: str
     system_sha256: str
@@ -123,7 +123,7 @@ class Provenance(TypedDict):
 
 
 def _column_type(type_name: str, values: np.ndarray) -> pyarrow.DataType:
-    """Return the Arrow type of a signal: whole numbers have 32 bits, or more where these are too few (FMI 3.0)."""
+    """Return the Arrow type of a signal; integers have 32 bits, or more if their values need more (FMI 3.0)."""
     import pyarrow
 
     if type_name == "Boolean":
@@ -136,14 +136,14 @@ def _column_type(type_name: str, values: np.ndarray) -> pyarrow.DataType:
 
 @dataclass(repr=False)
 class Result(Flight):
-    """A flight with units by signal, and with parameter values, hashes and versions as provenance."""
+    """Flight with its signals' units, and with parameter values, hashes and versions as provenance."""
 
     units: dict[str, str | None]
     provenance: Provenance
 
     @classmethod
     def extending(cls, flight: Result, **more: Any) -> Self:
-        """Return a flight with the further fields of a subclass."""
+        """Return an instance of a subclass with the fields of ``flight`` and the further fields ``more``."""
         return cls(**vars(flight), **more)
 
     def table(self) -> pyarrow.Table:
@@ -169,13 +169,15 @@ class Result(Flight):
         return {**ending, **self.provenance}
 
     def to_pandas(self) -> Any:
-        """Return the flight as a pandas.DataFrame, a column for each signal, with time (s) as its index; needs
-        pandas."""
+        """Return a pandas.DataFrame with one column for each signal and time (s) as its index. Needs pandas."""
         require_pandas()
         return self.table().to_pandas().set_index("time")
 
     def write(self, path: str | Path) -> None:
-        """Write .parquet, or .csv with units, types other than Real and provenance in a .json file of the same name."""
+        """Write a .parquet or .csv file.
+
+        A .json file next to the .csv has units, types other than Real, and provenance.
+        """
         path = Path(path)
         if path.suffix == ".parquet":
             import pyarrow.parquet
@@ -200,7 +202,7 @@ MEANING = re.compile(r"(?:^|[,:] )(-?\d+):? (.+?)(?=, -?\d+:? |$)")  # "0 good, 
 
 
 def status_lines(network: Network, flight: Flight) -> list[str]:
-    """Return a line for every component that reported a status other than 0: the worst, its duration, and the last."""
+    """Return a line for every component that reported a status other than 0: worst status, duration, last status."""
     lines = []
     for name, values in flight.signals.items():
         component, variable = split_name(name, network.fmus)
@@ -221,8 +223,7 @@ def _percent(share: float) -> str:
 
 
 def status_meaning(network: Network, name: str, value: int) -> str:
-    """Return the meaning of ``value`` of the connector ``component.status``, as its description lists it; else
-    nothing."""
+    """Return the meaning of ``value`` of a connector ``component.status`` according to its description, or ""."""
     component, variable = split_name(name, network.fmus)
     fmu = network.fmus.get(component)
     declared = fmu.variables.get(variable) if fmu is not None else None
@@ -244,7 +245,7 @@ def provenance_of(
     faults: Sequence[Fault | None],
     signals: Iterable[str],
 ) -> Provenance:
-    """Return values, hashes, options, version; which ``signals`` are differences or along named axes, where any are."""
+    """Return parameter values, hashes, options and version, and which ``signals`` are relative or have named axes."""
     units = {name: prepared.network.unit_of(name) for name in signals}
     axes = names_of_axes(prepared.network, units)
     relative = [name for name, unit in units.items() if unit is not None and unit.is_relative]

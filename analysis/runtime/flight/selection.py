@@ -1,4 +1,4 @@
-"""Changeable parameters and recorded signals of a system, for all executors."""
+"""Variable parameters and recorded signals of a simulation, for all executors."""
 
 from __future__ import annotations
 
@@ -25,9 +25,12 @@ TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry roundi
 
 @dataclass(frozen=True)
 class Selection:
-    """Parameters that flights may change (``varied``, by ``component.variable``), signals to record (``wanted``, None:
-    all outputs, connected inputs and system connectors), other variables to record (``more``), ``faults``, and
-    connectors that `advance` may add signals to (``excited``), and ``open_end``: it may pass the stop time."""
+    """Selection of variable parameters and recorded signals.
+
+    ``varied`` names the parameters (``component.variable``) that may change between simulations; ``wanted`` the signals
+    to record (None: all outputs, connected inputs and system connectors); ``more`` further variables to record;
+    ``excited`` the connectors to which `advance` may add signals. With ``open_end``, `advance` may pass the stop time.
+    """
 
     varied: tuple[str, ...] = ()
     wanted: tuple[str, ...] | None = None
@@ -37,17 +40,19 @@ class Selection:
     open_end: bool = False
 
     def check_faults(self, network: Network) -> None:
-        """Raise InputError for a fault on anything but a connector."""
+        """Raise InputError if a fault's target cannot have one."""
         for fault in self.faults:
             check_fault(network, fault)
 
     def keys(self, network: Network) -> dict[str, Key]:
-        """Return (component, variable) of the varied parameters, by name. Raises InputError for one that is none."""
+        """Return (component, variable) of each varied parameter by name. Raises InputError for other names."""
         return {name: _key(network, name) for name in self.varied}
 
     def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> Settings:
-        """Return the system's settings with a place for every varied parameter, and each that
-        changes in flight, at its start value if need be."""
+        """Return the system's settings, with every varied parameter and every one that changes during simulation.
+
+        Those without a setting have their start value.
+        """
         variables = dict(prepared.settings.variables)
         tuned = find_tuned(prepared.network, {fault.name for fault in self.faults})
         changed = {name: _key(prepared.network, name) for name in sorted(tuned)}
@@ -60,12 +65,12 @@ class Selection:
         return replace(prepared.settings, variables=variables)
 
     def injections(self, step: float) -> list[Injection]:
-        """Return faults, then excitations; ``step`` is the communication step (s)."""
+        """Return the injections of faults, then of excitations; ``step`` is the communication step (s)."""
         excitations = [of_excitation(name, column) for column, name in enumerate(self.excited)]
         return [*(of_fault(fault, TIME_MARGIN * step) for fault in self.faults), *excitations]
 
     def signal_names(self, layout: Layout, file: str) -> list[str]:
-        """Return the recorded signals, in the order of the slots. Raises InputError for an unknown one."""
+        """Return the names of the recorded signals in the order of slots. Raises InputError for an unknown name."""
         named = {*(self.wanted or ()), *self.more}
         for name in named:
             if name not in layout.slots:
@@ -74,9 +79,9 @@ class Selection:
 
 
 def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) -> list[str]:
-    """Return variables of FMUs to be recorded, by ``component.variable``; the name of a vector is all its elements.
+    """Return the FMU variables to record, by ``component.variable``; a vector's name stands for its elements.
 
-    Of an FMU that flies alone the component may be left out. Raises InputError for names of none, and for Strings.
+    If the FMU ``is_alone``, the component may be omitted. Raises InputError for unknown names and for Strings.
     """
     types = {
         f"{component}.{variable.name}": variable.type
@@ -99,7 +104,7 @@ def find_variables(network: Network, names: Sequence[str], *, is_alone: bool) ->
 
 
 def check_replaced(declared: Sequence[Fault], faults: Sequence[Fault | None]) -> None:
-    """Assert that faults of a flight have the connectors and kinds of the simulation's, or are None."""
+    """Assert that each fault has the connector and kind of the declared one, or is None."""
     for known, fault in zip(declared, faults, strict=True):
         assert fault is None or (fault.name, fault.kind) == (known.name, known.kind)
 

@@ -1,4 +1,4 @@
-"""A system in memory that flies again and again: instances, program, buffers."""
+"""Simulation of a system in this process: instances, program, buffers."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ from .selection import TIME_MARGIN, check_replaced
 
 
 class Simulation(BaseSimulation):
-    """Instances of a system's FMUs in this process, reset and reused from flight to flight.
+    """Simulation in this process, whose FMU instances are reset and reused.
 
-    ``recorder`` is where rows are written to.
+    ``recorder`` receives the rows.
     """
 
     def __init__(
@@ -83,7 +83,7 @@ class Simulation(BaseSimulation):
         self.recorder.enter(Phase.IDLE)
 
     def _fuse(self, prepared: PreparedSystem) -> int:
-        """Return the address of the steps compiled for the system, 0 where its options do not request them."""
+        """Return the address of the system's compiled steps, 0 if its options do not request them."""
         if prepared.options.chosen["flavour"] != FUSED:
             return 0
         check_fused(prepared)
@@ -93,7 +93,7 @@ class Simulation(BaseSimulation):
         return not self.recorder.halt[0]
 
     def fuse(self) -> None:
-        """See `BaseSimulation.fuse`. Raises InputError where the compiler refuses the steps, or changes results."""
+        """See `BaseSimulation.fuse`. Raises InputError if the compiler rejects the steps or changes results."""
         if not self.fused_steps and can_fuse(self.prepared) and is_compilable(self.program):
             fused = replace(self.prepared, options=self.prepared.options.but(flavour=FUSED))
             with self.loop.under_way:  # the instances are read: `close` leaves them alone meanwhile
@@ -101,7 +101,7 @@ class Simulation(BaseSimulation):
             self.prepared = fused
 
     def ignore_finished(self) -> None:
-        """Let the flights that follow go on behind the system's own end."""
+        """Continue later simulations beyond the system's own end."""
         self.program = self.program._replace(finished_slot=-1)
         self.fused_steps = self._fuse(self.prepared)
 
@@ -113,13 +113,15 @@ class Simulation(BaseSimulation):
         return False
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
-        """See `BaseSimulation.set`; elements of partly connected arrays, and parameters that
-        change in flight, are set at each step, too."""
+        """See `BaseSimulation.set`.
+
+        Elements of partly connected arrays and parameters that change during simulation are set at each step, too.
+        """
         super().set(values)
         self._give_unfed()
 
     def _give_unfed(self) -> None:
-        """Let elements of partly connected arrays begin with the values that parameters have."""
+        """Initialise elements of partly connected arrays, and unchanged values, with the current parameters."""
         for key, slot in self.layout.bases.items():
             if key in self.layout.parameters:
                 self.program.initial[slot] = float(self.layout.parameters[key])
@@ -141,14 +143,14 @@ class Simulation(BaseSimulation):
         self._faults = faults
 
     def _time(self) -> float:
-        """Return the time of the communication point under way (s)."""
+        """Return the time (s) of the communication point being computed."""
         return self.prepared.start + self.recorder.point * self.prepared.step
 
     def _note_subject(self, component: int) -> None:
         self.recorder.phase[1] = component
 
     def record_into(self, recorder: FlightRecorder) -> None:
-        """Write the rows of the flights that follow elsewhere; ends no flight."""
+        """Write the rows of later simulations to another recorder. Terminates no FMU."""
         self.recorder = recorder
         self.buffers = self.buffers._replace(outcome=recorder.outcome, halt=recorder.halt)
 
@@ -174,10 +176,10 @@ class Simulation(BaseSimulation):
 
     @property
     def group_size(self) -> int:
-        """Number of flights that are flown together: of FMUs of ours, which are trusted to reset, and without a log.
+        """Number of simulations run together: only for Perilune's FMUs, whose reset is trusted, and without a log.
 
-        0 for systems with FMI 3.0, and for those with parameters that change in flight, whose own values the loop has
-        from here.
+        0 for systems with FMUs of FMI 3.0, or with parameters that change during simulation, whose unchanged values are
+        set here and not by the loop.
         """
         flies_groups = self.fmi3 is None and self._log is None and self.life_cycle.are_self_contained
         flies_groups = flies_groups and not self.layout.bases
@@ -208,7 +210,7 @@ class Simulation(BaseSimulation):
         )
 
     def _conclude(self, outcome: Outcome, start: int, end: int) -> Flight:
-        """Return the flight of these rows of the record, as the loop has left it."""
+        """Return the flight with these rows of the record, with the status that the loop reported."""
         prepared, recorder = self.prepared, self.recorder
         recorder.enter(Phase.IDLE)
         self.life_cycle.note(outcome, self.program)
@@ -242,7 +244,7 @@ class Simulation(BaseSimulation):
         return flight
 
     def _run(self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray) -> arrays.Run:
-        """Return a run between two communication points: what is simulated, recorded and added."""
+        """Return the loop's arguments to simulate between two communication points."""
         prepared = self.prepared
         span = arrays.Span(
             reset=reset,
@@ -264,7 +266,7 @@ class Simulation(BaseSimulation):
         )
 
     def _has_learned(self, outcome: Outcome) -> bool:
-        """Return True if an FMU has shown a call to avoid, so that the flight has to restart."""
+        """Return True if an FMU rejected a call that later starts avoid, so that the simulation is restarted."""
         parameters = self.layout.parameters
         if outcome.is_unreadable(self.program):
             code, first, count = self.program.instructions[
@@ -280,7 +282,7 @@ class Simulation(BaseSimulation):
         return True
 
     def _fly_last_row(self, component: int, end: float, row: int) -> None:
-        """Record what there is at the time ``end`` (s) at which a component has ended the simulation."""
+        """Record the final row at the time ``end`` (s) at which a component ended the simulation."""
         instructions = write_ending(self._instructions, component)
         whole = np.array([0, len(instructions)], dtype=np.int64)
         record = np.empty((self._recorded.size, 1))
@@ -294,7 +296,7 @@ class Simulation(BaseSimulation):
         self.recorder.record[:, row] = record[:, 0]
 
     def _replace_instances(self, fatal: str | None = None) -> None:
-        """Instantiate everything again, with the values that parameters have; ``fatal`` as in `LifeCycle.close`."""
+        """Instantiate all FMUs again, with the current parameter values; ``fatal`` as in `LifeCycle.close`."""
         retained = self.layout.parameters
         self.life_cycle.close(fatal)
         self.instances = {}
@@ -303,11 +305,11 @@ class Simulation(BaseSimulation):
         self._give_unfed()
 
     def memory(self) -> Memory:
-        """Return the memory of the FMUs. Raises InputError where one does not describe its serialisation."""
+        """Return the memory of the FMUs. Raises InputError if one does not describe its serialised state."""
         return Memory(self.prepared, self.layout, self.instances, self.buffers, self.fmi3)
 
     def close(self) -> None:
-        """Free the instances; those of an abandoned flight that still runs in a thread end with the process."""
+        """Free the instances. Those of a simulation still running in an abandoned thread stay until exit."""
         if self.loop.under_way.acquire(blocking=False):
             self.recorder.enter(Phase.END)
             if self._log is not None:

@@ -1,1 +1,1 @@
-"""FMUs instantiated: their libraries, their calls, what they log, whether they reset."""
+"""FMU instances: their libraries, calls, log messages, and whether they can be reset."""

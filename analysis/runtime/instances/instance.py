@@ -1,4 +1,4 @@
-"""An FMU instantiated: one fmi2Component with its C functions' addresses at hand, and what it logs, line by line."""
+"""Instance of an FMU: its fmi2Component, the addresses of its C functions, and its log messages."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ STATUSES = ("OK", "warning", "discard", "error", "fatal", "pending")
 
 
 def status_word(status: int) -> str:
-    """Return an fmi2Status as text, also one that FMI does not have."""
+    """Return the name of an fmi2Status, also for numbers that FMI does not define."""
     return STATUSES[status] if 0 <= status < len(STATUSES) else f"{status}, a status that FMI does not have"
 
 
 class Log:
-    """Writes the messages of a simulation's FMUs as they come, those of a ``level`` of `LOG_LEVELS` and graver.
+    """Writer of the messages of a simulation's FMUs, those of ``level`` (one of `LOG_LEVELS`) and more severe ones.
 
-    At most MOST_MESSAGES of each component. ``place`` is put before each line: in a batch the trial. ``emit`` receives
-    the lines instead of standard error.
+    At most MOST_MESSAGES are written for each component. ``place`` precedes each line; in a batch it names the trial.
+    If ``emit`` is passed, it receives the lines instead of standard error.
     """
 
     def __init__(self, level: str, emit: Callable[[str], None] | None = None) -> None:
@@ -46,15 +46,15 @@ class Log:
 
     @property
     def everything(self) -> bool:
-        """True if FMUs log all of their categories."""
+        """True if FMUs are asked to log all of their categories."""
         return self.level == LOG_LEVELS[-1]
 
     def follow(self, clock: Callable[[], float]) -> None:
-        """Put the time (s) of a flight before each message, as ``clock`` gives it."""
+        """Put the simulation time (s) that ``clock`` returns before each message."""
         self._clock = clock
 
     def write(self, component: str, status: int, category: str, message: str) -> None:
-        """Write one message, on one line: several lines of an FMU are joined with bars."""
+        """Write one message on one line; the lines of an FMU's message are joined by " | "."""
         if not 0 <= status < len(STATUSES) or status >= SAID_FROM[self.level]:
             time = "" if self._clock is None else f"t = {self._clock():.9g} s: "
             self._counts[component] = self._counts.get(component, 0) + 1
@@ -65,14 +65,14 @@ class Log:
             self.emit(f"{time}{component}: {status_word(status)}{label}: {text}")
 
     def close(self) -> None:
-        """Say how many messages were left out."""
+        """Write how many messages were omitted."""
         for component, count in self._counts.items():
             if count > MOST_MESSAGES:
                 self.emit(f"{component}: and {count - MOST_MESSAGES} messages more")
         self._counts = {}
 
     def write_line(self, line: str) -> None:
-        """Write a message in words to standard error."""
+        """Write a complete line to standard error, or to ``emit``."""
         sys.stderr.write(f"log: {self.place}{line}\n")
         sys.stderr.flush()
 
@@ -82,7 +82,7 @@ PLACED = {"Boolean": 0, "Real": 1, "Integer": 2}  # FMI types as `perilune_place
 
 @dataclass
 class Instance:
-    """One fmi2Component with its log; freed with `free`."""
+    """Instance of an FMU with its log. Free it with `free`."""
 
     fmu: Fmu
     name: str
@@ -95,35 +95,36 @@ class Instance:
 
     @property
     def address(self) -> int:
-        """The fmi2Component."""
+        """Address of the fmi2Component or fmi3Instance."""
         return int(self.slave.component)
 
     @property
     def is_self_contained(self) -> bool:
-        """True if its calls leave nothing behind in the process."""
+        """True if calls of the FMU change nothing else in the process."""
         return self.fmu.is_self_contained
 
     @property
     def messages(self) -> list[str]:
-        """Messages of the FMU since the flight began."""
+        """Messages of the FMU since the current simulation began."""
         return [_text(message) for message in self.said]
 
     def function_addresses(self) -> list[int]:
-        """Return addresses of the C functions in the order of library.FUNCTION_NAMES."""
+        """Return the addresses of the C functions, in the order of `library.FUNCTION_NAMES`."""
         return self.library.addresses
 
     def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
-        """Return the address of values that are contiguous in this instance's memory, in order.
+        """Return the address of values that are contiguous in this instance's memory, in order; 0 if there is none.
 
-        ``references`` are uint32 value references, ``kind`` their type, one of PLACED. They may be read or, if they are
-        ``to_set``, written there between steps. 0 where they lie otherwise, or the FMU does not say.
+        ``references`` are uint32 value references, ``kind`` is their type, one of PLACED. The values may be read there
+        between steps, and written if ``to_set``. The address is 0 if they are not contiguous, or the FMU does not
+        disclose it.
         """
         if self.library.place is None:
             return 0
         return self.library.place(self.address, references.ctypes.data, references.size, PLACED[kind], to_set) or 0
 
     def state(self) -> object:
-        """Return the FMU's state, to be freed with `free_state`."""
+        """Return the FMU's state. Free it with `free_state`."""
         slave = self.slave
         return slave.getFMUState() if isinstance(slave, Fmi3Slave) else slave.getFMUstate()
 
@@ -141,7 +142,7 @@ class Instance:
         return bytes(call(state))
 
     def deserialize(self, serialized: bytes) -> object:
-        """Return a separate state, to be freed too."""
+        """Return a new state from its serialised form. Free it with `free_state`."""
         slave = self.slave
         return (slave.deserializeFMUState if isinstance(slave, Fmi3Slave) else slave.deSerializeFMUstate)(serialized)
 
@@ -158,12 +159,12 @@ class Instance:
             release(self.fmu)
 
     def abandon(self) -> None:
-        """Abandon it: neither use nor free it again."""
+        """Mark the instance as unusable: it is neither called nor freed again."""
         self.is_there = False
         _alone.discard(self.fmu.digest)
 
     def renew(self) -> None:
-        """Put another fmi2Component in the place of this one, which has been freed. Raises InputError."""
+        """Instantiate the FMU again, in place of the freed instance. Raises InputError."""
         fresh = instantiate(self.fmu, self.name, self.log, uses_events=self.uses_events)
         self.library, self.slave, self.said, self.is_there = fresh.library, fresh.slave, fresh.said, True
 
@@ -172,7 +173,7 @@ Listener = Callable[[int, str, str], None]  # fmi2Status, category, message
 
 
 class _Heard(list[bytes]):
-    """Messages as they arrive from an FMU, with a further listener."""
+    """Messages of an FMU in order of arrival, with an additional listener."""
 
     listener: Listener | None = None
 
@@ -213,9 +214,9 @@ def _make_callbacks() -> fmi2.fmi2CallbackFunctions:
 
 
 def _make_formatting_callbacks() -> fmi2.fmi2CallbackFunctions:
-    """Return callbacks for messages that are formats of printf (FMI 2.0), whose arguments may be missing.
+    """Return callbacks that format printf messages (FMI 2.0), whose arguments may be missing.
 
-    FMPy's library that fills them in has one logger in a process, the last one set: FMPy sets its own wherever it
+    FMPy's formatting library has one logger for the whole process, the last one set, and FMPy sets its own whenever it
     simulates.
     """
     callbacks = _make_callbacks()
@@ -230,15 +231,16 @@ _formats = True
 
 
 def leave_messages_unformatted() -> None:
-    """Take the messages of all FMUs that are instantiated from now on as they are, without their arguments."""
+    """Keep the messages of FMUs that are instantiated from now on as they are, without formatting their arguments."""
     global _formats
     _formats = False
 
 
 def instantiate(fmu: Fmu, name: str, log: Log | None = None, *, uses_events: bool = False) -> Instance:
-    """Instantiate an FMU; ``name`` is the component's, made unique in the process. ``log`` receives its messages.
+    """Instantiate an FMU for the component ``name``, which is made unique in the process.
 
-    ``uses_events``: FMI 3.0's event mode is used, which it has.
+    ``log`` receives its messages. With ``uses_events`` the instance uses event mode of FMI 3.0, which the FMU must
+    support. Raises InputError.
     """
     if fmu.is_alone:
         with LOADING:

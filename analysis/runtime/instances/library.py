@@ -1,4 +1,4 @@
-"""The shared library of an FMU: loaded for its first instance, unloaded after its last."""
+"""Shared library of an FMU: loaded for its first instance, unloaded after its last."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ LOADING = threading.RLock()
 
 
 class Library:
-    """Library shared by the instances of one unpacked FMU, since fmpy takes milliseconds to load it for each."""
+    """Library shared by the instances of one unpacked FMU, since FMPy takes milliseconds to load it for each."""
 
     def __init__(self, fmu: Fmu) -> None:
         self._restore = _nothing if fmu.is_self_contained else load_library().perilune_restore_floats
@@ -73,7 +73,7 @@ class Library:
         self.users = 0
 
     def slave(self, instance_name: str) -> Slave:
-        """Return fmpy's object of one more instance, not instantiated yet."""
+        """Return FMPy's object for a further instance, not yet instantiated."""
         slave = copy.copy(self._slave)
         slave.instanceName = instance_name
         return slave
@@ -84,11 +84,11 @@ class Library:
 
 
 def _nothing() -> None:
-    """Leave the floating-point environment as the own code of Perilune leaves it."""
+    """Do nothing: Perilune's FMUs leave the floating-point environment unchanged."""
 
 
 def _place(dll: ctypes.CDLL) -> Callable[..., int | None] | None:
-    """Return the function of our own native FMUs that locates variables; None where there is none."""
+    """Return the function of Perilune's native FMUs that locates variables in memory, or None."""
     try:
         function = dll.perilune_place
     except AttributeError:
@@ -102,7 +102,7 @@ _libraries: dict[Path, Library] = {}  # by the folder that the FMU is unpacked i
 
 
 def acquire(fmu: Fmu) -> Library:
-    """Return the library of an FMU, loaded if need be; give it back with `release`. fmpy raises bare Exception."""
+    """Return the library of an FMU, loaded if necessary. Release it with `release`. FMPy raises bare Exception."""
     with LOADING:
         if fmu.folder not in _libraries:
             _libraries[fmu.folder] = Library(fmu)
@@ -112,7 +112,7 @@ def acquire(fmu: Fmu) -> Library:
 
 
 def release(fmu: Fmu) -> None:
-    """Unload the library of an FMU if this was its last user."""
+    """Unload the library of an FMU unless another instance uses it."""
     with LOADING:
         library = _libraries[fmu.folder]
         library.users -= 1

@@ -1,4 +1,4 @@
-"""Verdicts on FMUs: what makes them as good as new between simulations."""
+"""Verdicts on how FMUs are restored to their initial state between simulations."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..system.fmu import Fmu
 
 
 class Renewal(StrEnum):
-    """Means that makes an FMU as good as new for the next simulation."""
+    """Way to restore an FMU to its initial state for the next simulation."""
 
     RESET = "reset"
     INSTANCE = "instance"  # another one, in the same process
@@ -19,19 +19,19 @@ class Renewal(StrEnum):
 
 @dataclass(frozen=True)
 class ResetVerdict:
-    """The first means that was found to do; ``reason`` says what showed that those before it do not."""
+    """Cheapest way that restores an FMU; ``reason`` says why the cheaper ones fail."""
 
     renewal: Renewal
     reason: str = ""
 
     @property
     def resets(self) -> bool:
-        """True if a reset makes an instance as good as new."""
+        """True if a reset restores an instance completely."""
         return self.renewal is Renewal.RESET
 
     @property
     def needs_process(self) -> bool:
-        """True if a process may simulate with the FMU once only."""
+        """True if the FMU needs a new process for every simulation."""
         return self.renewal in (Renewal.PROCESS, Renewal.IRREPRODUCIBLE)
 
 
@@ -40,10 +40,10 @@ _verdicts: dict[str, ResetVerdict] = {}  # by the FMUs' digests
 
 
 def verdict_in_cache(fmu: Fmu) -> ResetVerdict | None:
-    """Return the verdict on an FMU, if there is one yet; our own reset, which their tests show."""
+    """Return the verdict on an FMU if it is known, else None; Perilune's FMUs reset, as their tests verify."""
     return RESETS if fmu.is_self_contained else _verdicts.get(fmu.digest)
 
 
 def store_verdict(digest: str, verdict: ResetVerdict) -> None:
-    """Keep what a simulation, or another process, has shown of the FMU with this SHA-256."""
+    """Store the verdict on the FMU with this SHA-256, found by a simulation or by another process."""
     _verdicts[digest] = verdict

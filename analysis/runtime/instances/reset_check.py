@@ -1,4 +1,4 @@
-"""Means to renew an FMU between simulations, the cheapest that does: tried, once, on the FMU alone."""
+"""Test of an FMU, simulated alone, for the cheapest way that restores it between simulations."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ _noted: set[str] = set()  # digests of FMUs
 
 
 def reset_verdict(fmu: Fmu) -> ResetVerdict:
-    """Return the verdict on an FMU in this process, tried at the first call.
+    """Return the verdict on an FMU in this process; the first call tests it.
 
-    `Renewal.PROCESS` then stands for all that no new instance renews.
+    Here `Renewal.PROCESS` stands for every FMU that a new instance does not restore.
     """
     with _trying:
         verdict = verdict_in_cache(fmu)
@@ -50,12 +50,12 @@ def reset_verdict(fmu: Fmu) -> ResetVerdict:
 def try_renewals(
     fmu: Fmu, simulated: Callable[[str], None] = lambda digest: None, *, with_reset: bool = True
 ) -> ResetVerdict:
-    """Try a reset, unless that is known to fail, then a new instance.
+    """Test a reset, unless ``with_reset`` is false as it is known to fail, then a new instance.
 
-    The first instance is simulated with the declared values, the second with other parameters and inputs, then reset
-    and simulated with the declared values, and a third one with these: outputs and parameters must be those of the
-    first, to the last bit, and process and folder as they were before. ``simulated`` is called with the SHA-256 of
-    what the first instance has output.
+    A first instance is simulated with the declared values. A second is simulated with other parameters and inputs,
+    reset, and simulated with the declared values; if that fails, a third with the declared values. Outputs and
+    parameters must equal those of the first bit for bit, and process and folder must be unchanged. ``simulated`` is
+    called with the SHA-256 of the first instance's outputs and parameters.
     """
     with LOADING, chdir(Path.cwd()):  # back, should the FMU have gone elsewhere
         before = read_traces(fmu.folder)
@@ -75,7 +75,7 @@ def try_renewals(
 
 @dataclass(frozen=True)
 class _Simulation:
-    """Outputs of a new instance with the declared values, row by row, then its parameters, or what ended it."""
+    """Rows of outputs of a new instance with declared values, then its parameters; or the failure that ended it."""
 
     rows: list[bytes]
     failure: str = ""
@@ -87,7 +87,7 @@ class _Simulation:
 
 
 def _simulate_anew(fmu: Fmu, simulated: Callable[[str], None] = lambda digest: None) -> _Simulation:
-    """Simulate a new instance; ``simulated`` is called with the SHA-256 of its rows before it is freed."""
+    """Simulate a new instance; ``simulated`` is called with the SHA-256 of its rows before the instance is freed."""
     instance = instantiate(fmu, fmu.name)
     rows: list[bytes] = []
     try:
@@ -106,7 +106,7 @@ def _simulate_anew(fmu: Fmu, simulated: Callable[[str], None] = lambda digest: N
 
 
 def _try_reset(fmu: Fmu, expected: list[bytes]) -> tuple[str, bool]:
-    """Return why an instance after its reset is not as good as a new one, and whether the FMU may still be used."""
+    """Return why a reset does not restore an instance ("" if it does), and whether the FMU may still be used."""
     for changes in _changes(fmu):
         used = instantiate(fmu, fmu.name)
         try:
@@ -140,7 +140,7 @@ def _is_fatal(error: FMICallException) -> bool:
 
 
 def _free(instance: Instance, error: FMICallException | None = None) -> None:
-    """Free an instance, but not after a fatal error."""
+    """Free an instance, unless it failed with a fatal error."""
     if error is None or not _is_fatal(error):
         instance.free()
     else:
@@ -148,9 +148,9 @@ def _free(instance: Instance, error: FMICallException | None = None) -> None:
 
 
 def _changes(fmu: Fmu) -> list[dict[str, Number]]:
-    """Return other values than the declared ones: of all Real parameters and inputs, of the inputs, none.
+    """Yield sets of values that differ from the declared ones: all Real parameters and inputs, inputs, none.
 
-    Whole numbers are changed where there is no Real parameter only: as sizes they could do harm.
+    Integers are changed only if there is no Real parameter: they may be sizes, and harmful.
     """
     given = [
         variable
@@ -169,7 +169,7 @@ def _changes(fmu: Fmu) -> list[dict[str, Number]]:
 
 
 def _other(variable: Variable) -> Number | None:
-    """Return a value near the start, within the declared bounds; None where there is no other."""
+    """Return a value near the start value within the declared bounds, or None."""
     start = declared(variable)
     if start is None:
         return None
@@ -187,7 +187,7 @@ def _other(variable: Variable) -> Number | None:
 def _simulate(instance: Instance, changes: dict[str, Number]) -> Iterator[bytes]:
     """Yield the outputs after initialisation and after every step, then the parameters, as bytes.
 
-    Raises FMICallException where a call fails. A discarded step is the last one.
+    A discarded step is the last. Raises FMICallException if a call fails.
     """
     experiment = instance.fmu.description.defaultExperiment
     start, size, tolerance = (

@@ -1,4 +1,4 @@
-"""FMPy's faces of an instance, of FMI 2.0 and FMI 3.0."""
+"""FMPy's classes for instances of FMI 2.0 and FMI 3.0, with Perilune's additions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..loop.library import load_library
 
 
 class CallWatch:
-    """Mixin that calls ``after_call`` after every function of the FMU, also one that fails."""
+    """Mixin that calls ``after_call`` after every function of the FMU, even one that fails."""
 
     after_call: Callable[[], None] | None = None
 
@@ -26,16 +26,16 @@ class CallWatch:
 
 
 class FMU2WatchedSlave(CallWatch, fmi2.FMU2Slave):  # type: ignore[misc]  # FMPy has no types
-    """An instance of FMI 2.0; FMPy tells the version by the beginning of the name."""
+    """Instance of FMI 2.0. FMPy derives the version from the beginning of the class name."""
 
 
 class Fmi3Slave(CallWatch, fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no types
-    """An instance of FMI 3.0; ``environment`` is the number that its messages carry."""
+    """Instance of FMI 3.0; ``environment`` is the number that identifies it in its log messages."""
 
     environment = 0
 
     def begin(self, environment: int, log: Any, *, uses_events: bool) -> None:
-        """Instantiate; ``log`` is a fmi3LogMessageCallback. Raises bare Exception where there is no instance."""
+        """Instantiate; ``log`` is a fmi3LogMessageCallback. Raises bare Exception if the FMU returns no instance."""
         self.environment, self.logMessage = environment, log
         idle = load_library().perilune_ignore_update
         self.intermediateUpdate = ctypes.cast(idle, fmi3.fmi3IntermediateUpdateCallback)

@@ -1,4 +1,4 @@
-"""Traces that an FMU leaves in its process and its folder, which instances that follow would meet."""
+"""Traces that an FMU leaves in its process and folder, and that later instances would find."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ BYTECODE = "__pycache__"  # which Python writes, and whoever imports the sources
 
 @dataclass(frozen=True)
 class Traces:
-    """State of a process and of a folder that outlives instances: compare two of them with `changes_since`."""
+    """State of a process and a folder that outlives instances. Compare two of them with `changes_since`."""
 
     working_folder: str
     locale: str
@@ -24,7 +24,7 @@ class Traces:
     files: Mapping[str, tuple[int, int]]  # by name: size (bytes), time of change (ns)
 
     def changes_since(self, before: Traces) -> str:
-        """Return what has changed, in words; empty where nothing has."""
+        """Return the changes since an earlier state as text, "" if there are none."""
         if self.files != before.files:
             names = sorted(name for name, _ in self.files.items() ^ before.files.items())
             return f"its folder has changed: {names[0]}"
@@ -40,12 +40,12 @@ class Traces:
 
 
 def read_traces(folder: Path) -> Traces:
-    """Read the state of this process, and of the folder that an FMU is unpacked into."""
+    """Return the state of this process, and of the folder into which an FMU is unpacked."""
     return Traces(os.getcwd(), locale.setlocale(locale.LC_ALL), _environment(), _files(folder))
 
 
 def _environment() -> frozenset[bytes]:
-    """Return the entries of C's environment, which Python's copy does not follow."""
+    """Return the entries of C's environment, which Python's copy does not track."""
     if sys.platform != "linux":
         return frozenset(f"{name}={content}".encode() for name, content in os.environ.items())
     entries = ctypes.POINTER(ctypes.c_char_p).in_dll(ctypes.CDLL(None), "environ")

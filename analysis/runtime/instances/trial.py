@@ -1,4 +1,4 @@
-"""An instance flown by itself, call by call, to try its reset: the same steps for FMI 2.0 and FMI 3.0."""
+"""Simulation of one instance alone, call by call, to test its reset; the same steps for FMI 2.0 and FMI 3.0."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FMI2_CALLS = {"Real": "Real", "Integer": "Integer", "Enumeration": "Integer", "B
 
 
 def begin(instance: Instance, changes: Mapping[str, Number], start: float, tolerance: float | None) -> None:
-    """Initialise with other values than declared. Raises FMICallException where a call fails."""
+    """Initialise with values that replace declared ones. Raises FMICallException if a call fails."""
     slave = instance.slave
     if isinstance(slave, Fmi3Slave):
         if instance.fmu.sizes:
@@ -36,7 +36,7 @@ def begin(instance: Instance, changes: Mapping[str, Number], start: float, toler
 
 
 def step(instance: Instance, time: float, size: float) -> bool:
-    """Step once; return True if another step may follow. Raises FMICallException where it fails."""
+    """Step once; return True if another step may follow. Raises FMICallException if the step fails."""
     try:
         ended = instance.slave.doStep(time, size)
     except FMICallException as error:
@@ -47,7 +47,7 @@ def step(instance: Instance, time: float, size: float) -> bool:
 
 
 def read(instance: Instance, causality: str) -> bytes:
-    """Read the values of variables, type by type; of unreadable ones the failure."""
+    """Return the values of variables, type by type; for unreadable ones the failure."""
     groups: dict[str, list[Variable]] = {}
     for variable in instance.fmu.variables.values():
         if variable.causality == causality and variable.type in KINDS:
@@ -56,7 +56,7 @@ def read(instance: Instance, causality: str) -> bytes:
 
 
 def _read(instance: Instance, call: str, group: list[Variable]) -> bytes:
-    """Read values of variables in one call, or each by itself where one of them cannot be read."""
+    """Return the values of variables read in one call, or one by one if one of them cannot be read."""
     references = list(dict.fromkeys(each.reference for each in group))
     wholes = [[each for each in group if each.reference == reference] for reference in references]
     get = getattr(instance.slave, f"get{call}")
@@ -71,12 +71,12 @@ def _read(instance: Instance, call: str, group: list[Variable]) -> bytes:
 
 
 def _names(group: list[Variable]) -> set[int]:
-    """Return the elements of one variable, which an alias may name a second time."""
+    """Return the elements of one variable, each once, although aliases may repeat them."""
     return {each.index for each in group}
 
 
 def _set(instance: Instance, changes: Mapping[str, Number]) -> None:
-    """Give variables values, whole arrays where one of their elements is changed."""
+    """Set variables to values; an array is set as a whole if one of its elements changes."""
     variables = instance.fmu.variables
     if not isinstance(instance.slave, Fmi3Slave):
         for name, number in changes.items():
@@ -91,7 +91,7 @@ def _set(instance: Instance, changes: Mapping[str, Number]) -> None:
 
 
 def declared(variable: Variable) -> Number | None:
-    """Return a variable's start; None where there is none."""
+    """Return a variable's declared start value, or None."""
     if variable.start is None:
         return None
     if variable.type == "Boolean":

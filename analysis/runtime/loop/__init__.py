@@ -1,1 +1,1 @@
-"""The loop in C: its instructions, what it runs on, the library; elementary functions over arrays."""
+"""Simulation loop in C: its instructions, arrays and library; elementary functions on arrays."""

@@ -1,6 +1,6 @@
-"""Arrays and numbers that the loop runs on: program, parameters, memory, what is simulated and recorded.
+"""Arguments of the loop: program, parameters, memory, simulated range, and recording.
 
-The structures of `c/run.h`, which says what each member is, are filled from attributes of the same names.
+Structures of `c/run.h`, which documents each member, are filled from attributes of the same names.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Span(NamedTuple):
 
 
 class Recording(NamedTuple):
-    """Recorded rows: ``slots`` at every ``stride``-th communication point, and always at the last one."""
+    """Recorded rows: ``slots`` at every ``stride``-th communication point and at the last one."""
 
     slots: np.ndarray  # int64 [k]
     stride: int
@@ -89,7 +89,7 @@ class Texts(NamedTuple):
 
 
 class Transfers(NamedTuple):
-    """Exchanges with FMUs of FMI 3.0: transfers of slots, parameters or texts, one call each."""
+    """Transfers of slots, parameters or texts to and from FMUs of FMI 3.0; each is one call."""
 
     rows: np.ndarray  # int64 [q, codes.TRANSFER_COLUMNS]
     reference: np.ndarray  # uint32, value references, one of a whole array
@@ -97,7 +97,7 @@ class Transfers(NamedTuple):
 
 
 class StoredValues(NamedTuple):
-    """Values of FMUs of FMI 3.0 in their own types."""
+    """Values of FMUs of FMI 3.0, stored in their FMI types."""
 
     sent: np.ndarray  # uint64 [s], each transfer's values contiguous from its first slot on, as last set or read
     exact: np.ndarray  # uint64 [s], whole numbers of 64 bits, of which the float64 of a slot may be rounded
@@ -106,7 +106,7 @@ class StoredValues(NamedTuple):
 
 
 class Fmi3(NamedTuple):
-    """Arrays that systems with FMUs of FMI 3.0 have in addition."""
+    """Additional arrays of systems with FMUs of FMI 3.0."""
 
     transfers: Transfers
     start: np.ndarray  # uint64 [s], whole numbers of 64 bits before anything is exchanged
@@ -119,7 +119,7 @@ class Fmi3(NamedTuple):
 
 
 class Buffers(NamedTuple):
-    """Memory of one run in flight."""
+    """Working memory of one run."""
 
     values: np.ndarray  # float64 [s]
     whole: np.ndarray  # int32 [s]
@@ -131,13 +131,13 @@ class Buffers(NamedTuple):
 
 
 def stored(slots: int) -> StoredValues:
-    """Allocate ``slots`` slots."""
+    """Return zeroed `StoredValues` for a number of slots."""
     whole = np.zeros((2, slots), dtype=np.uint64)
     return StoredValues(whole[0], whole[1], np.zeros(8, dtype=np.uint8), np.zeros(2))
 
 
 class Run(NamedTuple):
-    """One run of a system."""
+    """All arguments of one run of the loop."""
 
     program: Program
     buffers: Buffers

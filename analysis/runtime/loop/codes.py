@@ -1,8 +1,7 @@
-"""Codes of the loop's instructions and of the endings of a run: the numbers of `c/codes.h` and `c/run.h`, compared at
-load.
+"""Codes of the loop's instructions and run endings, compared with `c/codes.h` and `c/run.h` when it is loaded.
 
-A system becomes a list of instructions (`instructions.py`): one section that initialises, one that is repeated every
-communication step. The loop knows nothing of algorithms; their order is in the list.
+A system becomes a list of instructions (`instructions.py`): one section for the initialisation, one that is repeated
+every communication step. The loop knows no algorithm: the order of instructions determines it.
 """
 
 # Every communication step.

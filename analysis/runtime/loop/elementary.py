@@ -1,7 +1,7 @@
-"""The elementary functions of kernels on arrays: the same text, translated to C, and so the same bits.
+"""Elementary functions on arrays, in the C that FMUs contain, and therefore with the same bits.
 
-numpy and scipy choose variants of theirs by the processor. As there, a value that does not exist is NaN, one that is
-too large infinite.
+numpy and scipy choose implementations by processor. As in these libraries, undefined values are NaN, and an overflow is
+infinite.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from .library import load_library
 
 
 class Elementary:
-    """A function of `write_elementary.FUNCTIONS` for doubles and arrays of them, of any shapes that broadcast."""
+    """Function of `write_elementary.FUNCTIONS` for doubles and broadcastable arrays of doubles."""
 
     def __init__(self, name: str) -> None:
         self._name = name
 
     def __call__(self, *arguments: Any) -> Any:
-        """Return the values, an array or a double."""
+        """Return the function values, as an array or a double."""
         doubles = np.broadcast_arrays(*(np.asarray(argument, dtype=float) for argument in arguments))
         columns = [np.ascontiguousarray(column) for column in doubles]
         values = np.empty(doubles[0].shape)
@@ -34,5 +34,5 @@ class Elementary:
 
 @cache
 def elementary(name: str) -> Elementary:
-    """Return the function of that name."""
+    """Return the elementary function with this name."""
     return Elementary(name)

@@ -1,4 +1,4 @@
-"""The library of the loop: built of the C in `c`, found by its content, loaded once in a process."""
+"""Library of the loop: compiled from the C in `c`, identified by its content, loaded once in a process."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ FOLDER = "loop"  # of a build, a folder for each platform
 
 @cache
 def load_library() -> ctypes.CDLL:
-    """Load the library; it is compiled where none was built of this C. Functions release the interpreter lock.
+    """Load the library, compiling it if none was built from this C. Its functions release the interpreter lock.
 
-    Raises InputError where none was built and there is no compiler, or one that does not work.
+    Raises InputError if it has to be compiled and there is no working compiler.
     """
     file = built_file(BUILD, local_platform(FMI) or "")
     try:
@@ -51,7 +51,7 @@ def load_library() -> ctypes.CDLL:
 
 
 def build_loop(build: Path, platforms: list[str], *, portable: bool = False) -> None:
-    """Build the library for platforms of FMI 3.0 into the folder of a build.
+    """Build the library for ``platforms`` (names of FMI 3.0) into a build folder.
 
     Raises `CompilerMissing`, `CompilationFailed`.
     """
@@ -67,13 +67,13 @@ def build_loop(build: Path, platforms: list[str], *, portable: bool = False) -> 
 
 
 def built_file(build: Path, platform: str) -> Path:
-    """Return path of the library in the folder of a build, named by its content; it need not exist."""
+    """Return the path of the library in a build folder, named by its content. The file need not exist."""
     extension = PLATFORMS[platform].extension if platform in PLATFORMS else ""
     return build / FOLDER / platform / f"{_digest()}{extension}"
 
 
 def sources() -> dict[str, bytes]:
-    """Return the C of the library by the names of files."""
+    """Return the C of the library by file name."""
     from .write_elementary import write_elementary  # imports the translator
 
     written = (file for file in _files() if not file.name.endswith(".py"))
@@ -81,7 +81,7 @@ def sources() -> dict[str, bytes]:
 
 
 def _files() -> list[Traversable]:
-    """List the sources of the library: C, and Python that is translated."""
+    """Return the source files of the library: C, and Python to be translated to C."""
     written = (file for file in files(__package__).joinpath("c").iterdir() if file.name.endswith((".c", ".h")))
     translated = (file for file in files(elementary.__name__).iterdir() if file.name.endswith(".py"))
     return sorted([*written, *translated, KERNEL_MATH], key=lambda file: file.name)
@@ -112,7 +112,7 @@ def _compile() -> Path:
 
 
 def _check(library: ctypes.CDLL) -> None:
-    """Compare what Python and C declare. Raises ImportError where they differ: an error of whoever changed one."""
+    """Compare the declarations in Python and in C. Raises ImportError if they differ, which is a programming error."""
     numbers = enumerators("codes.h") | enumerators("run.h")
     differing = [name for name, number in numbers.items() if getattr(codes, name, None) != number]
     sizes = [ctypes.sizeof(structures()[name]) for name in ("Run", "Group")]

@@ -11,10 +11,10 @@ from .structures import Filled
 
 
 class Loop:
-    """The loop of a simulation; ``under_way`` is locked during a run, also one that has been given up.
+    """Loop of a simulation; ``under_way`` is locked during a run, even if its caller has given up waiting.
 
-    Where FMUs are not ``self_contained`` the floating-point environment is the default after each call, whatever ended
-    it.
+    Unless FMUs are ``self_contained``, the default floating-point environment is restored after each call, however it
+    ends.
     """
 
     def __init__(self, *, self_contained: bool) -> None:
@@ -24,7 +24,7 @@ class Loop:
         self.under_way = threading.Lock()
 
     def fly(self, run: arrays.Run) -> int:
-        """Run once; return the number of rows in the record."""
+        """Run once; return the number of recorded rows."""
         with self.under_way:
             self._run.fill(run)
             rows: int = self._library.perilune_fly(ctypes.byref(self._run.memory))
@@ -33,7 +33,7 @@ class Loop:
             return rows
 
     def fly_group(self, run: arrays.Run, flights: arrays.Group) -> int:
-        """Simulate a group of runs from their start; return the number of simulated ones."""
+        """Simulate a group of runs, each from its start; return the number of simulated ones."""
         with self.under_way:
             self._run.fill(run)
             group = Filled("Group")

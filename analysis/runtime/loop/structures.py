@@ -1,8 +1,8 @@
-"""The structures of `c/run.h` as ctypes, filled from named arrays and numbers.
+"""Structures of `c/run.h` as ctypes, filled from named arrays and numbers.
 
-The header is the one declaration of their members. A member is filled from the attribute of its name: a pointer with
-the address of an array, whose type is compared with the pointer's; ``NAME_rows`` and ``NAME_columns`` with sizes of the
-array NAME; a structure member by member.
+The header is the only declaration of their members. A member is filled from the attribute of the same name: a pointer
+with the address of an array, whose dtype is checked; ``NAME_rows`` and ``NAME_columns`` with the sizes of array NAME; a
+nested structure member by member.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ SIZES = {"_rows": 0, "_columns": 1}  # axes of an array
 
 
 class Member(NamedTuple):
-    """One member of a structure: the dtype of a pointer's array, or None; the axis of a size, or None."""
+    """Member of a structure: the dtype of the array that it points to, or None; the axis whose size it is, or None."""
 
     name: str
     source: str  # attribute that it is filled from
@@ -42,16 +42,16 @@ class Member(NamedTuple):
 
 
 class Filled:
-    """A structure of run.h and the arrays that it refers to, which live as long as it does."""
+    """Structure of run.h with the arrays that it points to, which it keeps alive."""
 
     def __init__(self, name: str) -> None:
         self.memory = structures()[name]()
         self._sources: dict[str, Any] = {}  # by the path of the member
 
     def fill(self, source: Any) -> None:
-        """Fill all members from the attributes of ``source``; arrays and parts that are the same objects are skipped.
+        """Fill all members from the attributes of ``source``, except those that are the same objects as before.
 
-        Raises TypeError for an array of another type, or one whose elements do not lie side by side.
+        Raises TypeError for an array with a wrong dtype or one that is not contiguous.
         """
         self._fill(self.memory, source, "")
 
@@ -80,7 +80,7 @@ def _address(array: np.ndarray, dtype: Any, path: str) -> int:
 
 @cache
 def structures() -> dict[str, Any]:
-    """Return the ctypes.Structure of each structure of the header; ``members`` describes its members in order."""
+    """Return a ctypes.Structure for each structure of the header; its ``members`` describes its members in order."""
     known: dict[str, Any] = {}
     for body, name in STRUCTURE.findall(read_header("run.h")):
         rows = list(_members(body, known))
@@ -91,7 +91,7 @@ def structures() -> dict[str, Any]:
 
 
 def _members(body: str, known: dict[str, Any]) -> Iterator[tuple[Member, Any]]:
-    """Yield the members of a structure, with their ctypes."""
+    """Yield the members of a structure with their ctypes."""
     arrays: set[str] = set()
     for kind, pointer, name in MEMBER.findall(body):
         if pointer:

@@ -1,4 +1,4 @@
-"""The C of the elementary functions over arrays, with the functions as FMUs have them."""
+"""Writes the C of the elementary functions on arrays, from the functions that FMUs contain."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ EXPORT void perilune_{name}(int64_t count, {declared}, double *values)
 
 
 class EveryFunction(Block):
-    """Caller of every elementary function, of which the translator finds them."""
+    """Class that calls every elementary function, so that the translator collects them all."""
 
     x = Input(0.0, unit="1", description="first argument")
     y = Input(0.0, unit="1", description="second argument")

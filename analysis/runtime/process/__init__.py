@@ -1,1 +1,1 @@
-"""Simulations in another process: foreign FMUs are instantiated there, and never in this one."""
+"""Simulations in other processes: foreign FMUs are instantiated only there."""

@@ -1,6 +1,6 @@
-"""Channels: sockets on which orders and requests are pickles, and answers of children frames within bounds.
+"""Channels between processes: sockets with pickled orders and requests, and bounded frames for children's answers.
 
-Nothing that a child sends is executed, and it may be malformed.
+Nothing that a child sends is executed; its frames may be malformed.
 """
 
 from __future__ import annotations
@@ -28,27 +28,27 @@ _decoder = msgspec.json.Decoder(Answer)
 
 
 class ChannelError(OSError):
-    """A channel that cannot be used any more, at this end or the other."""
+    """Failure of a channel, which cannot be used any more."""
 
 
 class UnreadableError(Exception):
-    """Bytes of a child that are no answer."""
+    """Bytes from a child that are not a valid answer."""
 
 
 def pack(content: Any) -> bytes:
-    """Return a system or an FMU as a pickle; a large system has a million objects."""
+    """Return a pickled system or FMU. A large system has a million objects."""
     with no_collection():
         return pickle.dumps(content, pickle.HIGHEST_PROTOCOL)
 
 
 def unpack(packed: bytes) -> Any:
-    """Return the object of `pack`."""
+    """Return the object that `pack` pickled."""
     with no_collection():
         return pickle.loads(packed)
 
 
 def send_request(channel: socket.socket, request: object, descriptors: Sequence[int] = ()) -> None:
-    """Send a request, with open files if it has any. Raises OSError where nobody listens."""
+    """Send a request with its open files. Raises OSError if nobody listens."""
     content = pickle.dumps(request, pickle.HIGHEST_PROTOCOL)
     head = LENGTH.pack(len(content))
     if descriptors:
@@ -59,7 +59,7 @@ def send_request(channel: socket.socket, request: object, descriptors: Sequence[
 
 
 def receive_request(channel: socket.socket) -> tuple[Any, list[int]]:
-    """Receive a request and its open files. Raises EOFError at the end, and ChannelError."""
+    """Receive a request and its open files. Raises EOFError when the channel is closed, and ChannelError."""
     try:
         content, descriptors = _receive_pickle(channel)
     except OSError as error:
@@ -81,7 +81,7 @@ def _receive_pickle(channel: socket.socket) -> tuple[bytes, list[int]]:
 
 
 def _receive_bytes(channel: socket.socket, count: int) -> bytes:
-    """Receive ``count`` bytes. Raises EOFError where they end before."""
+    """Receive ``count`` bytes. Raises EOFError if the channel closes earlier."""
     content = bytearray(count)
     view = memoryview(content)
     while view:
@@ -98,7 +98,7 @@ def send_answer(channel: socket.socket, answer: Answer) -> None:
 
 
 def send_numbers(channel: socket.socket, numbers: np.ndarray) -> None:
-    """Send an answer of float64. Raises ChannelError."""
+    """Send an answer that consists of float64 numbers. Raises ChannelError."""
     _send_frame(channel, NUMBERS, np.ascontiguousarray(numbers, dtype=np.float64).tobytes())
 
 
@@ -123,7 +123,7 @@ def receive_frame(channel: socket.socket) -> tuple[bytes, bytes]:
 
 
 def read_answer(content: bytes, expected: type[Kind]) -> Kind:
-    """Return an answer of the expected kind. Raises UnreadableError, and InputError where the child raised it."""
+    """Return an answer of the expected kind. Raises UnreadableError, and InputError if the child raised it."""
     try:
         answer = _decoder.decode(content)
     except msgspec.MsgspecError:

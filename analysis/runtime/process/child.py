@@ -1,6 +1,6 @@
-"""The work of a child: it instantiates a system, or tries one FMU, and answers requests until its channel is closed.
+"""Work of a child process: instantiates a system, or tests one FMU, and answers requests until its channel closes.
 
-Foreign FMUs are loaded here, and in the files that this imports, and nowhere else.
+Foreign FMUs are loaded only here and in the modules imported here.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ SEED = 0  # of generators that FMUs leave at their start, as that of C's rand() 
 
 
 def main() -> None:
-    """Do the task on standard input in a process that was not forked, and exit."""
+    """Do the task read from standard input, in a process that was not forked, and exit."""
     order: messages.SpawnOrder = pickle.load(sys.stdin.buffer)
     end_after(order.parent)
     if sys.platform == "win32":
@@ -59,7 +59,8 @@ def main() -> None:
 def do_task(task: messages.Task, subject: Any, channel: socket.socket, files: Sequence[int]) -> int:
     """Do a task with a system or an FMU; ``files`` are those of its recorder.
 
-    Returns the exit status of the process, whose FMUs may close what they did not open.
+    Returns the exit status of the process. The caller must exit at once: FMUs may have closed descriptors that they did
+    not open.
     """
     if not task.formats:
         leave_messages_unformatted()
@@ -84,10 +85,10 @@ def do_task(task: messages.Task, subject: Any, channel: socket.socket, files: Se
 
 
 def _settle(subject: PreparedSystem | Fmu) -> None:
-    """Bring this process to the state of all that simulate this: files as unpacked, generators at their start.
+    """Bring this process to a reproducible state: files of FMUs as unpacked, random number generators seeded.
 
-    Children of one server would share the state of Python's and numpy's generators, and those of another would not.
-    Raises InputError where the files cannot be copied.
+    Children of one server would share the state of Python's and numpy's generators, those of another would not. Raises
+    InputError if the files cannot be copied.
     """
     fmus = [subject] if isinstance(subject, Fmu) else list(subject.network.fmus.values())
     copies: dict[Path, Path] = {}
@@ -101,7 +102,7 @@ def _settle(subject: PreparedSystem | Fmu) -> None:
 
 
 def _copy_files(fmu: Fmu) -> Path:
-    """Return a folder of this process with the files of an FMU as unpacked. Raises InputError."""
+    """Return a folder of this process with a copy of an FMU's unpacked files. Raises InputError."""
     folder = Path(tempfile.gettempdir())
     try:
         return Path(shutil.copytree(fmu.folder, Path(tempfile.mkdtemp(dir=folder)) / "fmu"))
@@ -112,7 +113,7 @@ def _copy_files(fmu: Fmu) -> Path:
 
 
 class RequestHandler:
-    """The simulation of a child, with its recorders and snapshots, and the requests that it carries out."""
+    """Simulation of a child with its recorders and snapshots; executes requests."""
 
     def __init__(
         self, channel: socket.socket, task: messages.SystemTask, prepared: PreparedSystem, files: Sequence[int]
@@ -135,7 +136,7 @@ class RequestHandler:
         return recorder
 
     def serve(self) -> None:
-        """Answer requests until there are no more, then free the instances and say so."""
+        """Answer requests until the channel closes, then free the instances and send a last answer."""
         while True:
             try:
                 request, files = receive_request(self._channel)

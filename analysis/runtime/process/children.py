@@ -1,6 +1,6 @@
-"""Children of this process: forked by its flight server, or where the operating system cannot fork, spawned.
+"""Child processes: forked by a flight server, or spawned where the operating system cannot fork.
 
-A server is started at the first simulation that needs a child, and another one if it has ended.
+The server is started for the first simulation that needs a child, and again if it has ended.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ Subject = PreparedSystem | Fmu  # of a child; a server keeps it as long as it li
 
 @dataclass(frozen=True)
 class ForkedChild:
-    """A child of a server, and this end of its channel."""
+    """Child of a flight server, with this end of its channel."""
 
     server: ServerProcess
     number: int
@@ -51,11 +51,11 @@ class ForkedChild:
 
     @property
     def is_over(self) -> bool:
-        """True if it has ended, though its channel may still be open."""
+        """True if the child has exited, although its channel may still be open."""
         return bool(self.server.ask(messages.IsOver(self.number), True))
 
     def end(self, *, kill: bool) -> messages.ChildExit:
-        """Close its channel and wait for its end, or kill it. To be called only one time."""
+        """Close the channel and wait for the child to exit, or kill it. Call this only once."""
         _close_channel(self.channel)
         child_exit: messages.ChildExit = self.server.ask(
             messages.EndChild(self.number, kill), messages.ChildExit(0, messages.SERVER_ENDED)
@@ -64,7 +64,7 @@ class ForkedChild:
 
 
 class ServerProcess:
-    """A flight server, which ends with this process."""
+    """Flight server of this process, which exits with it."""
 
     def __init__(self) -> None:
         self._control, theirs = socket.socketpair()
@@ -81,7 +81,7 @@ class ServerProcess:
         self.is_running, self._has_served = True, False
 
     def close(self) -> None:
-        """End it, with all its children; at once where it never had one, as it may still be loading."""
+        """End the server and all its children; a server that never forked is killed, since it may still be loading."""
         self.is_running = False
         if not self._has_served:
             self._process.kill()
@@ -92,7 +92,7 @@ class ServerProcess:
     def fork(
         self, subject: Subject, task: messages.Task, *, folder: str, limits: ProcessLimits, files: Sequence[int] = ()
     ) -> ForkedChild:
-        """Fork a child that does a task in a folder. Raises OSError where the server has ended."""
+        """Fork a child that does a task in a folder. Raises OSError if the server has exited."""
         ours, theirs = socket.socketpair()
         with theirs, _lock:
             self._has_served = True
@@ -109,7 +109,7 @@ class ServerProcess:
         return ForkedChild(self, number, ours)
 
     def _introduce(self, subject: Subject) -> tuple[int, bytes | None]:
-        """Return the key of a subject, and its pickle if the server does not have it yet."""
+        """Return the key of a subject, and its pickle unless the server already has it."""
         identity = id(subject)
         if identity in self._keys:
             return self._keys[identity], None
@@ -118,11 +118,11 @@ class ServerProcess:
         return self._keys[identity], _pack_subject(subject)
 
     def _forget(self, identity: int) -> None:
-        """Note that a subject is gone; the garbage collector calls this at any time, also while a request is sent."""
+        """Note that a subject no longer exists. The garbage collector may call this even during a request."""
         self._forgotten.append(self._keys.pop(identity))
 
     def ask(self, request: messages.IsOver | messages.EndChild, otherwise: Any) -> Any:
-        """Return the server's answer; ``otherwise`` where it has ended."""
+        """Return the server's answer, or ``otherwise`` if the server has exited."""
         with _lock, suppress(OSError, EOFError):
             send_request(self._control, request)
             return receive_request(self._control)[0]
@@ -131,7 +131,7 @@ class ServerProcess:
 
 
 class SpawnedChild:
-    """A child with a new interpreter, which takes a second to load; as `ForkedChild`."""
+    """Child with a new interpreter, which takes a second to load; same interface as `ForkedChild`."""
 
     def __init__(self, subject: Subject, task: messages.Task, folder: str, memory: int, files: Sequence[int]):
         self.channel, theirs = socket.socketpair()
@@ -163,7 +163,7 @@ class SpawnedChild:
 
     @property
     def is_over(self) -> bool:
-        """True if it has ended; it is killed if it takes too much memory."""
+        """True if the child has exited. Kills it if it exceeds its memory limit."""
         with suppress(psutil.Error):
             if psutil.Process(self._process.pid).memory_info().rss > self._memory:
                 self._reason = messages.OVER_MEMORY_LIMIT
@@ -190,7 +190,7 @@ _server: ServerProcess | None = None
 
 
 def start_server() -> ServerProcess:
-    """Return the flight server of this process, which takes some tenths of a second to load after its first call."""
+    """Return the flight server of this process; after the first call it takes some tenths of a second to load."""
     global _server
     with _lock:
         if _server is None or not _server.is_running:
@@ -202,7 +202,7 @@ def start_server() -> ServerProcess:
 def begin_child(
     subject: Subject, task: messages.Task, *, folder: str, limits: ProcessLimits, files: Sequence[int] = ()
 ) -> Child:
-    """Return a child that does a task in a folder; a server that has ended is started again."""
+    """Return a child that does a task in a folder; start the server again if it has exited."""
     if not CAN_FORK:
         return SpawnedChild(subject, task, folder, limits.memory, files)
     try:
@@ -212,12 +212,12 @@ def begin_child(
 
 
 def _pack_subject(subject: Subject) -> bytes:
-    """Return the pickle of what a child needs of it."""
+    """Return the pickle of what a child needs of a system or FMU."""
     return pack(subject.of_flights() if isinstance(subject, PreparedSystem) else subject)
 
 
 def _python_command(program: str) -> list[str]:
-    """Return the command of a Python process with the modules of this one."""
+    """Return the command line of a Python process with this process's module path."""
     return [sys.executable, "-c", f"import sys; sys.path[:] = {sys.path!r}; {program}"]
 
 

@@ -1,4 +1,4 @@
-"""Connection to a child: requests and answers, one at a time, a limit on the time of a call, and its end in words."""
+"""Connection to a child: one request and answer at a time, a time limit for each call, and its end as text."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ PATIENCE = 1.5  # s that a child has to free its instances
 
 
 class ServerEndedError(EndedError):
-    """A child that ended with its flight server, for no fault of an FMU."""
+    """End of a child together with its flight server, not caused by an FMU."""
 
 
 class ChildEndedError(Exception):
-    """A child that ended before it had answered: ``status`` of LOST, and ``how`` in words."""
+    """End of a child before it answered: ``status`` is one of LOST, ``how`` a description."""
 
     def __init__(self, status: str, how: str) -> None:
         super().__init__(status, how)
@@ -38,7 +38,7 @@ class ChildEndedError(Exception):
 
 
 class Watchdog:
-    """Limit (s) on the time without progress, of which ``measure`` returns another state each time there is some."""
+    """Limit (s) on the time without progress; ``measure`` returns a value that changes with every progress."""
 
     def __init__(self, measure: Callable[[], object], limit: float) -> None:
         self._measure, self.limit = measure, limit
@@ -57,7 +57,7 @@ class Watchdog:
 
 
 class Connection:
-    """A child with its channel; ``write`` receives the messages of FMUs. Only `give_up` may be called in any thread."""
+    """Connection to a child; ``write`` receives log lines of FMUs. Only `give_up` may be called from other threads."""
 
     def __init__(self, child: Child, write: Callable[[str], None], watchdog: Watchdog) -> None:
         self._child = child
@@ -72,12 +72,15 @@ class Connection:
         return self._end.alive
 
     def ask(self, request: object, expected: type[messages.Kind], files: Sequence[int] = ()) -> messages.Kind:
-        """Return the answer. Raises ChildEndedError, ServerEndedError, and InputError where the child raised it."""
+        """Send a request and return its answer.
+
+        Raises ChildEndedError, ServerEndedError, and InputError if the child raised it.
+        """
         self.send(request, files)
         return self.receive(expected)
 
     def ask_numbers(self, request: object, count: int) -> np.ndarray:
-        """Return an answer of ``count`` float64; errors as in `ask`."""
+        """Send a request and return its answer of ``count`` float64 numbers; errors as in `ask`."""
         self.send(request)
         kind, content = self._receive()
         if kind == NUMBERS and len(content) == 8 * count:
@@ -86,7 +89,7 @@ class Connection:
         raise AssertionError  # a refusal is raised
 
     def send(self, request: object, files: Sequence[int] = ()) -> None:
-        """Send a request without an answer, or before its `receive`: the child may have ended by then."""
+        """Send a request that has no answer, or whose answer `receive` returns; ignore a child that has exited."""
         with suppress(OSError):
             send_request(self._child.channel, request, files)
 
@@ -95,13 +98,13 @@ class Connection:
         return self._read(*self._receive(), expected)
 
     def give_up(self, why: str) -> None:
-        """End the child for a thread that waits for it: a call does not return."""
+        """End the child because a call does not return; wakes the thread that waits for it."""
         self._given_up = why
         with suppress(OSError):
             self._child.channel.shutdown(socket.SHUT_RDWR)  # wakes that thread
 
     def close(self) -> str:
-        """Let the child free its instances, for PATIENCE, and end; return the problem if there is one."""
+        """Let the child free its instances within PATIENCE and exit; return a description of any problem, else ""."""
         if not self.is_open:
             return ""
         answer = self._last_answer()
@@ -113,11 +116,11 @@ class Connection:
         return "" if ended is None or answer == FREED else f"its process ended {_in_words(ended.status)}"
 
     def kill(self) -> None:
-        """End the child at once."""
+        """Kill the child."""
         self._finish(kill=True)
 
     def _last_answer(self) -> bytes | None:
-        """Ask the child to free its instances; return its last answer, None if it does not end."""
+        """Let the child free its instances; return its last answer, or None if its channel does not close in time."""
         answer = b""
         channel, deadline = self._child.channel, time.monotonic() + PATIENCE
         try:
@@ -136,11 +139,11 @@ class Connection:
         return None
 
     def _finish(self, *, kill: bool) -> messages.ChildExit | None:
-        """End the child; return None where that was done before."""
+        """End the child; return None if it was ended before."""
         return None if self._end.detach() is None else self._child.end(kill=kill)
 
     def _receive(self) -> tuple[bytes, bytes]:
-        """Return kind and content of the next frame that is no message, and write those before it."""
+        """Return kind and content of the next frame that is not a log line; write the log lines before it."""
         self._watchdog.start()
         while True:
             try:
@@ -176,7 +179,7 @@ class Connection:
         return ChildEndedError(CRASHED, "its process sent answers that cannot be read")
 
     def _error_of_end(self) -> ChildEndedError | ServerEndedError:
-        """End the child, and return the error for how it ended."""
+        """End the child, and return the error that describes its end."""
         ended = self._finish(kill=bool(self._given_up))
         if self._given_up:
             return ChildEndedError(HUNG, self._given_up)
@@ -195,7 +198,7 @@ class Connection:
 
 
 def _in_words(status: int) -> str:
-    """Return how a process ended, by the status of `ChildExit`."""
+    """Return how a process ended, as text, from the status of a `ChildExit`."""
     if status >= 0:
         return f"with exit status {status if status < 256 else hex(status)}"  # Windows has codes such as 0xc0000005
     try:

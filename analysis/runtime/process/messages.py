@@ -1,7 +1,7 @@
 """Messages between a process, its flight server and the server's children.
 
-Orders to the server and requests to a child are pickles, since both sides are Perilune's code. A child runs code of
-others: its answers are JSON with declared fields.
+Orders to the server and requests to a child are pickled, since Perilune's code is on both sides. A child also executes
+foreign code: its answers are JSON with declared fields.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from .restriction import ProcessLimits
 
 @dataclass(frozen=True)
 class SystemTask:
-    """Simulation of a system. ``log`` is the level of messages; the recorder has ``rows`` of ``signals``.
+    """Task to simulate a system. ``log`` is the level of messages; the recorder is for ``rows`` of ``signals``.
 
-    ``formats``: messages of FMUs are formats of printf, as FMI 2.0 has them; ``recorder`` is the name of its memory.
+    If ``formats``, messages of FMUs are printf formats, as in FMI 2.0. ``recorder`` is the name of its shared memory.
     """
 
     selection: Selection
@@ -39,7 +39,7 @@ class SystemTask:
 
 @dataclass(frozen=True)
 class ResetTask:
-    """Trial of what renews an FMU; ``formats`` as in `SystemTask`, ``with_reset`` as in `try_renewals`."""
+    """Task to test how an FMU is restored; ``formats`` as in `SystemTask`, ``with_reset`` as in `try_renewals`."""
 
     formats: bool
     with_reset: bool
@@ -53,9 +53,9 @@ Task = SystemTask | ResetTask
 
 @dataclass(frozen=True)
 class Begin:
-    """Fork of a child, whose channel and recorder's file are attached.
+    """Order to fork a child; its channel and the recorder's file are attached.
 
-    ``content`` is its subject, a system or an FMU, pickled; None if the server has it by its ``key``.
+    ``content`` is its pickled subject, a system or an FMU; None if the server already has it by its ``key``.
     """
 
     number: int
@@ -68,21 +68,21 @@ class Begin:
 
 @dataclass(frozen=True)
 class Forget:
-    """End of a subject: no more children need it."""
+    """Order to discard a subject that no further child needs."""
 
     key: int
 
 
 @dataclass(frozen=True)
 class IsOver:
-    """Question if a child has ended: a process that it has started may keep its channel open."""
+    """Query whether a child has exited; processes that it started may keep its channel open."""
 
     number: int
 
 
 @dataclass(frozen=True)
 class EndChild:
-    """End of a child, which may be a ``kill``; the answer is a `ChildExit`."""
+    """Order to end a child, or to ``kill`` it; the answer is a `ChildExit`."""
 
     number: int
     kill: bool
@@ -90,9 +90,9 @@ class EndChild:
 
 @dataclass(frozen=True)
 class SpawnOrder:
-    """Order to a child that was not forked, on its standard input.
+    """Order to a spawned child, on its standard input.
 
-    ``channel`` and ``files`` are descriptors that it inherits; on Windows ``channel`` is a socket shared with it.
+    ``channel`` and ``files`` are inherited descriptors; on Windows ``channel`` is a shared socket.
     """
 
     parent: int  # the process with which it ends
@@ -112,7 +112,7 @@ NO_CHANNEL = 76  # of sysexits.h: the exit status of a child that cannot use its
 
 @dataclass(frozen=True)
 class ChildExit:
-    """Exit ``status`` of a child, a signal if negative, and the ``reason`` where it is known."""
+    """Exit ``status`` of a child, negative for a signal, and the ``reason`` if it is known."""
 
     status: int
     reason: str = ""
@@ -123,9 +123,9 @@ class ChildExit:
 
 @dataclass(frozen=True)
 class Simulate:
-    """Simulation between two communication points; new values of varied parameters, and faults, where they change.
+    """Request to simulate between two communication points, with values and faults that have changed.
 
-    ``recorder`` is the number of one that the child has.
+    ``recorder`` is the number of one of the child's recorders.
     """
 
     recorder: int
@@ -139,14 +139,14 @@ class Simulate:
 
 @dataclass(frozen=True)
 class StoreVerdicts:
-    """Verdicts on FMUs by their SHA-256; there is no answer."""
+    """Request to store verdicts on FMUs, by SHA-256; it has no answer."""
 
     verdicts: dict[str, ResetVerdict]
 
 
 @dataclass(frozen=True)
 class AddRecorder:
-    """Memory for ``rows``, whose file is attached, or which has a ``name``."""
+    """Request to add a recorder with ``rows`` rows, whose file is attached, or whose memory has a ``name``."""
 
     number: int
     rows: int
@@ -155,24 +155,24 @@ class AddRecorder:
 
 @dataclass(frozen=True)
 class ListMemory:
-    """Question for the cells of the system's memory."""
+    """Request for the cells of the system's memory."""
 
 
 @dataclass(frozen=True)
 class ReadMemory:
-    """Question for the numbers in these cells."""
+    """Request for the values of all cells."""
 
 
 @dataclass(frozen=True)
 class TakeSnapshot:
-    """Copy of the memory at a communication point."""
+    """Request to save the memory at a communication point."""
 
     point: int
 
 
 @dataclass(frozen=True)
 class RestoreSnapshot:
-    """Return to a snapshot, with another number in one cell if there is a ``cell``."""
+    """Request to restore a snapshot; if there is a ``cell``, with another number in it."""
 
     snapshot: int
     cell: int | None
@@ -181,7 +181,7 @@ class RestoreSnapshot:
 
 @dataclass(frozen=True)
 class ReleaseSnapshot:
-    """End of a snapshot."""
+    """Request to free a snapshot."""
 
     snapshot: int
 
@@ -190,13 +190,13 @@ class ReleaseSnapshot:
 
 
 class Done(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """A request is carried out; ``number`` names a snapshot."""
+    """Answer to a completed request; ``number`` identifies a snapshot."""
 
     number: int = 0
 
 
 class Simulated(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """Status, message and number of rows of a simulation."""
+    """Answer with status, message and number of rows of a simulation."""
 
     status: str
     message: str
@@ -204,7 +204,7 @@ class Simulated(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 
 
 class Refused(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """An InputError of the child."""
+    """Answer with an InputError that the child raised."""
 
     file: str
     element: str
@@ -217,18 +217,18 @@ class Refused(msgspec.Struct, tag=True, forbid_unknown_fields=True):
         return cls(error.file, error.element, error.problem, error.remedy)
 
     def as_error(self) -> InputError:
-        """Return the error, to be raised."""
+        """Return the error, for the caller to raise."""
         return InputError(self.file, self.element, self.problem, self.remedy)
 
 
 class CellList(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """Fields of each `Cell` of the memory."""
+    """Answer with the fields of each `Cell` of the memory."""
 
     entries: list[tuple[str, str | None, str | None, int]]
 
 
 class Tried(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """An FMU has been simulated with its declared values; a `Renewed` follows.
+    """Answer after an FMU was simulated with its declared values; a `Renewed` follows.
 
     ``digest`` is the SHA-256 of its outputs and parameters.
     """
@@ -237,14 +237,14 @@ class Tried(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 
 
 class Renewed(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """Fields of a `ResetVerdict`."""
+    """Answer with the fields of a `ResetVerdict`."""
 
     renewal: str
     reason: str
 
 
 class Freed(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """The last answer: all instances are freed."""
+    """Last answer: all instances are freed."""
 
 
 Answer = Done | Simulated | Refused | CellList | Tried | Renewed | Freed

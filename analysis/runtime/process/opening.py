@@ -1,6 +1,6 @@
-"""Choice between this process and a child for the simulation of a system, through which all verbs go.
+"""Choice between this process and a child for a simulation; all verbs simulate through this module.
 
-Perilune's own FMUs are loaded into this process, foreign ones and those with external state into a child.
+Perilune's FMUs are loaded into this process, foreign FMUs and FMUs with external state into a child.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ def may_load_here(prepared: PreparedSystem) -> bool:
 
 
 def open_simulation(prepared: PreparedSystem, *, in_child: bool = False, **choices: Unpack[Choices]) -> BaseSimulation:
-    """Return a simulation, in a child where the FMUs need it or ``in_child``; see `Choices`. Raises InputError."""
+    """Return a simulation, in a child if the FMUs require it or ``in_child``; see `Choices`. Raises InputError."""
     in_child = in_child or not may_load_here(prepared)
     check_fused(prepared, in_child=in_child)
     return ProcessSimulation(prepared, **choices) if in_child else Simulation(prepared, **choices)

@@ -1,4 +1,4 @@
-"""Printed output of children, which is passed on to standard error: a limited number of lines, safe for a terminal."""
+"""Printed output of children, passed on to standard error in a limited number of lines that are safe for a terminal."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ OURS = ("perilune", "log")  # beginnings of Perilune's lines, before a colon
 class PrintedLines:
     """Output of one child, split into lines; ``printers`` are the components that may have printed them.
 
-    They share standard output and error and the C library's buffer of it, so that the source of a line is unknown.
+    Components share standard output, standard error and the C library's buffer, so the source of a line is unknown.
     """
 
     def __init__(self, printers: Sequence[str]) -> None:
@@ -29,7 +29,7 @@ class PrintedLines:
         self._lines = 0
 
     def add(self, block: bytes) -> None:
-        """Pass on the lines that are complete."""
+        """Add output, and pass on its complete lines."""
         *lines, self._partial = (self._partial + block).split(b"\n")
         for line in lines:
             self._write(line)
@@ -38,7 +38,7 @@ class PrintedLines:
             self._partial = b""
 
     def finish(self) -> None:
-        """Pass on the last line, and say how many were left out."""
+        """Pass on the last line, and report how many lines were omitted."""
         if self._partial:
             self._write(self._partial)
         if self._lines > LINE_LIMIT:
@@ -56,7 +56,7 @@ class PrintedLines:
 
 
 class OutputPipe:
-    """Reading end of the pipe that a forked child prints into; the server reads it between other work."""
+    """Reading end of the pipe into which a forked child prints; the server reads it between other work."""
 
     def __init__(self, descriptor: int, printers: Sequence[str]) -> None:
         os.set_blocking(descriptor, False)
@@ -83,7 +83,7 @@ class OutputPipe:
 
 
 def forward_output(output: IO[bytes], printers: Sequence[str]) -> None:
-    """Pass on the output of a child that was not forked, until it ends."""
+    """Pass on the output of a spawned child until it exits."""
     lines = PrintedLines(printers)
     with output:
         while block := os.read(output.fileno(), BLOCK):
@@ -92,7 +92,7 @@ def forward_output(output: IO[bytes], printers: Sequence[str]) -> None:
 
 
 def _label(printers: Sequence[str]) -> str:
-    """Return the beginning of lines: names of components, and never a beginning of Perilune's lines."""
+    """Return the prefix of lines: names of components, distinct from any prefix of Perilune's own lines."""
     names = visible_line(", ".join(printers[:NAME_LIMIT]), LONGEST_NAMES)
     if len(printers) > NAME_LIMIT:
         names += f" and {len(printers) - NAME_LIMIT} more"

@@ -1,4 +1,4 @@
-"""Means to renew FMUs of others between simulations, tried in children, once per FMU and process."""
+"""Ways to restore foreign FMUs between simulations, tested in children, once for each FMU and process."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _noted: set[str] = set()  # digests of FMUs
 
 
 class TrialWatch:
-    """The trials of one system's FMUs, which another thread can end."""
+    """Handle by which another thread can end the tests of a system's FMUs."""
 
     def __init__(self) -> None:
         self._connection: Connection | None = None
@@ -33,23 +33,23 @@ class TrialWatch:
         return bool(self._why)
 
     def begin(self, connection: Connection) -> None:
-        """Note the child of a trial, which ends at once after `give_up`."""
+        """Register the child of a test; it is ended at once if `give_up` was called before."""
         self._connection = connection
         if self._why:
             connection.give_up(self._why)
 
     def give_up(self, why: str) -> None:
-        """End the child of the trial that is under way, and of those that follow."""
+        """End the child of the current test, and those of later ones."""
         self._why = why
         if self._connection is not None:
             self._connection.give_up(why)
 
 
 def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, ResetVerdict]:
-    """Return the verdicts on FMUs that are not self-contained, by their SHA-256.
+    """Return the verdicts on FMUs that are not self-contained, by SHA-256.
 
-    An FMU that cannot be tried has a process for each simulation; an abandoned ``watch`` yields no verdict for other
-    simulations.
+    An FMU that cannot be tested needs a process for each simulation. If ``watch`` was given up, verdicts are not stored
+    for other simulations.
     """
     verdicts = {}
     for fmu in prepared.network.fmus.values():
@@ -64,10 +64,10 @@ def find_verdicts(prepared: PreparedSystem, watch: TrialWatch) -> Mapping[str, R
 
 
 def find_verdict(fmu: Fmu, options: SystemOptions, watch: TrialWatch | None = None) -> ResetVerdict:
-    """Return what renews an FMU, tried in children at the first call.
+    """Return the verdict on how to restore an FMU; the first call tests it in children.
 
-    Raises InputError where it cannot be instantiated, or ends its process before it has been simulated with its
-    declared values.
+    Raises InputError if the FMU cannot be instantiated, or its process ends before it was simulated with declared
+    values.
     """
     verdict = verdict_in_cache(fmu)
     if verdict is None:
@@ -83,7 +83,7 @@ def find_verdict(fmu: Fmu, options: SystemOptions, watch: TrialWatch | None = No
 
 
 def renewal_note(component: str, verdict: ResetVerdict) -> str | None:
-    """Return a note on what a component costs that does not reset; None for one that does."""
+    """Return a note on the cost of restoring a component; None if its reset works."""
     match verdict.renewal:
         case Renewal.RESET:
             return None
@@ -96,7 +96,7 @@ def renewal_note(component: str, verdict: ResetVerdict) -> str | None:
 
 
 def note_processes(prepared: PreparedSystem, cost: float) -> None:
-    """Warn, once, of FMUs for which every simulation has a process, each of which costs so much (s)."""
+    """Warn, once for each FMU, that every simulation needs a new process, at a ``cost`` (s) each."""
     for component, fmu in prepared.network.fmus.items():
         verdict = verdict_in_cache(fmu)
         if verdict is not None and verdict.needs_process and fmu.digest not in _noted:
@@ -105,7 +105,7 @@ def note_processes(prepared: PreparedSystem, cost: float) -> None:
 
 
 class _Trials:
-    """Children that try one FMU, until it is known what renews it."""
+    """Tests of one FMU in children."""
 
     def __init__(self, fmu: Fmu, options: SystemOptions, watch: TrialWatch) -> None:
         self._fmu = fmu
@@ -115,10 +115,10 @@ class _Trials:
         self._digest = ""  # of the first simulation in a new process
 
     def decide(self) -> ResetVerdict:
-        """Try reset and new instance in one process, then whether a second one simulates as the first.
+        """Test a reset and a new instance in one process, then whether a second process gives the same results.
 
-        A process that ends once the FMU has been simulated has shown that no reset does; if it was without one, that
-        no instance does. Raises ChildEndedError where it ends before.
+        If the process ends after the first simulation of the FMU, the reset fails; if it was started without a reset, a
+        new instance fails as well. Raises ChildEndedError if it ends earlier.
         """
         verdict = self._try_formats()
         if not verdict.needs_process:
@@ -158,7 +158,7 @@ class _Trials:
         return ResetVerdict(renewal, reason)
 
     def _begin(self, *, with_reset: bool) -> Connection:
-        """Begin a trial in a child."""
+        """Start a test in a child."""
         fmu, options = self._fmu, self._options
         task = messages.ResetTask(self._formats, with_reset)
         child = begin_child(fmu, task, folder=os.getcwd(), limits=limits_for([fmu], options))

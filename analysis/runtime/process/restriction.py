@@ -1,7 +1,7 @@
-"""Limits of a child: its memory, and for foreign FMUs where it may write, the network and other processes.
+"""Restrictions of a child: its memory, and for foreign FMUs write access, network and other processes.
 
-Linux alone has such restrictions without rights of an administrator: Landlock for files and signals (Linux 5.13 and
-later), seccomp for system calls. Both stay for all that the child starts. Reading is not restricted.
+Only Linux offers such restrictions without administrator rights: Landlock for files and signals (Linux 5.13 and later),
+seccomp for system calls. Processes that the child starts inherit both. Reading is not restricted.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ SCOPE_ABSTRACT_UNIX_SOCKET, SCOPE_SIGNAL = 1, 2  # from version 6 on
 
 @dataclass(frozen=True)
 class Restriction:
-    """``writable`` folders and files; ``network`` is True if it is open."""
+    """Restriction to ``writable`` folders and files; ``network`` is True if network access is allowed."""
 
     writable: tuple[str, ...]
     network: bool
@@ -46,16 +46,16 @@ class Restriction:
 
 @dataclass(frozen=True)
 class ProcessLimits:
-    """Largest memory of a child in bytes, in addition to that of its server, and its restriction if it has one."""
+    """Memory limit of a child in bytes, in addition to its server's memory, and its restriction or None."""
 
     memory: int
     restriction: Restriction | None
 
 
 def limits_for(fmus: Iterable[Fmu], options: SystemOptions) -> ProcessLimits:
-    """Return the limits of a child with these FMUs; a restriction only if one is foreign.
+    """Return the limits of a child with these FMUs; it is restricted only if one is foreign.
 
-    Warns where the operating system lacks something for it, or raises InputError if the options are strict.
+    If the operating system does not support all restrictions, warns, or raises InputError if the options are strict.
     """
     memory = round(options.limits["memory"] * GB)
     if all(fmu.is_own for fmu in fmus):
@@ -73,7 +73,7 @@ def limits_for(fmus: Iterable[Fmu], options: SystemOptions) -> ProcessLimits:
 
 @functools.cache
 def find_missing() -> tuple[str, ...]:
-    """Return, in words, what this system lacks for a restriction to hold."""
+    """Return, as text, what the operating system lacks to enforce a restriction."""
     if sys.platform != "linux":
         return ("only Linux restricts processes",)
     missing = []
@@ -85,7 +85,7 @@ def find_missing() -> tuple[str, ...]:
 
 
 def restrict(restriction: Restriction) -> None:
-    """Restrict this process, and all that it starts, for good; as far as `find_missing` says. Raises OSError."""
+    """Restrict this process and all that it starts, irrevocably, as far as `find_missing` allows. Raises OSError."""
     if sys.platform != "linux":
         return
     libc = ctypes.CDLL(None, use_errno=True)
@@ -98,7 +98,7 @@ def restrict(restriction: Restriction) -> None:
 
 
 def _landlock_version() -> int:
-    """Return the version of Landlock, 0 without it."""
+    """Return the version of Landlock, 0 if it is not available."""
     libc = ctypes.CDLL(None, use_errno=True)
     flag = ctypes.c_uint32(LANDLOCK_CREATE_RULESET_VERSION)
     return max(0, int(libc.syscall(LANDLOCK_CREATE_RULESET, None, ctypes.c_size_t(0), flag)))

@@ -1,4 +1,4 @@
-"""System calls of x86_64, a platform of FMI 2.0, that foreign code may not do, and the seccomp filter for them."""
+"""System calls of x86_64, a platform of FMI 2.0, denied to foreign code, and the seccomp filter that denies them."""
 
 from __future__ import annotations
 
@@ -71,13 +71,13 @@ PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 22, 2
 
 
 class Filter(ctypes.Structure):
-    """struct sock_fprog: a filter and the number of its instructions."""
+    """struct sock_fprog: a filter program and the number of its instructions."""
 
     _fields_ = (("length", ctypes.c_ushort), ("instructions", ctypes.c_char_p))
 
 
 def has_seccomp() -> bool:
-    """Return True if the kernel takes filters: it then refuses a filter at address 0 for its address alone."""
+    """Return True if the kernel supports filters: a filter at address 0 then fails only because of its address."""
     if platform.machine() != "x86_64":
         return False
     libc = ctypes.CDLL(None, use_errno=True)
@@ -86,7 +86,10 @@ def has_seccomp() -> bool:
 
 
 def filter_calls(libc: ctypes.CDLL, *, network: bool, signals: bool) -> None:
-    """Filter the calls of this process for good, also those for the ``network`` and ``signals``. Raises OSError."""
+    """Filter the system calls of this process irrevocably; optionally those for ``network`` and ``signals``.
+
+    Raises OSError.
+    """
     refused, rules = [*OTHERS.values()], [*SETTINGS.values()]
     if network:
         refused.append(SOCKET)
@@ -99,7 +102,7 @@ def filter_calls(libc: ctypes.CDLL, *, network: bool, signals: bool) -> None:
 
 
 def check_result(result: int) -> int:
-    """Return what a function of C returns. Raises OSError by its error number if it is negative."""
+    """Return the result of a C function. Raises OSError with its error number if the result is negative."""
     if result < 0:
         number = ctypes.get_errno()
         raise OSError(number, os.strerror(number))
@@ -107,7 +110,7 @@ def check_result(result: int) -> int:
 
 
 def _instructions(refused: Sequence[int], rules: Iterable[Rule], process: int) -> list[bytes]:
-    """Return instructions by which calls of another interface, ``refused`` ones and those against ``rules`` fail."""
+    """Return a filter that denies calls of other ABIs, ``refused`` calls, and arguments against ``rules``."""
     code = [
         instruction(LOAD, ARCHITECTURE),
         instruction(IS_EQUAL, AUDIT_ARCH_X86_64, 1, 0),
@@ -125,7 +128,7 @@ def _instructions(refused: Sequence[int], rules: Iterable[Rule], process: int) -
 
 
 def _argument_code(position: int, values: Values, process: int) -> list[bytes]:
-    """Return instructions that refuse a call unless its argument is one of ``values``."""
+    """Return instructions that deny a call unless its argument is one of ``values``."""
     # processes and kinds of them are ints, to the kernel too: the lower half, which comes first
     code = [instruction(LOAD, FIRST_ARGUMENT + ARGUMENT_SIZE * position)]
     for left, number in zip(range(len(values), 0, -1), values, strict=True):
@@ -134,5 +137,5 @@ def _argument_code(position: int, values: Values, process: int) -> list[bytes]:
 
 
 def instruction(code: int, operand: int, true: int = 0, false: int = 0) -> bytes:
-    """Return one of BPF; a comparison skips ``true`` or ``false`` instructions."""
+    """Return one BPF instruction; a comparison skips ``true`` or ``false`` instructions."""
     return struct.pack("=HBBI", code, true, false, operand)

@@ -1,7 +1,7 @@
-"""The flight server: a process with everything loaded for a simulation except FMUs, which forks children to simulate.
+"""Flight server: a process with everything loaded for a simulation except FMUs, which forks children to simulate.
 
-`children` starts it, with a socket to the process that it works for, and it ends with that process; so do its
-children, and theirs.
+`children` starts it with a socket to its client process. It exits with that process, as do its children and all
+processes that they start.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ RESERVED = 2  # addresses, by what may be in memory: programs reserve more than 
 
 @dataclass
 class ServedChild:
-    """A forked child; ``memory`` is its limit in bytes, ``status`` None until it has ended."""
+    """Forked child; ``memory`` is its limit in bytes, ``status`` is None until it has exited."""
 
     pid: int
     output: OutputPipe
@@ -54,7 +54,7 @@ class ServedChild:
     reason: str = ""
 
     def check_end(self) -> bool:
-        """Return True if it has ended, and note how."""
+        """Return True if the child has exited, and note its status."""
         if self.status is None:
             pid, status, usage = os.wait4(self.pid, os.WNOHANG)
             if pid:
@@ -65,14 +65,14 @@ class ServedChild:
         return self.status is not None
 
     def kill(self, reason: str) -> None:
-        """Kill it for a reason, unless there was one before."""
+        """Kill the child; its first ``reason`` is kept."""
         self.reason = self.reason or reason
         with suppress(ProcessLookupError):
             os.kill(self.pid, signal.SIGKILL)
 
 
 class FlightServer:
-    """The process that carries out orders; ``control`` is its end of the socket to the process that it works for."""
+    """Server that executes orders; ``control`` is its end of the socket to the client process."""
 
     def __init__(self, control: socket.socket) -> None:
         self._control = control
@@ -83,7 +83,7 @@ class FlightServer:
         self._watched = 0.0  # s
 
     def serve(self) -> None:
-        """Carry out orders until the control socket is closed."""
+        """Execute orders until the control socket is closed."""
         while True:
             for key, _ in self._selector.select(WATCH_PERIOD if self._children else None):
                 if key.data is not None:
@@ -141,7 +141,7 @@ class FlightServer:
         return messages.ChildExit(os.waitstatus_to_exitcode(child.status), child.reason)
 
     def _end_family(self, pid: int) -> None:
-        """Kill what a child has started and left running: its group, and processes that became children of ours."""
+        """Kill the processes that a child left running: its process group, and orphans that this server adopted."""
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(pid, signal.SIGKILL)
         while True:
@@ -175,7 +175,7 @@ class FlightServer:
 
 
 def main(control: int) -> None:
-    """Run the server on a descriptor of its end of the socket to the process that it works for."""
+    """Run the server; ``descriptor`` is its end of the socket to the client process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _adopt_orphans()
     server = FlightServer(socket.socket(fileno=control))
@@ -190,7 +190,7 @@ def main(control: int) -> None:
 def _live(
     order: messages.Begin, subject: Any, descriptors: list[int], output: int, scratch: str, server: int
 ) -> NoReturn:
-    """Do the task of a child, which has just been forked by process ``server``, and exit."""
+    """Do the task of a child that process ``server`` has just forked, and exit."""
     status = 70  # of sysexits.h: an error of our own
     try:
         end_with_parent(server)
@@ -215,7 +215,7 @@ def _live(
 
 
 def _settle_in(scratch: str, restriction: Restriction | None) -> None:
-    """Use ``scratch`` for temporary files, and write nowhere else if there is a restriction."""
+    """Use ``scratch`` for temporary files; under a restriction nothing else is writable."""
     for name in ("TMPDIR", "TEMP", "TMP"):
         os.environ[name] = scratch
     tempfile.tempdir = None  # determined again at its next use
@@ -230,13 +230,13 @@ def _close_all_but(remaining: set[int]) -> None:
 
 
 def _adopt_orphans() -> None:
-    """Become the parent of descendants that lose theirs."""
+    """Become the parent of descendants whose parents exit."""
     if IS_LINUX:
         ctypes.CDLL(None, use_errno=True).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
 
 
 def _child_processes() -> list[int]:
-    """Return this process's children, where the system has a list of them."""
+    """Return the numbers of this process's children, if the system lists them."""
     processes: list[int] = []
     for task in Path("/proc/self/task").glob("*/children"):
         with suppress(OSError):
@@ -245,9 +245,9 @@ def _child_processes() -> list[int]:
 
 
 def _limit_addresses(memory: int) -> None:
-    """Make allocations fail after this process has reserved ``RESERVED memory`` more bytes than it has now.
+    """Make allocations fail once this process has reserved ``RESERVED * memory`` more bytes than now.
 
-    It ends a process that grows too fast for the server's looks at it.
+    This stops a process that grows too fast for the server's periodic checks.
     """
     if IS_LINUX:
         _, hard = resource.getrlimit(resource.RLIMIT_AS)
@@ -256,12 +256,12 @@ def _limit_addresses(memory: int) -> None:
 
 
 def _resident_memory(process: int) -> int:
-    """Return a process's bytes in memory; 0 where the system does not say, or the process has ended."""
+    """Return a process's resident memory in bytes; 0 if it is unknown or the process has exited."""
     return _pages(process, 1)
 
 
 def _pages(process: int, column: int) -> int:
-    """Return the bytes of a column of /proc/PID/statm."""
+    """Return a column of /proc/PID/statm in bytes."""
     try:
         return int(Path(f"/proc/{process}/statm").read_text().split()[column]) * os.sysconf("SC_PAGE_SIZE")
     except (OSError, IndexError, ValueError):

@@ -1,4 +1,4 @@
-"""A flight recorder in memory that two processes share: rows and progress survive the process that wrote them."""
+"""Recorder in memory shared by two processes: rows and progress survive the process that wrote them."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ _numbers = itertools.count(1)
 
 
 class SharedRecorder(FlightRecorder):
-    """A recorder with a fixed number of rows: [head, times, record] in one piece of memory.
+    """Recorder with a fixed number of rows in one block of shared memory: [head, times, record].
 
-    The other process has it by its open ``files``, one, or on Windows, where there is none, by ``name``. A child may
-    write anything into it.
+    The other process opens it by ``files``, one open file, or on Windows by ``name``. A child may write anything into
+    it.
     """
 
     def __init__(self, memory: mmap.mmap, signals: int, rows: int, files: Sequence[int], name: str) -> None:
@@ -48,29 +48,29 @@ class SharedRecorder(FlightRecorder):
         raise MemoryError  # the parent makes it large enough
 
     def seal(self) -> None:
-        """Seal the file: only existing mappings can write."""
+        """Seal the file, so that only existing mappings can write."""
         for descriptor in self.files:
             _add_seals(descriptor, F_SEAL_FUTURE_WRITE)
 
     def close(self) -> None:
-        """Close the file; the rows stay as long as a process maps them."""
+        """Close the file; the rows exist as long as a process maps them."""
         while self.files:
             os.close(self.files.pop())
 
     def measure_progress(self) -> bytes:
-        """Return words that change as long as calls of FMUs return."""
+        """Return bytes that change whenever a call of an FMU returns."""
         return self.outcome.tobytes() + self.phase.tobytes()
 
     def count_rows(self, first: int, every: int) -> int:
-        """Return the number of rows of an unfinished simulation from communication point ``first``, every n-th kept."""
+        """Return the number of rows recorded by an unfinished simulation from point ``first``, one in ``every``."""
         return min(max(-(-(self.point - max(first, -1) - 1) // every), 0), self.times.size)
 
     def component_in_phase(self, prepared: PreparedSystem) -> str:
-        """Return the component that the child instantiates, resets or frees."""
+        """Return the name of the component that the child is instantiating, resetting or freeing."""
         return _name_of(prepared, int(self.phase[1]))
 
     def describe_progress(self, prepared: PreparedSystem) -> str:
-        """Return the component whose function was called last, and the time of the simulation."""
+        """Return, as text, the component that was called last and the simulation time."""
         if self.phase[0] == Phase.INSTANTIATION:
             return f"{self.component_in_phase(prepared)}: while it was instantiated"
         component = _name_of(prepared, self.subject)
@@ -80,7 +80,7 @@ class SharedRecorder(FlightRecorder):
 
 
 def make_recorder(signals: int, rows: int) -> SharedRecorder:
-    """Return a new recorder, which the child cannot shrink: its reader would end by SIGBUS. Raises OSError."""
+    """Return a new recorder. The child cannot shrink it, which would kill its reader by SIGBUS. Raises OSError."""
     if sys.platform == "win32":
         return open_recorder(signals, rows, (), f"{NAME}_{os.getpid()}_{next(_numbers)}")
     descriptor = _open_memory()
@@ -115,13 +115,13 @@ def _open_memory() -> int:
 
 
 def _add_seals(descriptor: int, seals: int) -> None:
-    """Add seals to a file in memory; other files have none."""
+    """Add seals to a file in memory; other files do not support them."""
     if sys.platform == "linux":
         with suppress(OSError):
             fcntl.fcntl(descriptor, fcntl.F_ADD_SEALS, seals)
 
 
 def _name_of(prepared: PreparedSystem, number: int) -> str:
-    """Return the name of a component, whose number a child wrote."""
+    """Return the name of a component from its number, which the child wrote and may be invalid."""
     names = list(prepared.network.fmus)
     return names[number] if 0 <= number < len(names) else "a component"

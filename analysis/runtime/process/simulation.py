@@ -1,4 +1,4 @@
-"""A simulation in a child, with the methods and the bits of one in this process."""
+"""Simulation in a child, with the interface and the exact results of one in this process."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ ATTEMPTS = 2  # at a simulation whose server ends
 
 
 class ProcessSimulation(BaseSimulation):
-    """Instances of a system's FMUs in a child of the flight server.
+    """Simulation whose FMU instances are in a child of the flight server.
 
-    A simulation whose process ends has the status ``crashed``, ``hung`` or ``out_of_memory``, and its rows. A child
-    is used for many, but replaced after a failure, since an FMU that failed may have harmed it. Raises InputError
-    where a child ends otherwise than in a simulation.
+    If its process ends, the flight has the status ``crashed``, ``hung`` or ``out_of_memory``, and the rows recorded so
+    far. A child is reused, but replaced after a failure, since the FMU that failed may have corrupted it. Raises
+    InputError if a child ends outside a simulation.
     """
 
     def __init__(self, prepared: PreparedSystem, **choices: Unpack[Choices]) -> None:
@@ -63,11 +63,11 @@ class ProcessSimulation(BaseSimulation):
 
     @property
     def recorder(self) -> SharedRecorder:  # type: ignore[override]
-        """Recorder of the simulation that is under way, or of the last one."""
+        """Recorder of the current simulation, or of the last one."""
         return self.process.recorder
 
     def _start(self) -> None:
-        """Begin a child. Raises InputError where an FMU cannot be instantiated."""
+        """Start a child. Raises InputError if an FMU cannot be instantiated."""
         self.flights = 0
         self.process = SystemProcess(
             self.prepared, self._selection, len(self.signal_names), self._log, formats=self._formats
@@ -97,7 +97,7 @@ class ProcessSimulation(BaseSimulation):
                 self._announced.append(self._send(self._scenario(-1, self.prepared.steps, 1, NOTHING)))
 
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING, *, every: int = 1) -> Flight:
-        """See `BaseSimulation.advance`; a simulation whose server ends is done on another one, if from its start."""
+        """See `BaseSimulation.advance`. If the server ends, a simulation from the start is repeated on a new server."""
         scenario = self._scenario(first, last, every, excitation)
         for _ in range(ATTEMPTS if first < 0 else 1):
             try:
@@ -138,7 +138,7 @@ class ProcessSimulation(BaseSimulation):
         return self._flight(answer.rows, answer.status, answer.message)
 
     def _recall(self) -> None:
-        """Drop the simulations that were announced: they end at their next communication points."""
+        """Cancel announced simulations: they end at their next communication points."""
         with suppress(ChildEndedError, ServerEndedError):
             while self._announced:
                 self.process.recorders[self._announced[0][1]].halt[0] = True
@@ -147,14 +147,14 @@ class ProcessSimulation(BaseSimulation):
         self._announced.clear()
 
     def _send(self, scenario: Scenario) -> tuple[Scenario, int]:
-        """Let the child simulate a scenario after what was announced; return it with the number of its recorder."""
+        """Let the child simulate a scenario after the announced ones; return it with its recorder's number."""
         if scenario.first < 0:
             self._prepare_process()
         after = self._announced[-1][1] if self._announced else self.process.turn
         return scenario, self.process.send(scenario, after, is_halted=self._is_halted)
 
     def _prepare_process(self) -> None:
-        """Replace a child that has ended or may not be used again, and send it what renews FMUs."""
+        """Replace a child that has ended or must not be reused, and send the new one the verdicts on FMUs."""
         self._find_verdicts()
         if not self._renews:
             self.process.connection.kill()
@@ -167,7 +167,7 @@ class ProcessSimulation(BaseSimulation):
             self._start()
 
     def _find_verdicts(self) -> None:
-        """Send the child what renews FMUs, after its first simulation; note if it may be used for others."""
+        """Send the child the verdicts on FMUs after its first simulation; note whether the child may be reused."""
         if self.process.last is None or self.process.has_verdicts or not self.process.is_open:
             return
         self._resets = TrialWatch()
@@ -186,7 +186,7 @@ class ProcessSimulation(BaseSimulation):
         self.recorder.halt[0] = halt
 
     def give_up(self, why: str) -> bool:
-        """End the child of a simulation that is under way in another thread, where its status is ``hung``."""
+        """End the child of a simulation running in another thread; its flight then has the status ``hung``."""
         self._resets.give_up(why)
         self.process.give_up(why)
         return True
@@ -196,20 +196,20 @@ class ProcessSimulation(BaseSimulation):
         return ProcessMemory(self)
 
     def close(self) -> None:
-        """Free the instances and end the child; at once, where it still simulates for an abandoned thread."""
+        """Free the instances and end the child; kill it if it still simulates for an abandoned thread."""
         if self.recorder.phase[0] == Phase.IDLE and not self._announced:
             self._free()
         else:
             self.process.connection.kill()
 
     def _free(self) -> None:
-        """End the child after its FMUs are terminated and freed; no simulation fails for what happens there."""
+        """End the child after its FMUs are terminated and freed; problems there do not fail a simulation."""
         problem = self.process.connection.close()
         if problem:
             self._note("it was terminated and freed", problem)
 
     def _note(self, when: str, problem: str) -> None:
-        """Warn, one time, of what an FMU does between simulations."""
+        """Warn, once, of a problem of an FMU between simulations."""
         text = f"{self.recorder.component_in_phase(self.prepared)}: when {when}, {problem}"
         if text not in self._noted:
             self._noted.add(text)
@@ -218,14 +218,14 @@ class ProcessSimulation(BaseSimulation):
 
 @dataclass(frozen=True)
 class ProcessSnapshot:
-    """Number of a snapshot of the child at a communication point."""
+    """Number of one of the child's snapshots, taken at a communication point."""
 
     point: int
     number: int
 
 
 class ProcessMemory(BaseMemory[ProcessSnapshot]):
-    """Memory of the system that a child simulates. All methods raise InputError."""
+    """Memory of a system that is simulated in a child. All methods raise InputError."""
 
     def __init__(self, simulation: ProcessSimulation) -> None:
         self._simulation = simulation

@@ -1,4 +1,4 @@
-"""A child that simulates one system: what it is sent, what it already has, and the memory that it writes to."""
+"""Child that simulates one system: messages sent, state that it already has, and shared recorders."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ SEE_LOG = "perilune run --log info shows what it logs"
 
 @dataclass(frozen=True)
 class Scenario:
-    """Inputs of one simulation, see `BaseSimulation.advance`; ``values`` of all parameters that were set so far."""
+    """Inputs of one simulation, see `BaseSimulation.advance`; ``values`` has all parameters set so far."""
 
     first: int
     last: int
@@ -39,16 +39,16 @@ class Scenario:
     faults: tuple[Fault | None, ...]
 
     def equals(self, other: Scenario) -> bool:
-        """Return True if both are the same and without excitation."""
+        """Return True if both scenarios are equal and have no excitation."""
         span, other_span = ((each.first, each.last, each.every) for each in (self, other))
         is_same = span == other_span and not self.excitation.size and not other.excitation.size
         return is_same and self.values == other.values and self.faults == other.faults
 
 
 class SystemProcess:
-    """Child with instances of a system's FMUs, of which it records a number of ``signals``; see `wait_until_ready`.
+    """Child with instances of a system's FMUs, which records ``signals`` signals.
 
-    ``formats`` is as in `SystemTask`.
+    It starts in parallel, until `wait_until_ready` returns. ``formats`` is as in `SystemTask`.
     """
 
     def __init__(
@@ -65,12 +65,12 @@ class SystemProcess:
 
     @property
     def recorder(self) -> SharedRecorder:
-        """Recorder of the simulation that is under way, or of the last one."""
+        """Recorder of the current simulation, or of the last one."""
         return self.recorders[self.turn]
 
     @property
     def is_open(self) -> bool:
-        """True if it is instantiated and has not been ended."""
+        """True if the FMUs are instantiated and the child has not been ended."""
         return self._is_ready and self.connection.is_open
 
     def _make_recorder(self, rows: int) -> SharedRecorder:
@@ -95,7 +95,7 @@ class SystemProcess:
         return Connection(child, self._write, watchdog)
 
     def wait_until_ready(self) -> None:
-        """Wait until all is instantiated. Raises InputError where that fails, and ServerEndedError."""
+        """Wait until all FMUs are instantiated. Raises InputError if that fails, and ServerEndedError."""
         recorder, network = self.recorder, self.prepared.network
         with closing(recorder):
             try:
@@ -113,14 +113,14 @@ class SystemProcess:
             self._log.write_line(line)
 
     def send_verdicts(self, verdicts: Mapping[str, ResetVerdict]) -> None:
-        """Send the child what renews FMUs, by their SHA-256."""
+        """Send the child the verdicts on how to restore FMUs, by SHA-256."""
         self.has_verdicts = True
         self.connection.send(messages.StoreVerdicts(dict(verdicts)))
 
     def send(self, scenario: Scenario, after: int, *, is_halted: bool) -> int:
-        """Send a scenario to be simulated after that of recorder ``after``; return the number of its recorder.
+        """Send a scenario to simulate after that of recorder number ``after``; return the number of its recorder.
 
-        The child is sent values and faults only where they differ from those that it has.
+        Values and faults are sent only if they differ from those sent before.
         """
         number = self._next_recorder(after, rows_between(scenario.first, scenario.last, scenario.every))
         self.recorders[number].halt[0] = is_halted
@@ -138,7 +138,7 @@ class SystemProcess:
         return number
 
     def _next_recorder(self, before: int, rows: int) -> int:
-        """Return the number of the next recorder, which is sent to the child if it is new or too small so far."""
+        """Return the number of the next recorder; it is sent to the child if it is new or had to be enlarged."""
         number = (before + 1) % RECORDERS
         if number == len(self.recorders) or self.recorders[number].times.size < rows:
             fresh = self._make_recorder(max(rows, self.recorder.times.size))
@@ -150,18 +150,18 @@ class SystemProcess:
         return number
 
     def describe_end(self, error: ChildEndedError) -> str:
-        """Return component, time and reason of its end."""
+        """Return, as text, component, time and reason of the child's end."""
         return f"{self.recorder.describe_progress(self.prepared)}: {error.how}"
 
     @contextmanager
     def refusing_end(self) -> Iterator[Connection]:
-        """Yield the connection for requests other than simulations. Raises InputError where the child ends."""
+        """Yield the connection for requests other than simulations. Raises InputError if the child ends."""
         try:
             yield self.connection
         except ChildEndedError as error:
             raise InputError(self.prepared.network.file, "", self.describe_end(error), SEE_LOG) from None
 
     def give_up(self, why: str) -> None:
-        """End the child for a thread that waits for a simulation."""
+        """End the child while another thread waits for its simulation."""
         if self._is_ready:
             self.connection.give_up(why)

@@ -1,4 +1,4 @@
-"""The connections of a system in the order in which values pass over them, as the loop's arrays have them."""
+"""Connections of a system as arrays of the loop, in the order in which values pass over them."""
 
 from __future__ import annotations
 
@@ -18,9 +18,10 @@ from .slots import Slots
 
 
 class Term(NamedTuple):
-    """A connection, or a source added to it, as an operand of instructions.
+    """Connection, or a further source added to it, as an operand of instructions.
 
-    ``origins`` are the components that the target's value comes from (-1: a system's input); slots of both ends.
+    ``origins`` are the components from which the target's value originates (-1: an input of the system); ``source`` and
+    ``target`` are slots.
     """
 
     code: int
@@ -30,7 +31,7 @@ class Term(NamedTuple):
 
 
 class Connections:
-    """Connections by the component they feed, upstream first; the last group feeds system connectors."""
+    """Connections by target component, upstream ones first; the last group has those to system connectors."""
 
     def __init__(self, network: Network, exchanged: Exchanged, slots: Slots) -> None:
         self._network = network
@@ -48,7 +49,7 @@ class Connections:
         self._groups = [list(group.values()) for group in groups.values()]
 
     def _chain(self, name: str, group: dict[str, Link]) -> None:
-        """Add the links that bring a value to a node, by their targets, those before it first, none twice."""
+        """Add the links that lead to a node to ``group``, upstream ones first and each only once."""
         link = self._network.driver.get(name)
         if link is None or name in group or name in self._passed_parameters:
             return
@@ -57,11 +58,11 @@ class Connections:
         group[name] = link
 
     def terms(self) -> list[list[Term]]:
-        """Return the terms of each group, numbered as in `arrays`."""
+        """Return the terms of each group, in the numbering of `arrays`."""
         return [[term for link in group for term in self._terms(link)] for group in self._groups]
 
     def arrays(self) -> dict[str, np.ndarray]:
-        """Return slots, transformations and tables of all connections, as fields of the loop's program."""
+        """Return slots, transformations and mapping tables of all connections, as fields of the loop's program."""
         links = [term for group in self._groups for link in group for term in (link, *link.added)]
         tables = [numbers(self._network, link) + _remainder(link) for link in links]
         firsts = np.cumsum([0, *(len(table) for table in tables)])
@@ -84,12 +85,12 @@ class Connections:
         return [first, *(Term(codes.ADD, origins, slots[term.source.name], target) for term in link.added)]
 
     def _number(self, link: Link) -> int:
-        """Return the number of the component that a value comes from, -1 of a system's input."""
+        """Return the number of the component at which a link's value originates, -1 for an input of the system."""
         component = origin(self._network, link).component
         return -1 if component is None else self._components[component]
 
     def _code(self, link: Link) -> int:
-        """Return the instruction that carries a connection's value."""
+        """Return the code of the instruction that transfers a connection's value."""
         if link.transformation.table:
             return codes.MAP
         if link.transformation != IDENTITY:
@@ -101,5 +102,5 @@ class Connections:
 
 
 def _remainder(link: Link) -> list[tuple[float, float]]:
-    """Return the end of a table that leaves other values as they are, by which the loop knows it."""
+    """Return the NaN entry that ends a partial table; it tells the loop to pass unlisted values unchanged."""
     return [(math.nan, math.nan)] if link.transformation.is_partial else []

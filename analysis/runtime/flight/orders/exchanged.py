@@ -12,11 +12,11 @@ from .injections import Injection
 
 
 class Exchanged:
-    """Names of a system's variables, by their use in a simulation.
+    """Names of a system's variables by their use in a simulation.
 
     ``wanted`` names recorded variables (None: all exchanged ones), ``more`` further ones. ``fetched`` are the outputs
-    that are taken (None: all), ``named`` is what is recorded whatever its causality, ``other_sources`` what is
-    connected like an output and is none, ``passed_parameters`` are parameters of systems that signals pass through,
+    to get (None: all); ``named`` the variables recorded by request, of any causality; ``other_sources`` variables that
+    are connected as sources but are not outputs; ``passed_parameters`` parameters of systems that signals pass through;
     ``tuned`` the tunable parameters that are driven over time or have faults.
     """
 
@@ -38,7 +38,7 @@ class Exchanged:
         self.passed_parameters = {node.name for node in signals if node.component is None and node.kind in PARAMETERS}
 
     def is_tuned(self, component: str, variable: Variable) -> bool:
-        """Return True for a tunable parameter that changes in flight."""
+        """Return True if a tunable parameter changes during simulation."""
         return f"{component}.{variable.name}" in self.tuned
 
     def is_given(self, name: str) -> bool:
@@ -46,12 +46,12 @@ class Exchanged:
         return name in self._network.driver or name in self._network.driven
 
     def is_fetched(self, name: str) -> bool:
-        """Return True if an output is connected or recorded."""
+        """Return True if an output is to be read: it is connected, recorded or has a fault."""
         return self.fetched is None or name in self.fetched
 
 
 def find_tuned(network: Network, faulty: Collection[str]) -> set[str]:
-    """Return the names of the tunable parameters that are driven over time or are among ``faulty`` names."""
+    """Return the names of tunable parameters that are driven over time or in ``faulty``."""
     tuned = set()
     for name in {*network.driven, *faulty}:
         component, short = split_name(name, network.fmus)

@@ -1,4 +1,4 @@
-"""The instructions for a component of FMI 2.0: stretches of slots by type, or the memory of our own FMUs."""
+"""Instructions for a component of FMI 2.0: calls for ranges of slots, or direct access to memory of Perilune's FMUs."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ PARAMETER_CALLS = (
 
 
 class Fmi2Orders:
-    """Writes the calls of one component.
+    """Writer of the calls of one component.
 
-    ``ranges`` [get or set function 0..5] are (first, count) of slots, ``parameter_ranges`` [type] the first parameter,
-    how many there are, and how many of them, the first ones, are set again in initialisation mode and read back,
-    ``text_ranges`` those of Strings, inputs and outputs. Parameters are read back ``one_by_one`` where one call does
-    not give all; ``recorded`` are the stretches (function, first slot, count) that are read for the record only,
-    ``tuned`` those of parameters that change in flight, with the first slot of their own values; where parameters are
-    ``set_once`` these are not set in initialisation mode.
+    ``ranges`` [get or set function 0..5] are (first, count) of slots. ``parameter_ranges`` [type] are the first
+    parameter and three counts: of those to set, to set again in initialisation mode, and to read back. ``text_ranges``
+    are those of String inputs and outputs. Parameters are read back ``one_by_one`` if one call does not return all.
+    ``recorded`` are the ranges (function, first slot, count) read only for the record. ``tuned`` are the ranges of
+    parameters that change during simulation, with the first slot of their unchanged values. If ``set_once``, parameters
+    are not set in initialisation mode.
     """
 
     def __init__(
@@ -61,12 +61,12 @@ class Fmi2Orders:
         self._set_once = set_once
 
     def take_bases(self) -> None:
-        """Fill the slots of parameters that change in flight with the values that they have without."""
+        """Reset the slots of parameters that change during simulation to their unchanged values."""
         for _, first, count, base in self._tuned:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 
     def set(self, begun: int, *, started: bool) -> None:
-        """Set all inputs; rows from ``begun`` on carry their values there."""
+        """Set all inputs. The rows from ``begun`` on have written their values to the slots."""
         for name in ("SetReal", "SetInteger", "SetBoolean"):
             stretch = self._ranges[FUNCTION[name]]
             if stretch[1]:
@@ -84,7 +84,7 @@ class Fmi2Orders:
             self._rows.call(code, self._component, function, (first, count))
 
     def carry(self) -> None:
-        """Apply the faults on inputs that are not set."""
+        """Apply faults to the input slots without setting the inputs."""
         for _, first, count, _ in self._tuned:
             self._rows.inject((first, count))
         for name in ("SetReal", "SetInteger", "SetBoolean"):
@@ -101,22 +101,22 @@ class Fmi2Orders:
             self._call(codes.GET_TEXT, "GetString", self._text_ranges[1])
 
     def read(self) -> None:
-        """Read variables that are recorded only."""
+        """Get the variables that are only recorded."""
         for function, first, count in self._recorded:
             code = codes.READ_REAL if function == FUNCTION["GetReal"] else codes.GET_WHOLE
             self._rows.call(code, self._component, function, (first, count))
 
     def step(self, count: int) -> None:
-        """Write a step over ``count`` communication steps, 0 for one."""
+        """Write a step over ``count`` communication steps; 0 stands for one."""
         self._call(codes.STEP, "DoStep", (0, count))
 
     def reset(self) -> None:
-        """Reset to the state after instantiation, the flight ended."""
+        """Terminate and reset the FMU."""
         self._call(codes.MODE, "Terminate")
         self._call(codes.MODE, "Reset")
 
     def enter_initialization(self) -> None:
-        """Write parameters, initialisation mode, parameters again: some FMUs lose those set before."""
+        """Set parameters, enter initialisation mode, and set them again, since some FMUs lose those set before."""
         self._parameters(1)
         self._call(codes.SETUP, "SetupExperiment")
         self._call(codes.MODE, "EnterInitializationMode")
@@ -130,7 +130,7 @@ class Fmi2Orders:
         self._parameters(3)
 
     def _parameters(self, column: int) -> None:
-        """Call parameters: column 1 of their ranges sets them, 2 sets them again, 3 reads them back."""
+        """Write the calls for parameters; ``column`` of their ranges is 1 to set, 2 to set again, 3 to read back."""
         for ranges, (setter, getter) in zip(self._parameter_ranges, PARAMETER_CALLS, strict=True):
             first, count = ranges[0], ranges[column]
             code, name = getter if column == 3 else setter
@@ -139,7 +139,7 @@ class Fmi2Orders:
                 self._call(code, name, (start, size))
 
     def _give(self, stretch: Stretch, begun: int) -> None:
-        """Set Reals on a stretch of slots; in the FMU's own memory where it locates them."""
+        """Set Reals from a range of slots, directly in the FMU's memory if possible."""
         runs = self._runs(stretch, "Real", to_set=True)
         rows = self._rows.rows
         moved = with_moves(rows[begun:], runs, self._component, self._instance.address)
@@ -151,7 +151,7 @@ class Fmi2Orders:
             self._exchange(codes.PUT_REAL, runs)
 
     def _take(self, name: str, stretch: Stretch) -> None:
-        """Get Reals, Integers or Booleans on consecutive slots; from the FMU's own memory where it locates them."""
+        """Get Reals, Integers or Booleans into a range of slots, directly from the FMU's memory if possible."""
         kind = name.removeprefix("Get")
         call = codes.GET_REAL if kind == "Real" else codes.GET_WHOLE
         runs = self._runs(stretch, kind)
@@ -167,7 +167,7 @@ class Fmi2Orders:
         self._rows.rows += [[code, run.address, instance, run.first, run.size, self._component, 0] for run in runs]
 
     def _runs(self, stretch: Stretch, kind: str, *, to_set: bool = False) -> list[Run]:
-        """Return a stretch of slots in an FMU's memory; nothing before all are initialised."""
+        """Return where a range of slots is in the FMU's memory; an empty list during the initialisation."""
         if not self._rows.between_steps:
             return []
         first, count = stretch

@@ -1,4 +1,4 @@
-"""The instructions for a component of FMI 3.0: transfers of whole variables by type."""
+"""Instructions for a component of FMI 3.0: transfers of whole variables by type."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def _mode(name: str) -> int:
 
 
 class Fmi3Orders:
-    """Writes the calls of one component to a list of instructions."""
+    """Writer of the calls of one component."""
 
     def __init__(self, rows: Rows, component: int, transfers: ComponentTransfers, table: TransferTable) -> None:
         self._rows = rows
@@ -24,12 +24,12 @@ class Fmi3Orders:
         self._table = table
 
     def take_bases(self) -> None:
-        """Fill the slots of parameters that change in flight with the values that they have without."""
+        """Reset the slots of parameters that change during simulation to their unchanged values."""
         for first, count, base in self._transfers.bases:
             self._rows.rows.append([codes.COPY, base, 0, first, count, self._component, 0])
 
     def set(self, begun: int, *, started: bool) -> None:
-        """Set all inputs; discrete ones in event mode, if that is used and the flight has ``started``."""
+        """Set all inputs; once the simulation has ``started``, discrete ones in event mode if the component uses it."""
         events = self._transfers.discrete if started and self._transfers.uses_events else []
         for transfer in (*self._transfers.inputs, *self._transfers.discrete):
             self._rows.inject(self._table.slots(transfer))
@@ -40,7 +40,7 @@ class Fmi3Orders:
             self._rows.call(codes.SET_EVENTS, self._component, _mode("EnterEventMode"), both)
 
     def carry(self) -> None:
-        """Apply the faults on inputs that are not set."""
+        """Apply faults to the input slots without setting the inputs."""
         for transfer in (*self._transfers.inputs, *self._transfers.discrete):
             self._rows.inject(self._table.slots(transfer))
 
@@ -50,7 +50,7 @@ class Fmi3Orders:
             self._rows.inject(self._table.slots(transfer))
 
     def read(self) -> None:
-        """Read variables that are recorded only."""
+        """Get the variables that are only recorded."""
         self._exchange(codes.READ_TRANSFER, codes.GETTERS, self._transfers.recorded)
 
     def step(self, count: int) -> None:
@@ -61,7 +61,7 @@ class Fmi3Orders:
             self._rows.call(codes.MODE, self._component, _mode(name))
 
     def enter_initialization(self) -> None:
-        """Write structure, parameters, initialisation mode, parameters."""
+        """Set structural parameters and parameters, enter initialisation mode, and set parameters again."""
         if self._transfers.structural:
             self._rows.call(codes.MODE, self._component, _mode("EnterConfigurationMode"))
             self._exchange(codes.GIVE_PARAMETERS, codes.SETTERS, self._transfers.structural)
@@ -71,7 +71,7 @@ class Fmi3Orders:
         self._exchange(codes.GIVE_PARAMETERS, codes.SETTERS, self._transfers.repeated)
 
     def exit_initialization(self) -> None:
-        """Enter step mode, by way of event mode where that is used."""
+        """Leave initialisation mode for step mode, through event mode if the component uses it."""
         self._rows.call(codes.MODE, self._component, _mode("ExitInitializationMode"))
         if self._transfers.uses_events:
             self._rows.call(codes.SETTLE, self._component, codes.UPDATE_DISCRETE_STATES)

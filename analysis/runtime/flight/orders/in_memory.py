@@ -1,4 +1,4 @@
-"""Values in the memory of FMUs that say where they lie: our own native ones, between steps."""
+"""Direct access to values in the memory of Perilune's native FMUs between steps."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ REAL_SIZE = 8  # bytes
 
 
 class Run(NamedTuple):
-    """Slots in a row whose values lie in a row in an FMU's memory, from ``address`` on."""
+    """Consecutive slots whose values are contiguous in an FMU's memory, from ``address`` on."""
 
     address: int
     first: int
@@ -25,9 +25,9 @@ class Run(NamedTuple):
 def runs_in_memory(
     instance: Callee, references: np.ndarray, first: int, kind: str, *, to_set: bool = False
 ) -> list[Run]:
-    """Return the runs of values of an FMI type, with these value references (uint32) and slots from ``first`` on.
+    """Return the contiguous runs of values with these value references (uint32); their slots count from ``first``.
 
-    None where the FMU does not say where one of them is.
+    Returns an empty list if the FMU does not disclose the address of each.
     """
     ends = [0, *(np.flatnonzero(np.diff(references.astype(np.int64)) != 1) + 1).tolist(), references.size]
     runs = []
@@ -40,8 +40,10 @@ def runs_in_memory(
 
 
 def with_moves(rows: Sequence[list[int]], runs: Sequence[Run], component: int, instance: int) -> list[list[int]]:
-    """Return instructions that carry values to the slots of these runs, and write the memory;
-    none where that takes more than copies."""
+    """Return instructions that write connected values to the slots of these runs and to the FMU's memory.
+
+    Returns an empty list if ``rows`` contain more than plain copies, or do not cover all slots.
+    """
     moved = []
     left = sum(run.size for run in runs)
     for row in rows:

@@ -13,9 +13,9 @@ NEVER = (math.inf, math.inf)  # the window of a fault that does not fly
 
 
 class Injection(NamedTuple):
-    """One of the loop's faults: a connector, what is done to it, and in which window [from, until) s.
+    """Fault or excitation of a connector, active in the window [from, until) s.
 
-    ``value`` is in the connector's unit; of an excitation it is the column that is added.
+    ``value`` is in the connector's unit; for an excitation it is the number of the column to add.
     """
 
     connector: str
@@ -25,13 +25,11 @@ class Injection(NamedTuple):
 
 
 def of_fault(fault: Fault, margin: float) -> Injection:
-    """Return the injection of a fault; ``margin`` (s) is the rounding that the times of communication points may
-    lack."""
+    """Return the injection of a fault; ``margin`` (s) allows for rounding of the times of communication points."""
     window = (fault.start - margin, fault.stop - margin)
     return Injection(fault.name, KIND_NUMBERS[fault.kind], float(fault.value), window)
 
 
 def of_excitation(connector: str, column: int) -> Injection:
-    """Return the injection for a connector to which `Simulation.advance` adds a column of its excitation, in its
-    unit."""
+    """Return the injection that adds a column of `Simulation.advance`'s excitation, in the connector's unit."""
     return Injection(connector, codes.EXCITE, float(column), (-math.inf, math.inf))

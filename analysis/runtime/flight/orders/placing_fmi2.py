@@ -1,4 +1,4 @@
-"""Slots of a component of FMI 2.0: those of one type and direction side by side, for one call."""
+"""Slots of a component of FMI 2.0: variables of one type and direction are contiguous, for one call."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ GETTERS = (1, 3, 5)  # of EXCHANGES
 class ComponentSlots(NamedTuple):
     """Slots of the variables of a component.
 
-    ``ranges`` [function of EXCHANGES] are first slot and count; ``recorded`` (function, first slot, count) of what is
-    read for the record only; ``tuned`` (function, first slot, count, first slot of their bases) of parameters that
-    change in flight.
+    ``ranges`` [function of EXCHANGES] are first slot and count. ``recorded`` are (function, first slot, count) of
+    variables that are only recorded; ``tuned`` are (function, first slot, count, first slot of the unchanged values) of
+    parameters that change during simulation.
     """
 
     ranges: list[Stretch]
@@ -52,7 +52,7 @@ def place_component(network: Network, component: str, exchanged: Exchanged, slot
 
 
 def _by_function(network: Network, component: str, exchanged: Exchanged) -> list[list[Variable]]:
-    """Return variables by the function of EXCHANGES that sets or gets them."""
+    """Return the variables grouped by the function of EXCHANGES that sets or gets them."""
     variables: list[list[Variable]] = [[] for _ in EXCHANGES]
     for variable in network.fmus[component].variables.values():
         kind = TYPE_KIND.get(variable.type, len(EXCHANGES))
@@ -67,7 +67,7 @@ def _by_function(network: Network, component: str, exchanged: Exchanged) -> list
 def _locate_tuned(
     network: Network, component: str, exchanged: Exchanged, slots: Slots
 ) -> list[tuple[int, int, int, int]]:
-    """Add slots of parameters that change in flight, and of the values that they have without."""
+    """Add slots of parameters that change during simulation, and of their unchanged values."""
     sets = []
     for kind, function in enumerate(SETTERS):
         variables = [
@@ -85,7 +85,7 @@ def _locate_tuned(
 
 
 def _place_recorded(network: Network, component: str, exchanged: Exchanged, slots: Slots) -> list[tuple[int, int, int]]:
-    """Return slots of variables that are recorded and not exchanged."""
+    """Add the slots of variables that are recorded but not exchanged, and return their ranges."""
     if not exchanged.named:
         return []
     fmu = network.fmus[component]

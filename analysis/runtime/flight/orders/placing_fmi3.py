@@ -1,4 +1,4 @@
-"""Slots and transfers of a component of FMI 3.0: whole variables, those of one representation side by side."""
+"""Slots and transfers of a component of FMI 3.0: whole variables, those of one representation contiguous."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .transfers import ComponentTransfers, TransferTable, groups, needs_events, 
 
 
 class TransferPlacing:
-    """Adds components to ``slots`` and to the ``table``."""
+    """Assigns slots and transfers to components of FMI 3.0."""
 
     def __init__(self, network: Network, exchanged: Exchanged, slots: Slots, table: TransferTable) -> None:
         self._network = network
@@ -27,9 +27,9 @@ class TransferPlacing:
     def place(
         self, component: str, transfers: ComponentTransfers, texts: Sequence[Sequence[tuple[Sequence[Variable], int]]]
     ) -> None:
-        """Complete the transfers of a component, whose parameters are placed already.
+        """Complete the transfers of a component whose parameters have been placed.
 
-        ``texts`` are its Strings and Binaries with their first rows, inputs and outputs.
+        ``texts`` are its Strings and Binaries with their first rows, for inputs and for outputs.
         """
         network, exchanged = self._network, self._exchanged
         transfers.uses_events = needs_events(network, component)

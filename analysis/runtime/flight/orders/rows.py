@@ -1,4 +1,4 @@
-"""Instructions as they are collected, and the injections that are put between them."""
+"""Collector of instructions, with the injections inserted between them."""
 
 from __future__ import annotations
 
@@ -14,31 +14,31 @@ Stretch = tuple[int, int]  # first, and how many
 
 
 class Callee(Protocol):
-    """Instance as instructions need it."""
+    """Instance of an FMU as instructions address it."""
 
     @property
     def address(self) -> int:
-        """Address of the instance, an argument of calls."""
+        """Address of the instance, the first argument of its calls."""
 
     def function_addresses(self) -> list[int]:
-        """Return the addresses of its functions, in the order of `FUNCTION_NAMES`."""
+        """Return the addresses of the FMI functions, in the order of `FUNCTION_NAMES`."""
 
     @property
     def is_self_contained(self) -> bool:
-        """True if its calls leave nothing behind in the process."""
+        """True if calls of the FMU change nothing else in the process."""
 
     def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
-        """Return the address of these variables where they are contiguous in its memory; 0 where it does not say."""
+        """Return the address of these variables if they are contiguous in the FMU's memory, else 0."""
 
 
 class Unloaded:
-    """Stands for an instance in instructions that are read and not worked off."""
+    """Placeholder for an instance in instructions that are inspected but not executed."""
 
     address = 0
     is_self_contained = True
 
     def function_addresses(self) -> list[int]:
-        """Return 0 for every function: none has an address."""
+        """Return 0 for every function."""
         return [0] * len(FUNCTION_NAMES)
 
     def locate(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
@@ -47,7 +47,7 @@ class Unloaded:
 
 
 class Rows:
-    """Collects ``rows`` of instructions. ``fault_slots`` are numbered as in the program's arrays."""
+    """Collector of instructions. ``fault_slots`` are numbered as in the program's arrays."""
 
     def __init__(self, instances: Sequence[Callee], fault_slots: Sequence[int]) -> None:
         self.addresses = [(instance.address, instance.function_addresses()) for instance in instances]
@@ -58,26 +58,26 @@ class Rows:
         self._ended = 0  # before this one are the instructions of other parts
 
     def array(self) -> np.ndarray:
-        """Return the collected instructions."""
+        """Return the collected instructions, uint64 [instruction, column]."""
         return np.array(self.rows, dtype=np.uint64).reshape(-1, codes.COLUMNS)
 
     def call(self, code: int, component: int, function: int, stretch: Stretch = (0, 0)) -> None:
-        """Call an FMI function on a stretch of slots or parameters, or on a stretch of the table."""
+        """Add a call of an FMI function on a range of slots or parameters, or on rows of the transfer table."""
         instance, addresses = self.addresses[component]
         self.rows.append([code, addresses[function], instance, int(stretch[0]), int(stretch[1]), component, function])
         self._restore_floats(component)
 
     def begin(self) -> None:
-        """Begin another list."""
+        """Start a new list."""
         self.rows, self._ended = [], 0
 
     def end_part(self) -> int:
-        """Return how many instructions there are: what follows is repeated, or begun, without what stands before."""
+        """End a part, which is executed separately from the next; return the number of instructions so far."""
         self._ended = len(self.rows)
         return self._ended
 
     def _restore_floats(self, component: int) -> None:
-        """Restore the floating-point environment, once after calls of one component that follow each other."""
+        """Restore the floating-point environment, once after consecutive calls of a component."""
         if not self._self_contained[component]:
             restore = [codes.RESTORE_FLOATS, 0, 0, 0, 0, component, 0]
             if len(self.rows) - 2 >= self._ended and self.rows[-2] == restore:
@@ -85,7 +85,7 @@ class Rows:
             self.rows.append(restore)
 
     def inject(self, stretch: Stretch) -> None:
-        """Inject the faults on a stretch of slots."""
+        """Add the faults and excitations on a range of slots."""
         for number, slot in enumerate(self.fault_slots):
             if stretch[0] <= slot < stretch[0] + stretch[1]:
                 self.rows.append([codes.INJECT, 0, 0, number, 1, 0, 0])

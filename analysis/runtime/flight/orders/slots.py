@@ -1,4 +1,4 @@
-"""The slots of the loop's array of values: what lies where, and with which value it begins."""
+"""Slots of the loop's array of values: their variables and initial values."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ BASE = " as set"  # behind the name of a parameter that changes in flight
 
 @dataclass
 class Slots:
-    """``numbers`` by name, with the type and unit of each; ``references`` and ``initial`` values by number.
+    """``numbers`` of slots by name, with their types and units; ``references`` and ``initial`` values by number.
 
-    ``exact`` are the starts of whole numbers of 64 bits, by number. ``unfed`` are elements of arrays that nothing is
-    connected to, whose array is set as a whole. ``bases`` are the slots of what parameters that change in flight have
-    without the change, by (component, variable).
+    ``exact`` are the initial values of 64-bit integers, by number. ``unfed`` are elements without a connection, in
+    arrays that are set as a whole. ``bases`` are the slots of the unchanged values of parameters that change during
+    simulation, by (component, variable).
     """
 
     settings: Settings
@@ -39,7 +39,7 @@ class Slots:
         self.initial.append(initial)
 
     def add_bases(self, component: str, variables: Sequence[Variable]) -> int:
-        """Add a slot for the value of each parameter without change, in a row; return the first. None is recorded."""
+        """Add contiguous slots for the parameters' unchanged values, and return the first. They are not recorded."""
         first = len(self.references)
         for variable in variables:
             name = f"{component}.{variable.name}{BASE}"
@@ -49,6 +49,6 @@ class Slots:
         return first
 
     def start(self, component: str, variable: Variable) -> float:
-        """Return an input's value while its source is not known yet: the value set for it, else its FMU's start."""
+        """Return an input's value until its source is known: the value set for it, else its FMU's start."""
         start = self.settings.variables.get((component, variable.name), variable.start or 0.0)
         return float({"true": 1, "false": 0}.get(str(start).lower(), start))

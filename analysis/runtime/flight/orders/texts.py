@@ -1,6 +1,6 @@
 """Strings and Binaries that FMUs exchange, in the loop's arrays.
 
-They are no signals of a result, which consists of numbers.
+They are not recorded: signals of a result are numbers.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ LONGEST = {"String": 4096, "Binary": 65536}  # bytes of one, of a String with it
 
 
 class Texts:
-    """Positions of the connected texts of one type, by name; those of a component and direction are contiguous.
+    """Positions of the connected texts of one type, by name; those of one component and direction are contiguous.
 
-    ``ranges`` [component, 0 inputs, 1 outputs] are the first and the count, ``variables`` [component] [direction] their
-    variables. ``connections`` [component] lists the source component of each of its inputs (-1: an input of the
-    system), and both positions.
+    ``ranges`` [component, 0 input or 1 output] are first position and count, ``variables`` [component] [direction] the
+    variables. ``connections`` [component] lists, for each of its inputs, the source component (-1: an input of the
+    system) and both positions.
     """
 
     def __init__(self, network: Network, settings: Settings, type_name: str = "String") -> None:
@@ -77,11 +77,11 @@ class Texts:
         self._initial.append(content)
 
     def sizes(self) -> np.ndarray:
-        """Return the bytes of each at the start, uint64."""
+        """Return the initial size of each text in bytes, uint64."""
         return np.array([len(content) for content in self._initial], dtype=np.uint64)
 
     def memory(self) -> arrays.Texts:
-        """Return arrays for the loop."""
+        """Return the arrays of texts for the loop."""
         count = len(self._references)
         initial = np.zeros((count, self.longest), dtype=np.uint8)
         for row, content in zip(initial, self._initial, strict=True):

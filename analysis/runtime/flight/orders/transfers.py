@@ -1,4 +1,4 @@
-"""Transfers of FMI 3.0 variables, each set or read in one call, as rows of the loop's table."""
+"""Transfers of FMI 3.0 variables as rows of the loop's table; each transfer is one call of a setter or getter."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ assert all(FUNCTION_NAMES[number] == f"fmi3{name}" for name, number in NUMBERS.i
 
 @dataclass
 class ComponentTransfers:
-    """Transfers of a component of FMI 3.0 by use, as numbers of rows of the table.
+    """Transfers of a component of FMI 3.0 by use, as row numbers of the table.
 
-    ``discrete`` inputs are set in event mode, those of a component that ``uses_events``; parameters are set before
-    initialisation mode, ``repeated`` in it, and read ``back`` after it, ``structural`` ones in configuration mode.
-    Those that change in flight are among the inputs, or, where events are used, among the discrete ones; ``bases`` are
-    (first slot, count, first slot of their unchanged values).
+    ``discrete`` inputs are set in event mode if the component ``uses_events``. Parameters are set ``before``
+    initialisation mode, ``repeated`` in it and read ``back`` after it, ``structural`` ones in configuration mode.
+    Parameters that change during simulation are in ``discrete`` if events are used, otherwise in ``inputs``; ``bases``
+    are (first slot, count, first slot of their unchanged values).
     """
 
     uses_events: bool = False
@@ -48,15 +48,14 @@ class ComponentTransfers:
 
 
 class TransferTable:
-    """Collects transfers: ``rows`` with the columns of codes, ``references`` of their variables."""
+    """Collector of transfers: ``rows`` with the columns of `codes`, and the ``references`` of their variables."""
 
     def __init__(self) -> None:
         self.rows: list[tuple[int, int, int, int, int]] = []
         self.references: list[int] = []
 
     def add(self, variables: Sequence[Variable], first: int) -> int:
-        """Add a transfer of variables of one representation, their elements from index ``first`` on; return its
-        number."""
+        """Add a transfer of variables of one representation, with elements from ``first`` on; return its number."""
         references = [
             reference for _, reference in dict.fromkeys((each.array or each.name, each.reference) for each in variables)
         ]
@@ -69,7 +68,7 @@ class TransferTable:
         return self.rows[transfer][codes.KIND]
 
     def slots(self, transfer: int) -> tuple[int, int]:
-        """Return first and count of a transfer's slots; none of texts."""
+        """Return the first slot of a transfer and their count; (0, 0) for texts, which have no slots."""
         row = self.rows[transfer]
         return (row[codes.FIRST_VALUE], row[codes.VALUES]) if row[codes.KIND] < codes.STRING else (0, 0)
 
@@ -78,9 +77,9 @@ class TransferTable:
 
 
 def needs_events(network: Network, component: str) -> bool:
-    """Return True if a component uses event mode: it has it, and a discrete input that is set in flight.
+    """Return True if a component supports event mode and has a discrete input that is connected or driven over time.
 
-    Without it an FMU handles its events by itself, within its steps.
+    Otherwise event mode is not requested, and the FMU handles events within its steps.
     """
     fmu = network.fmus[component]
     return (
@@ -96,14 +95,14 @@ def needs_events(network: Network, component: str) -> bool:
 
 
 def whole(variables: Iterable[Variable], selected: Collection[str]) -> list[Variable]:
-    """Return the variables of which an element is selected by name, with all their elements."""
+    """Return all elements of the variables that are selected by name, entirely or by one element."""
     variables = list(variables)
     arrays = {each.array or each.name for each in variables if each.name in selected}
     return [each for each in variables if (each.array or each.name) in arrays]
 
 
 def groups(variables: Iterable[Variable]) -> list[list[Variable]]:
-    """Return variables by representation."""
+    """Return the variables grouped by representation."""
     parted: dict[str, list[Variable]] = {}
     for each in variables:
         parted.setdefault(each.representation.name, []).append(each)
