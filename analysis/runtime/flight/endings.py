@@ -1,4 +1,4 @@
-"""How a simulation ended: the outcome of the loop, translated to a status and a message."""
+"""End of a simulation: the outcome of the loop, translated to a status and a message."""
 
 from __future__ import annotations
 

@@ -160,9 +160,9 @@ class InstructionList(Rows):
 def write_instructions(
     instructions: InstructionList, names: Sequence[str], schedule: Schedule, algorithm: str, periods: Mapping[str, int]
 ) -> tuple[np.ndarray, int, np.ndarray]:
-    """Return the instructions, and the ends of resetting, of the initialisation and of each part.
+    """Return the instructions, and the ends of resetting, of the initialisation and of each repeated section.
 
-    Step n executes part n modulo the number of parts. There is one part for each communication step up to the least
+    Step n executes section n modulo their number. There is one section for each communication step up to the least
     common multiple of ``periods``, which are numbers of communication steps by component (those above 1).
     """
     instructions.begin()
@@ -198,8 +198,8 @@ def write_renewal(
 ) -> dict[int, np.ndarray]:
     """Write instructions that update inputs after a system's inputs or faulty parameters changed between two steps.
 
-    Returns them by component, for the components that step in the next ``part`` with inputs from its start. Other
-    arguments as for `write_instructions`.
+    Returns them by component, for the components that step in the next section, number ``part``, with inputs from its
+    start. Other arguments as for `write_instructions`.
     """
     renewed = {}
     for component in _ahead(names, schedule, algorithm):

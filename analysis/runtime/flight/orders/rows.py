@@ -72,7 +72,7 @@ class Rows:
         self.rows, self._ended = [], 0
 
     def end_part(self) -> int:
-        """End a part, which is executed separately from the next; return the number of instructions so far."""
+        """End a section, which is executed separately from the next; return the number of instructions so far."""
         self._ended = len(self.rows)
         return self._ended
 
