@@ -1,1 +1,1 @@
-"""Outputs of `perilune export`: FMUs, systems with their FMUs inside, the blocks of a file."""
+"""Outputs of `perilune export`: FMUs, systems packed with their FMUs, and the blocks of a file."""

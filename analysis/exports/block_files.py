@@ -1,4 +1,4 @@
-"""The blocks of a file, built into the working folder's build/fmus."""
+"""Export of the blocks of a Python file to build/fmus in the working folder."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .request import ExportRequest, Written
 
 
 def check_there(file: Path) -> None:
-    """Refuse a Python file that is not there, with the names of those that are."""
+    """Reject a missing Python file; the error suggests the files that exist. Raises InputError."""
     if file.is_file():
         return
     siblings = [path.name for path in file.parent.glob("*.py")] if file.parent.is_dir() else []
@@ -29,9 +29,9 @@ def check_there(file: Path) -> None:
 
 
 def find_block_file(name: str) -> Path | None:
-    """Return the file of the working folder that a block's name means: NAME.py, or the one with a class of that name.
+    """Return the file of the working folder that defines a block: NAME.py, or the file with a class of that name.
 
-    None for what is known by this name otherwise, and where there is none. Raises InputError for several.
+    None if the name is another block or system, or if no file defines it. Raises InputError if several files do.
     """
     is_system = name in system_names() or Path(name, "SystemStructure.ssd").is_file()
     if not name.isidentifier() or name in catalogue() or is_system:
@@ -46,7 +46,7 @@ def find_block_file(name: str) -> Path | None:
 
 
 def export_file(file: Path, request: ExportRequest, only: str | None = None) -> Written:
-    """Export the blocks of a file, or ``only`` one, into build/fmus, where ``use`` finds them by name.
+    """Export the blocks of a file, or ``only`` one of them, to build/fmus, where the option `use` finds them by name.
 
     Raises InputError.
     """

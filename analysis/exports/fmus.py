@@ -1,4 +1,4 @@
-"""One FMU of the repository, built or taken from the installed package."""
+"""Export of one FMU of the repository, built here or taken from the installed package."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
 
 
 def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[str], fmi: int) -> None:
-    """Build one FMU of the repository: an installed package has its native ones of FMI 2.0 with all their libraries
-    inside.
+    """Write one FMU of the repository.
 
-    Those of FMI 3.0 are compiled on request, as few users need them: they would double the package. Raises InputError
-    where it cannot be built here.
+    An installed package contains the native FMUs of FMI 2.0 with libraries for all platforms. Those of FMI 3.0, which
+    few users need, are compiled on request, because they would double the size of the package. Raises InputError if the
+    FMU cannot be built on this machine.
     """
     if flavour == "python":
         build_python_fmu(block, path)
@@ -39,18 +39,18 @@ def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[
 
 
 def no_compiler(element: str | os.PathLike[str], fmi: int) -> InputError:
-    """Return the error that native FMUs cannot be built here, with the remedy."""
+    """Return the error for native FMUs without a C compiler, with its remedy."""
     other = "give `flavour` python" if fmi == 2 else "leave out `fmi`"
     return InputError("export", str(element), "no C compiler here", f"pip install ziglang, or {other}")
 
 
 def needs_python(file: str | os.PathLike[str], element: str, fmi: int) -> InputError:
-    """Return the error of a block that cannot be compiled, with the remedy."""
+    """Return the error for a block that cannot be compiled, with its remedy."""
     if fmi == 3:
         return InputError(file, element, "needs Python, and Python FMUs are of FMI 2.0", "leave out `fmi`")
     return InputError(file, element, "needs Python and has no native form", "give `flavour` python")
 
 
 def zig_is_here() -> bool:
-    """Return True if libraries are compiled against an old C library; only zig serves both of these platforms."""
+    """Return True if zig is available: it alone compiles for Windows on any machine, and against an old C library."""
     return "win64" in available_platforms()

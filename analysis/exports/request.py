@@ -14,7 +14,10 @@ from ...fmus_src.export.compilers import PLATFORMS, available_platforms, platfor
 
 @dataclass(frozen=True)
 class ExportRequest:
-    """``name`` as of `perilune.export`; ``fmi`` and ``ssp`` are versions. Raises InputError for what does not go."""
+    """Request of an export: ``name`` as for `perilune.export`, ``fmi`` and ``ssp`` versions.
+
+    Raises InputError for incompatible options.
+    """
 
     name: str
     platforms: Sequence[str]
@@ -37,7 +40,7 @@ class ExportRequest:
         check_file("`output`", self.output)
 
     def check_one_fmu(self) -> None:
-        """Refuse what a system as one FMU cannot be."""
+        """Reject options that do not apply to a system as one FMU. Raises InputError."""
         for option, given in (("flavour", self.flavour == "python"), ("fmi", self.fmi == 3), ("ssp", self.ssp)):
             if given:
                 value = str(getattr(self, option))
@@ -48,7 +51,7 @@ class ExportRequest:
             raise InputError("`studies`", self.studies[0], problem, "leave it out, or leave out `as_fmu`")
 
     def find_platforms(self, *, prebuilt: bool) -> list[str]:
-        """Return the requested platforms; else those of an installed package, or of the available compilers."""
+        """Return the requested platforms; by default those of the installed package or of the available compilers."""
         if self.platforms:
             return list(self.platforms)
         return platforms_of(2) if prebuilt and self.fmi == 2 and not IS_CHECKOUT else available_platforms(self.fmi)
@@ -56,7 +59,7 @@ class ExportRequest:
 
 @dataclass(frozen=True)
 class Written:
-    """Written files, in which flavours, for which platforms: none where all of it is Python."""
+    """Written files with their flavours and platforms; no platforms if all FMUs are Python FMUs."""
 
     paths: tuple[Path, ...]
     flavours: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""A system's folder as one archive, with the FMUs that it names."""
+"""Export of a system's folder as one archive, with the FMUs that it refers to."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ from .request import ExportRequest
 def export_system(
     archive: SystemArchive, path: Path, flavour: str, platforms: Sequence[str], request: ExportRequest
 ) -> None:
-    """Export the system's folder as one archive, with the FMUs of this repository and the working folder that it names.
+    """Export a system's folder as one archive with the FMUs of the repository and the working folder that it refers
+    to.
 
     Raises InputError.
     """

@@ -1,1 +1,1 @@
-"""Campaigns in a browser: columns binned once, counts under a filter, served to this machine alone."""
+"""Campaigns in a browser: columns binned once, counts under a filter, served to this machine only."""

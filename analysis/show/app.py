@@ -1,6 +1,6 @@
 """Application of `perilune show`: one page, and counts and trials of the campaigns that it was started with.
 
-Campaigns, columns, variants and rows are named by number; no request names a file.
+Requests identify campaigns, columns, variants and rows by number; no request names a file.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ WORKERS = 2  # requests that are worked on at a time
 
 
 class Service:
-    """Answers about campaigns, worked out in threads of its own; at the server's end reading stops after a shard."""
+    """Answers to requests about campaigns, computed in separate threads; once the server stops, reading ends."""
 
     def __init__(self, campaigns: Sequence[OpenCampaign], page: str) -> None:
         self._page = page
@@ -50,12 +50,12 @@ class Service:
         return HTMLResponse(self._page)
 
     async def counts(self, request: Request) -> Response:
-        """Answer with the figures of a query."""
+        """Answer with the counts of a query."""
         columns, names, query = self._read(request)
         return await self._answer(request, lambda: Counter(columns, names, query).document())
 
     async def trials(self, request: Request) -> Response:
-        """Answer with the first trials that a query selects, with the columns of its histograms."""
+        """Answer with the first trials that a query selects and the columns of its histograms."""
         columns, names, query = self._read(request)
 
         def work() -> Any:
@@ -65,7 +65,7 @@ class Service:
         return await self._answer(request, work)
 
     async def selected(self, request: Request) -> Response:
-        """Answer with all trials that a query selects, with all columns, as a file."""
+        """Answer with a file of all selected trials and all columns."""
         columns, names, query = self._read(request)
         mask = await asyncio.get_running_loop().run_in_executor(
             self._executor, lambda: Counter(columns, names, query).selected()
@@ -75,7 +75,7 @@ class Service:
         return StreamingResponse(selected_csv(columns.campaign, mask, names), media_type="text/csv", headers=headers)
 
     async def trial(self, request: Request) -> Response:
-        """Answer with all numbers of one trial, by its row."""
+        """Answer with all numbers of the trial in one row."""
         columns, names = self._campaign(request)
         row = request.path_params["row"]
         if row >= columns.campaign.rows:
@@ -83,7 +83,7 @@ class Service:
         return await self._answer(request, lambda: trials_document(columns.campaign, [row], names)[0])
 
     def _campaign(self, request: Request) -> tuple[BinnedColumns, list[str]]:
-        """Return a campaign by its number, and the names of its columns."""
+        """Return the campaign of a number, and the names of its columns."""
         number = request.path_params["campaign"]
         if number >= len(self._columns):
             raise HTTPException(404)
@@ -96,7 +96,7 @@ class Service:
         return columns, names, read_query(text, len(names), len(columns.campaign.variants))
 
     async def _answer(self, request: Request, work: Callable[[], Any]) -> Response:
-        """Answer with the result of ``work`` as JSON; skip it for a page that disconnected while it waited."""
+        """Answer with the result of ``work`` as JSON, or skip it if the page disconnected while waiting."""
         async with self._free:
             if await request.is_disconnected():
                 return Response(status_code=204)

@@ -1,4 +1,4 @@
-"""A campaign's folder as it is shown: its variants, its quantities, and rows of its files of trials."""
+"""A campaign's folder for display: its variants, its quantities, and rows of its trial files."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ DETAILS = ("status", "success")  # of a trial, in addition to its numbers
 
 
 class StoppedError(Exception):
-    """Stop of the server, which no longer needs the data being read."""
+    """The server has stopped and no longer needs the data being read."""
 
 
 @dataclass(frozen=True)
 class OpenCampaign:
-    """The shards of a folder as they were when it was opened.
+    """The shards of a folder as of its opening.
 
-    Rows are numbered through all shards: in each one variant after the other, in order of trial.
+    Rows are numbered across all shards: within a shard by variant, within a variant by trial.
     """
 
     source: CampaignFolder
@@ -45,7 +45,7 @@ class OpenCampaign:
 
     @cached_property
     def starts(self) -> list[int]:
-        """The first row of each shard, and the number of all rows."""
+        """The first row of each shard, followed by the number of all rows."""
         starts = [0]
         for shard in self.source.shards:
             starts.append(starts[-1] + len(shard.trials) * len(self.variants))
@@ -57,9 +57,9 @@ class OpenCampaign:
 
     @cached_property
     def quantities(self) -> dict[str, Column]:
-        """Unit and meaning of every column of numbers: metrics, draws, final values, end time, faults.
+        """Unit and description of every numeric column: metrics, samples, final values, end time, faults.
 
-        Raises InputError for a column of which the campaign says nothing.
+        Raises InputError for a column that the campaign does not declare.
         """
         path = self.source.shards[0].path
         schema = pyarrow.parquet.read_schema(path)
@@ -74,7 +74,7 @@ class OpenCampaign:
 
     @cached_property
     def variant_numbers(self) -> np.ndarray:
-        """The number of each row's variant (rows,)."""
+        """The index of each row's variant, (rows,)."""
         kind = np.uint8 if len(self.variants) < 256 else np.uint16
         shards = self.source.shards
         return np.concatenate(
@@ -82,7 +82,10 @@ class OpenCampaign:
         )
 
     def read(self, names: Sequence[str]) -> dict[str, np.ndarray]:
-        """Read columns of all rows (rows,) as doubles. Raises InputError for damaged files, StoppedError at the end."""
+        """Read columns of all rows as doubles, (rows,) each.
+
+        Raises InputError for damaged files, StoppedError after the server stopped.
+        """
         columns = {name: np.empty(self.rows) for name in names}
         for shard, start in zip(self.source.shards, self.starts, strict=False):
             if self.is_stopped():
@@ -93,7 +96,9 @@ class OpenCampaign:
         return columns
 
     def read_rows(self, rows: Sequence[int], names: Sequence[str]) -> Iterator[dict[str, object]]:
-        """Yield rows in rising order: variant, trial, and columns of numbers and `DETAILS`. Raises InputError."""
+        """Yield the entries of rows in ascending order: variant, trial, numeric columns and `DETAILS`. Raises
+        InputError.
+        """
         table, current = None, -1
         for row in rows:
             number = bisect_right(self.starts, row) - 1
@@ -104,7 +109,9 @@ class OpenCampaign:
             yield entries
 
     def read_selected(self, mask: np.ndarray, names: Sequence[str]) -> Iterator[pyarrow.Table]:
-        """Yield the rows of a ``mask`` (rows,), shard by shard: identity, `DETAILS`, columns. Raises as `read` does."""
+        """Yield the rows selected by ``mask`` (rows,), a table per shard: identity, `DETAILS`, columns. Raises as
+        `read` does.
+        """
         for shard, start in zip(self.source.shards, self.starts, strict=False):
             if self.is_stopped():
                 raise StoppedError
@@ -114,7 +121,7 @@ class OpenCampaign:
                 yield self.source.read(shard, [*names, *DETAILS]).select(columns).filter(pyarrow.array(rows))
 
     def command(self, variant: str, trial: int) -> str:
-        """Return the command that simulates a trial again."""
+        """Return the command that repeats a trial."""
         return replay_of_folder(self.source.folder, self.variants, variant, trial)
 
 
@@ -125,9 +132,9 @@ def _is_number(schema: pyarrow.Schema, name: str) -> bool:
 
 
 def open_campaign(folder: Path, is_stopped: Callable[[], bool]) -> OpenCampaign:
-    """Open a folder that `perilune batch` wrote, whole or unfinished.
+    """Open a campaign's folder, complete or unfinished.
 
-    Raises InputError for what is no such folder, for a link in it, for damage, and above `ROW_LIMIT` rows.
+    Raises InputError for any other folder, a link inside, damage, and more than `ROW_LIMIT` rows.
     """
     campaign = OpenCampaign(read_folder(folder), is_stopped)
     if campaign.rows > ROW_LIMIT:

@@ -1,4 +1,4 @@
-"""Columns of a campaign, binned when they are first used: two bytes for each row, the most recent ones in memory."""
+"""Columns of a campaign, binned on first use: two bytes per row, the most recently used ones in memory."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ READING = 100_000_000  # bytes of doubles that are read at a time
 
 @dataclass(frozen=True)
 class Binned:
-    """Column as ``codes`` (rows,), bins of ``scale``, which is None where no number is finite."""
+    """A column as ``codes`` (rows,): bins of ``scale``, which is None if no number is finite."""
 
     scale: Scale | None
     codes: np.ndarray
 
 
 class BinnedColumns:
-    """The columns of one campaign."""
+    """Cache of the binned columns of one campaign."""
 
     def __init__(self, campaign: OpenCampaign, memory: float = MEMORY) -> None:
         self.campaign = campaign
@@ -37,13 +37,13 @@ class BinnedColumns:
 
     @cached_property
     def success(self) -> np.ndarray:
-        """Successes as booleans (rows,). Raises as `get` does."""
+        """The success of each row, boolean (rows,). Raises as `get` does."""
         return self.campaign.read(["success"])["success"] != 0.0
 
     def get(self, names: Sequence[str]) -> dict[str, Binned]:
-        """Return columns by name; those that are not in memory are read, several per pass through the shards.
+        """Return columns by name; missing ones are read, several per pass through the shards.
 
-        Raises InputError for damaged files, StoppedError at the end.
+        Raises InputError for damaged files, StoppedError after the server stopped.
         """
         with self._lock:
             needed = dict.fromkeys(names)
@@ -61,7 +61,7 @@ class BinnedColumns:
             return columns
 
     def _read(self, names: list[str]) -> dict[str, np.ndarray]:
-        """Read columns as doubles, and on the first call the successes."""
+        """Read columns as doubles; the first call also reads the successes."""
         if "success" in self.__dict__:
             return self.campaign.read(names)
         columns = self.campaign.read([*names, "success"])

@@ -1,4 +1,4 @@
-"""Trials of a campaign counted under a filter: histograms by variant, density grids, successes and failures."""
+"""Counts of a campaign's trials under a filter: histograms by variant, density grids, successes and failures."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .scale import BARS, BINS, CHUNK, CODES, SHIFT
 
 
 class Counter:
-    """Counts that a query requests of a campaign. Raises InputError for damaged files, StoppedError at the end."""
+    """Computes the counts of a query. Raises InputError for damaged files, StoppedError after the server stopped."""
 
     def __init__(self, columns: BinnedColumns, names: Sequence[str], query: Query) -> None:
         self.campaign = columns.campaign
@@ -31,7 +31,7 @@ class Counter:
         self._within = {(each.column, each.first, each.last): self._in_range(each) for each in query.ranges}
 
     def selected(self, *without: int) -> np.ndarray:
-        """Return a mask (rows,) of the rows that the filter selects, without the ranges of the columns ``without``."""
+        """Return a mask (rows,) of the rows that the filter selects, ignoring the ranges of the columns ``without``."""
         mask = self._common
         for (column, _, _), rows in self._within.items():
             if column not in without:
@@ -39,7 +39,7 @@ class Counter:
         return mask
 
     def document(self) -> Counts:
-        """Return all counts, for the page: every figure of the trials that the ranges of other columns select."""
+        """Return all counts for the page; each figure ignores the ranges of its own columns."""
         mask = self.selected()
         return {
             "outcomes": self._outcomes(mask),
@@ -49,11 +49,11 @@ class Counter:
         }
 
     def _outcomes(self, mask: np.ndarray) -> list[tuple[int, int]]:
-        """Count failures and successes of each variant (variants, 2)."""
+        """Count failures and successes of each variant, (variants, 2)."""
         return [(failures, successes) for failures, successes in self._by_variant(mask, self._success, 2)]
 
     def _histograms(self) -> list[HistogramCounts]:
-        """Count each variant over the bars, with as many columns at a time as the memory limit allows."""
+        """Count the trials of each variant per bar, for as many columns at a time as the memory limit allows."""
         histograms: list[HistogramCounts] = []
         size = self._binned.limit
         for first in range(0, len(self.query.histograms), size):
@@ -65,7 +65,7 @@ class Counter:
         return histograms
 
     def _by_variant(self, mask: np.ndarray, codes: np.ndarray, kinds: int, shift: int = 0) -> list[list[int]]:
-        """Count each variant's codes, shifted right, in the rows of a mask (variants, kinds)."""
+        """Count the codes, shifted right, of each variant in the rows of a mask, (variants, kinds)."""
         variants = len(self.campaign.variants)
         counts = np.zeros(variants * kinds, dtype=np.intp)
         for first in range(0, mask.size, CHUNK):  # indices are four times as large as codes
@@ -80,7 +80,7 @@ class Counter:
         return {index: binned[self._names[index]] for index in indices}
 
     def _grid(self, x: int, y: int) -> GridCounts:
-        """Count trials and failures over two columns (BARS, BARS), from the bottom; or return dots of few trials."""
+        """Count trials and failures over two columns, (BARS, BARS) from the bottom; or return few trials as dots."""
         mask = self.selected(x, y)
         mask = mask & (self._codes(x) < BINS) & (self._codes(y) < BINS)
         scales: GridCounts = {"x": scale_document(self._columns[x]), "y": scale_document(self._columns[y])}
@@ -107,7 +107,7 @@ class Counter:
     def _ends(self, each: Range) -> RangeEnds | None:
         """Return the ends of a range; None for a column without a finite number.
 
-        The step is the width of the narrower one of the bins at the ends.
+        The step is the smaller width of the bins at the two ends.
         """
         scale = self._columns[each.column].scale
         if scale is None:
@@ -129,6 +129,6 @@ class Counter:
 
 
 def scale_document(column: Binned) -> ScaleDocument | None:
-    """Return a scale for the page; None where no number is finite."""
+    """Return a column's scale for the page; None if no number is finite."""
     scale = column.scale
     return None if scale is None else {"low": scale.low, "high": scale.high, "knee": scale.knee}

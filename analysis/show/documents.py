@@ -1,4 +1,4 @@
-"""The documents of `perilune show`: what its page begins with, and what the server answers."""
+"""Documents of `perilune show`: initial data of its page, and answers of the server."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NotRequired, TypedDict
 
 
 class Quantity(TypedDict):
-    """A column of a campaign; numbers are in SI, times ``factor`` in ``unit``."""
+    """A column of a campaign; its numbers are in SI, multiplied by ``factor`` they are in ``unit``."""
 
     name: str
     unit: str
@@ -15,14 +15,14 @@ class Quantity(TypedDict):
 
 
 class Variant(TypedDict):
-    """A variant of a campaign, and its colour."""
+    """A variant of a campaign with its colour."""
 
     name: str
     colour: str
 
 
 class Campaign(TypedDict):
-    """A campaign in a folder; ``flown`` of its trials are there."""
+    """A campaign in a folder; ``flown`` is the number of trials available."""
 
     folder: str
     system: str
@@ -35,7 +35,7 @@ class Campaign(TypedDict):
 
 
 class ShowDocument(TypedDict):
-    """Campaigns, and sizes: bins of a column, bars of a histogram, histograms at first."""
+    """Campaigns, and sizes: bins per column, bars per histogram, initial number of histograms."""
 
     campaigns: list[Campaign]
     bins: int
@@ -44,7 +44,7 @@ class ShowDocument(TypedDict):
 
 
 class ScaleDocument(TypedDict):
-    """A range of numbers; of asinh(x / knee) unless the knee is 0."""
+    """A range of numbers, linear if the knee is 0, else linear in asinh(x / knee)."""
 
     low: float
     high: float
@@ -52,14 +52,14 @@ class ScaleDocument(TypedDict):
 
 
 class HistogramCounts(TypedDict):
-    """Counts by variant: of the bars, then of nan, infinity and minus infinity."""
+    """Counts by variant: of the bars, then of NaN, infinity and minus infinity."""
 
     counts: list[list[int]]
     scale: ScaleDocument | None
 
 
 class DotsDocument(TypedDict):
-    """Trials one by one: row numbers, bins, outcomes and variants as little-endian integers in base64."""
+    """Individual trials: row numbers, bins, outcomes and variants as little-endian integers in base64."""
 
     rows: str
     x: str
@@ -69,7 +69,7 @@ class DotsDocument(TypedDict):
 
 
 class GridCounts(TypedDict):
-    """Trials over two columns: counts and failures of squares, rows from the bottom; or dots of few trials."""
+    """Trials over two columns: trials and failures per square, rows from the bottom; or few trials as dots."""
 
     x: ScaleDocument | None
     y: ScaleDocument | None
@@ -79,7 +79,7 @@ class GridCounts(TypedDict):
 
 
 class RangeEnds(TypedDict):
-    """The ends of a range in SI, ``low`` included, ``high`` not; ``step`` is the least distance to another end."""
+    """The ends of a range in SI: ``low`` inclusive, ``high`` exclusive; ``step`` is the least distance between ends."""
 
     low: float
     high: float
@@ -87,7 +87,7 @@ class RangeEnds(TypedDict):
 
 
 class Counts(TypedDict):
-    """The answer to a query; ``outcomes`` are failures and successes of each variant."""
+    """The answer to a query; ``outcomes`` are the failures and successes of each variant."""
 
     outcomes: list[tuple[int, int]]
     ranges: list[RangeEnds | None]
@@ -96,7 +96,7 @@ class Counts(TypedDict):
 
 
 class TrialEntry(TypedDict):
-    """A trial, the command that simulates it again, and numbers: null is nan, a text infinite."""
+    """A trial, the command that repeats it, and its numbers: null is NaN, a text is infinite."""
 
     row: int
     trial: int

@@ -1,4 +1,4 @@
-"""Few trials one by one: dots of a figure, rows of a table, all numbers of a single one."""
+"""Individual trials: dots of a figure, rows of a table, all numbers of one trial."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TABLE_LIMIT = 50  # rows of the table of selected trials
 
 
 def dots_of(rows: np.ndarray, x: np.ndarray, y: np.ndarray, success: np.ndarray, variants: np.ndarray) -> DotsDocument:
-    """Return row numbers, bins, outcomes and variants of trials (dots,)."""
+    """Return row numbers, bins, outcomes and variants of trials, (dots,) each, for the page."""
     return {
         "rows": _text(rows.astype("<u4")),
         "x": _text(x.astype("<u2")),

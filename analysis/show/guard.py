@@ -1,7 +1,7 @@
-"""Access rules: only the browser that has the server's token, from its own page; all is read-only.
+"""Access rules: read-only, and only for the browser that has the server's token, from the server's own page.
 
-The address that is printed has the token. The first request with it gets a cookie and is sent on to an address without
-it, so that the token is neither in the history nor in what a page tells others about where it was opened.
+The printed address contains the token. The first request with it receives a cookie and is redirected to an address
+without the token, which therefore appears neither in the history nor in referrers.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ HEADERS = {  # of every answer
 
 
 class Guard:
-    """Application behind these rules; ``authority`` is its own host and port, ``token`` its secret."""
+    """Application protected by these rules; ``authority`` is its host and port, ``token`` its secret."""
 
     def __init__(self, app: ASGIApp, authority: str, token: str) -> None:
         self.app = app
@@ -49,7 +49,7 @@ class Guard:
         await (self._refusal(scope) or self.app)(scope, receive, send_guarded)
 
     def _refusal(self, scope: Scope) -> Response | None:
-        """Return the response that refuses a request; None where the application may answer."""
+        """Return the response that refuses a request; None if the application may answer it."""
         headers = Headers(scope=scope)
         if headers.getlist("host") != [self.authority]:
             return PlainTextResponse(f"only http://{self.authority}/ is answered, no other name of this machine", 421)

@@ -1,4 +1,4 @@
-"""The page of `perilune show`: the facts on the campaigns that its script needs before it requests counts."""
+"""Page of `perilune show`, with the information on campaigns that its script needs before the first request."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FIRST_FIGURES = 6  # histograms that a page begins with
 
 
 def show_page(campaigns: Sequence[OpenCampaign]) -> str:
-    """Return the page as HTML with its script. Raises InputError where the script was not built."""
+    """Return the HTML page with its script. Raises InputError if the script was not built."""
     if read_bundle(BUNDLE) is None:
         problem, _, remedy = MISSING.partition(": ")
         raise InputError("perilune show", "", problem, remedy.rstrip("."))

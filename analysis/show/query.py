@@ -1,4 +1,4 @@
-"""Query of a page on a campaign, as JSON in an address: columns and variants by number, ranges by bins."""
+"""Query of a page about a campaign, as JSON in the address: columns and variants by number, ranges in bins."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LONGEST = 8000  # characters of a query
 
 
 class Range(msgspec.Struct, forbid_unknown_fields=True):
-    """The rows of which a column is in the bins from ``first`` to ``last``."""
+    """Rows whose value in a column is in the bins ``first`` to ``last``, both included."""
 
     column: Index
     first: Bin
@@ -24,7 +24,7 @@ class Range(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class Query(msgspec.Struct, forbid_unknown_fields=True):
-    """Query of ``histograms`` and ``grids`` of columns, over the rows in all ranges, of the outcome and variants."""
+    """Query for ``histograms`` and ``grids`` of columns, over the rows that match all ranges, outcome and variants."""
 
     histograms: Figures = []
     grids: Annotated[list[tuple[Index, Index]], msgspec.Meta(max_length=4)] = []
@@ -34,7 +34,7 @@ class Query(msgspec.Struct, forbid_unknown_fields=True):
 
 
 def read_query(text: str, columns: int, variants: int) -> Query:
-    """Read a query on a campaign with these numbers of columns and variants. Raises InputError."""
+    """Read a query about a campaign with these numbers of columns and variants. Raises InputError."""
     remedy = "load the page again"
     if len(text) > LONGEST:
         raise InputError("query", "", f"{len(text)} characters, at most {LONGEST} are read", remedy)

@@ -1,4 +1,4 @@
-"""The scale of a column: bins between whose edges its numbers are counted. web/show/scale.ts draws axes along it."""
+"""Scale of a column: the bins in which its numbers are counted. web/show/scale.ts draws the matching axes."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ CHUNK = 1 << 18  # numbers binned at a time
 
 @dataclass(frozen=True)
 class Scale:
-    """Scale from ``low`` to ``high``, finite; linear, or by asinh: linear below the ``knee``, logarithmic above."""
+    """Scale from ``low`` to ``high``, finite; with a ``knee`` in asinh: linear below the knee, logarithmic above it."""
 
     low: float
     high: float
@@ -32,7 +32,7 @@ class Scale:
 
     @cached_property
     def edges(self) -> np.ndarray:
-        """Ends of the bins (BINS + 1,), not falling: bin i has edges[i] <= number < edges[i + 1]."""
+        """The edges of the bins, (BINS + 1,), non-decreasing: bin i contains edges[i] <= number < edges[i + 1]."""
         if self.knee:
             ends = np.linspace(math.asinh(self.low / self.knee), math.asinh(self.high / self.knee), BINS + 1)
             edges = self.knee * np.sinh(ends)
@@ -42,7 +42,7 @@ class Scale:
         return np.maximum.accumulate(np.minimum(edges, self.high))
 
     def bin(self, numbers: np.ndarray) -> np.ndarray:
-        """Return the bin of each number (rows,) as uint16; `NAN`, `ABOVE` or `BELOW` where it is not finite."""
+        """Return the bin of each number, uint16 (rows,); `NAN`, `ABOVE` or `BELOW` for non-finite numbers."""
         codes = np.empty(numbers.size, dtype=np.uint16)
         for first in range(0, numbers.size, CHUNK):
             chunk = numbers[first : first + CHUNK]
@@ -55,9 +55,9 @@ class Scale:
 
 
 def make_scale(numbers: np.ndarray) -> Scale | None:
-    """Return the scale that spans the finite numbers of (rows,), all below its high end; None where none is finite.
+    """Return a scale that spans the finite numbers among (rows,), with all below its high end; None without any.
 
-    The greatest double of all is at that end.
+    Only the greatest double may equal the high end.
     """
     finite = numbers[np.isfinite(numbers)]
     if not finite.size:
@@ -77,7 +77,7 @@ def make_scale(numbers: np.ndarray) -> Scale | None:
 
 
 def _whole_scale(low: float, high: float) -> Scale:
-    """Return a scale of whole numbers: an equal count of them for each bar, or of bars for each number."""
+    """Return a scale for whole numbers: equally many numbers per bar, or bars per number."""
     count = high - low + 1.0
     step = math.ceil(count / BARS) if count > BARS else 1.0 / (BARS // count)
     return Scale(low - 0.5, low - 0.5 + BARS * step)

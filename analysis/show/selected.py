@@ -1,4 +1,4 @@
-"""Selected trials as a file of comma-separated values: every quantity in SI, with all digits."""
+"""Selected trials as a CSV file: every quantity in SI with all digits."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from .campaign import OpenCampaign
 
 
 def selected_csv(campaign: OpenCampaign, mask: np.ndarray, names: Sequence[str]) -> Iterator[bytes]:
-    """Yield the file, a chunk for each shard: a head, then the rows of a ``mask`` (rows,).
+    """Yield the file in chunks: a header, then for each shard the rows selected by ``mask`` (rows,).
 
-    Raises InputError for damaged files, StoppedError at the server's end.
+    Raises InputError for damaged files, StoppedError after the server stopped.
     """
     has_head = False
     for table in campaign.read_selected(mask, names):

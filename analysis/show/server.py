@@ -1,4 +1,4 @@
-"""The server of `perilune show`: on this machine's loopback address alone, until it is interrupted."""
+"""Server of `perilune show`, on the loopback address of this machine only, until interrupted."""
 
 from __future__ import annotations
 
@@ -25,10 +25,12 @@ SILENCE = 10  # s, after which a connection without a request is closed: others 
 
 
 class CampaignServer:
-    """Campaigns that are served; ``address`` opens their page, with the token that it takes."""
+    """Server of campaigns; ``address`` is the address of its page, including the token."""
 
     def __init__(self, folders: Sequence[Path], port: int = 0) -> None:
-        """Open campaigns, listen on ``port`` (0: a free one). Raises InputError for other folders and a port in use."""
+        """Open campaigns and listen on ``port`` (0: any free one). Raises InputError for other folders and a port in
+        use.
+        """
         self._is_stopped = False
         self.campaigns = [open_campaign(folder, lambda: self._is_stopped) for folder in folders]
         page = show_page(self.campaigns)
@@ -42,7 +44,7 @@ class CampaignServer:
         return f"http://{HOST}:{self.port}/?token={self._token}"
 
     def serve(self, announce: Callable[[str], None]) -> None:
-        """Answer until Ctrl-C; ``announce`` gets the address as soon as it is answered."""
+        """Serve until Ctrl-C; ``announce`` is called with the address as soon as the server listens."""
         service = Service(self.campaigns, self._page)
         server = _Server(
             uvicorn.Config(
@@ -76,7 +78,7 @@ class CampaignServer:
 
 
 class _Protocol(H11Protocol):
-    """HTTP protocol of uvicorn that closes a connection without a first request after `SILENCE`."""
+    """HTTP protocol of uvicorn that closes a connection without a request after `SILENCE`."""
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
@@ -88,7 +90,7 @@ class _Protocol(H11Protocol):
 
 
 class _Server(uvicorn.Server):
-    """Server of uvicorn that reports when it listens and when it is to end."""
+    """Server of uvicorn that reports when it starts to listen and when it has to stop."""
 
     def __init__(self, config: uvicorn.Config, on_start: Callable[[], None], on_end: Callable[[], None]) -> None:
         super().__init__(config)

@@ -1,1 +1,1 @@
-"""The verbs: one file each, with the Python function that the command line calls, too."""
+"""The verbs, one per file: Python functions that the command line calls as well."""

@@ -34,9 +34,9 @@ if TYPE_CHECKING:  # plots and pages are imported where they are created
 
 @dataclass(repr=False)
 class BatchResult(Documented, results.BatchResult):
-    """All trials of all variants; ``summary`` has rates and statistics by variant, ``trials`` the numbers behind.
+    """Result of a campaign: ``summary`` has rates and statistics by variant, ``trials`` the underlying numbers.
 
-    ``requirements`` are those of the option ``require``, ``displayed`` the metrics of the option ``metrics``.
+    ``requirements`` are the expressions of the option ``require``, ``displayed`` the metrics of the option ``metrics``.
     """
 
     requirements: tuple[Expression, ...] = ()
@@ -47,11 +47,13 @@ class BatchResult(Documented, results.BatchResult):
         return f"{type(self).__name__}({self.provenance['system']}, {self.plan.campaign.trials} trials: {rates})"
 
     def document(self) -> Document:
-        """Return the batch with verdicts on its variants, distributions, recorded simulations and failures."""
+        """Return a document with verdicts on the variants, distributions, recorded simulations and failures."""
         return batch_document(self, self.displayed)
 
     def problems(self) -> list[str]:
-        """Return failed simulations and requirements of the campaign and of ``require`` that are not met."""
+        """Return a line for each failure of simulations and each requirement (campaign's or ``require``) that is not
+        met.
+        """
         return campaign_problems(self, self.requirements)
 
     def to_pandas(self) -> Any:
@@ -60,10 +62,10 @@ class BatchResult(Documented, results.BatchResult):
         return self.table().to_pandas()
 
     def rank_correlations(self, variant: str | None = None) -> dict[str, dict[str, float | None]]:
-        """Return Spearman's rank correlations of a variant's metrics with the draws, by metric and draw.
+        """Return Spearman's rank correlation of each metric with each sampled input, by metric and input.
 
-        By default of the first variant. Over all trials in which the metric is a number; None where there are too few,
-        or one of the two does not vary. Raises KeyError for a variant that the batch does not have.
+        ``variant`` is by default the first one. Only trials in which the metric is a number count; None if these are
+        too few or a column is constant. Raises KeyError for an unknown variant.
         """
         rows = next(iter(self.rows.values())) if variant is None else self.rows[variant]
         campaign = self.plan.campaign
@@ -72,21 +74,22 @@ class BatchResult(Documented, results.BatchResult):
         return rank_correlations(draws, metrics)
 
     def write(self, folder: FilePath) -> None:
-        """Write what `perilune batch --output` does: trials, draws, summary, traces where the campaign keeps them."""
+        """Write the files of `perilune batch --output`: trials, samples, summary, and traces if the campaign records
+        them.
+        """
         super().write(Path(folder))
 
     def write_task(self, path: FilePath) -> None:
-        """Write the simulation task of `perilune batch --trace`, of a batch with ``output``. Raises InputError."""
+        """Write the simulation task of `perilune batch --trace`. Raises InputError without ``output``."""
         if self.folder is None:
             raise InputError("`trace`", str(path), "the batch has no folder, whose files it describes", "give `output`")
         write_task(self, Path(path))
 
     def plot(self, *metrics: str) -> Plot:
-        """Plot distributions of metrics over trials, variant next to variant; by default all metrics that vary.
+        """Plot distributions of metrics over trials, variants side by side; by default all metrics that vary.
 
-        Of more than 100 000 trials the first are plotted.
-
-        Raises KeyError for a metric that the campaign does not have, and ValueError where there is none to plot.
+        At most the first 100 000 trials are plotted. Raises KeyError for an unknown metric, ValueError if there is
+        nothing to plot.
         """
         from ..documents.of.campaign.distributions import metric_plot, sort_metrics
 
@@ -102,19 +105,13 @@ class BatchResult(Documented, results.BatchResult):
 
 @verb(BATCH)
 def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions]) -> BatchResult:
-    """Simulate a campaign, by name or path of its .toml file: `perilune batch`.
+    """Simulate a campaign of a system, a name or the path of a .toml file: `perilune batch`.
 
-    ``compare`` maps slots to the FMUs compared there on the same draws, one or a list; ``output`` is a folder for
-    trials, draws and summary, refused if it holds results unless ``overwrite``, or ``resume``, which continues with
-    what it holds, and with ``retry_crashed`` simulates shards again that have trials which crashed, hung or ran out of
-    memory; ``until_decided`` ends with the first shard after which the campaign's requirements are met, or are
-    not; ``engine`` is threads or processes, and ``scheduler`` the address of a dask scheduler whose workers simulate
-    instead; ``faults`` are injected in every trial, after the campaign's own, and every trial has the same ``input``;
-    one that takes longer than ``timeout`` (s, wall clock) ends ``timed_out``, is no success, and the next one starts;
-    ``draws`` is a Parquet file of given draws, one row a trial. In ``set`` a text "low:high:step" is a sweep.
-    ``require`` are expressions over the summary's numbers, see `BatchResult.problems`; ``metrics`` are those that the
-    command line prints. The rest is as in `simulate`.
-    Raises InputError.
+    All variants and all FMUs in ``compare`` simulate the same samples. Results in the folder ``output`` are an error
+    unless ``overwrite`` or ``resume`` is set. ``faults`` are injected in every trial, after the campaign's own, and
+    every trial has the same ``input``. A trial that exceeds ``timeout`` (s, wall clock) ends as ``timed_out`` and is no
+    success; the campaign continues. In ``set`` a text "low:high:step" is a sweep. ``require`` are expressions over
+    numbers of the summary; see `BatchResult.problems`. Raises InputError.
     """
     folder = None if options["output"] is None else Path(options["output"])
     if options["resume"] and folder is None:

@@ -1,4 +1,4 @@
-"""Bounds of least propellant of a campaign's trials: `perilune.bound_trials`, `perilune design bounds`."""
+"""Lower bounds on the propellant of a campaign's trials: `perilune.bound_trials`, `perilune design bounds`."""
 
 from __future__ import annotations
 
@@ -36,8 +36,10 @@ DECIMALS = {"propellant": 6, "duration": 2}  # of the columns of its table, kg a
 
 @dataclass(frozen=True, eq=False)
 class TrialBounds(Documented):
-    """Least ``propellant`` (kg) and its ``duration`` (s) of every trial of a ``campaign``, arrays (trials,), on
-    ``intervals`` intervals; nan where there is no such descent. ``file`` is that of the stored table, if requested.
+    """Lower bounds on the propellant of all trials of a ``campaign``.
+
+    ``propellant`` (kg) and ``duration`` (s) of the bounding descent are arrays (trials,), NaN where no descent exists.
+    ``intervals`` is the number of intervals of the discretisation, ``file`` the stored table, if requested.
     """
 
     campaign: str
@@ -47,11 +49,11 @@ class TrialBounds(Documented):
     file: Path | None = None
 
     def document(self) -> Document:
-        """Return the bounds' mean and range, and where they are stored."""
+        """Return a document with mean and range of the bounds, and the file of the stored table."""
         return trial_bounds_document(**vars(self))
 
     def problems(self) -> list[str]:
-        """Return a line for the trials that have no bound."""
+        """Return a line about trials without a bound, if any."""
         missing = np.flatnonzero(~np.isfinite(self.propellant))
         if not missing.size:
             return []
@@ -60,11 +62,11 @@ class TrialBounds(Documented):
 
 @verb(BOUNDS)
 def bound_trials(system: FilePath, campaign: FilePath, **options: Unpack[BoundsOptions]) -> TrialBounds:
-    """Bound the propellant of every trial of a campaign: `perilune design bounds`; needs the extra `plan`.
+    """Compute a lower bound on the propellant of every trial of a campaign: `perilune design bounds`.
 
-    The campaign declares the inputs of the bound in [lookup.bound.inputs], see docs/planning.md; ``workers`` (default:
-    one per processor) does not change results. ``store`` writes the table where [lookup.bound] reads it. Raises
-    InputError.
+    Needs the extra `plan`. The campaign declares the inputs of the bound in [lookup.bound.inputs]; see
+    docs/planning.md. ``workers`` does not affect the numbers. ``store`` writes the table that [lookup.bound] reads.
+    Raises InputError.
     """
     plan = read_plan(os.fspath(system), os.fspath(campaign), SystemOptions(), trials=options["trials"])
     lookup = _find_lookup(plan)
@@ -94,7 +96,7 @@ def _find_lookup(plan: BatchPlan) -> Lookup:
 
 
 def _inputs_of(plan: BatchPlan, lookup: Lookup) -> tuple[InputColumns, SystemArchive]:
-    """Return the inputs of all trials, which its variants share, and the system. Raises InputError."""
+    """Return the bound's inputs of all trials, and the system. Raises InputError, also if variants differ in inputs."""
     where = _element_of(lookup)
     check_roles({name: len(formulas) for name, formulas in lookup.inputs.items()}, where)
     plan = replace(plan, campaign=replace(plan.campaign, lookups=(), metrics=()))  # its table may be missing
@@ -131,7 +133,7 @@ def _element_of(lookup: Lookup) -> tuple[str, str]:
 
 
 def _target(lookup: Lookup, archive: SystemArchive) -> Path:
-    """Return the file of a lookup's table. Raises InputError where it cannot be written."""
+    """Return the path of a lookup's table. Raises InputError if it cannot be written."""
     inside = archive.name_of(lookup.origin)
     if inside is None:
         return Path(lookup.label)

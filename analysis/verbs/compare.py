@@ -27,7 +27,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Documented, comparison.Comparison):
-    """Variants on the same trials: ``summary`` by label, ``pairs`` of labels, `compare_rates`, `compare_values`."""
+    """Comparison of variants on the same trials: ``summary`` by label, ``pairs`` of labels.
+
+    `compare_rates` and `compare_values` compare a pair.
+    """
 
     displayed: tuple[str, ...] = ()  # metrics of the option `metrics`
 
@@ -48,15 +51,15 @@ class Comparison(Documented, comparison.Comparison):
         return DataFrame(rows)
 
     def document(self) -> Document:
-        """Return verdicts and differences of the variants, distributions, simulations over time, tables, provenance."""
+        """Return a document with verdicts, differences, distributions, simulations over time, tables and provenance."""
         folders = [batch.folder for batch in self.batches.values()]
         command = write_command(COMPARE, {"results": folders}, {"reference": self.reference})
         return comparison_document(self, command, self.displayed)
 
     def plot(self, *metrics: str) -> Plot:
-        """Return the distributions of metrics over successful trials of every variant; by default of all that vary.
+        """Plot distributions of metrics over successful trials of every variant; by default all metrics that vary.
 
-        Raises KeyError for a metric that no batch has, and ValueError where there is none to draw.
+        Raises KeyError for an unknown metric, ValueError if there is nothing to plot.
         """
         from ..documents.of.comparison.distributions import looks_of, metric_distributions, metric_figures, sort_metrics
         from ..documents.render.notebook import plot_figures
@@ -74,11 +77,10 @@ class Comparison(Documented, comparison.Comparison):
 
 @verb(COMPARE)
 def compare(*results: FilePath | Sequence[FilePath], **options: Unpack[CompareOptions]) -> Comparison:
-    """Put the variants of stored campaigns side by side: `perilune compare`.
+    """Compare variants of stored campaigns side by side: `perilune compare`.
 
-    ``results`` are folders that `batch` wrote to its ``output``, or a list of them, all simulated on the same draws;
-    ``reference`` names the variant that others are compared with, by default the first; ``metrics`` are those that
-    the command line prints. Raises InputError.
+    ``results`` are folders that `batch` wrote to its ``output``, as arguments or a list; all must have simulated the
+    same samples. Raises InputError.
     """
     folders = [Path(folder) for folder in path_list(results)]
     if not folders:

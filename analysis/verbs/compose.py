@@ -1,4 +1,4 @@
-"""`perilune.compose` and `perilune compose`: a system's SSD written from its `system.toml`, and the way back."""
+"""`perilune.compose` and `perilune compose`: conversion of a `system.toml` to an SSD, and of a system to its file."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from .common.documented import Documented
 
 @dataclass(frozen=True)
 class Composition(Documented):
-    """Contents of a `system.toml`, and the ``paths`` that were written."""
+    """Content of a `system.toml`, and the ``paths`` of written files."""
 
     source: SystemSource
     paths: tuple[Path, ...]
@@ -45,7 +45,7 @@ class Composition(Documented):
         return write_toml(self.source)
 
     def document(self) -> Document:
-        """Return the paths, or the `system.toml` where none is written."""
+        """Return a document with the written paths, or with the `system.toml` if nothing was written."""
         return composition_document(self.source.name, self.paths, self.toml)
 
 
@@ -53,10 +53,10 @@ class Composition(Documented):
 def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
     """Write a system's SSD from its `system.toml`, or the `system.toml` of a system: `perilune compose`.
 
-    ``what`` is the path of a .toml file, next to which SystemStructure.ssd is written, or a system, whose
-    `system.toml` is the result's ``toml``, and is written to ``output``: next to it its annotations, and in another
-    folder than the system's the files that it names. Nothing is written over an SSD that was edited, and nothing at all
-    if the system would not fly. Raises InputError, with a line for each problem.
+    ``what`` is the path of a .toml file, next to which SystemStructure.ssd is written, or a system. The `system.toml`
+    of a system is the result's ``toml``; with ``output`` it is written there with its annotations, and into another
+    folder also with the files that it refers to. An SSD that was edited is not overwritten, and nothing is written for
+    a system that cannot be simulated. Raises InputError, with a line for each problem.
     """
     path, output = Path(what), options["output"]
     if path.suffix != ".toml":
@@ -78,15 +78,15 @@ def compose(what: FilePath, **options: Unpack[ComposeOptions]) -> Composition:
 
 
 def compose_file(path: Path) -> tuple[SystemSource, bytes]:
-    """Return what a `system.toml` states and its SSD, checked as `simulate` would. Raises InputError."""
+    """Return the content of a `system.toml` and its SSD, checked as `simulate` does. Raises InputError."""
     source, raw = read_source(path)
     return source, compose_source(source, path.parent, raw, path.name, {})
 
 
 def compose_source(source: SystemSource, folder: Path, raw: bytes, file: str, files: Mapping[str, bytes]) -> bytes:
-    """Return the SSD of a system in a folder, with its mark; ``files`` are to be there, too, by archive name.
+    """Return the SSD of a system in a folder, with its mark; ``files`` (by archive name) are added to the folder.
 
-    ``raw`` is the content of its ``file``. Raises InputError for one that would not fly.
+    ``raw`` is the content of ``file``, the `system.toml`. Raises InputError for a system that cannot be simulated.
     """
     document = add_mark(compose_document(source, folder_archive(folder, files)), file, raw)
     archive = folder_archive(folder, {**files, DESCRIPTION: document})

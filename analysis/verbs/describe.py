@@ -32,15 +32,17 @@ from .common.documented import Documented
 
 
 class Description(Documented, dict[str, Any]):
-    """Contents of a system, an FMU, a component or a slot, by key; see `describe`.
+    """Description of a system, an FMU, a component or a slot, by key; see `describe`.
 
-    ``prepare`` makes ready what has a block diagram: a system, or an FMU that is simulated alone.
+    ``prepare`` prepares what has a block diagram: a system, or an FMU that can be simulated alone.
     """
 
     prepare: Callable[[], PreparedSystem] | None = None
 
     def report(self, path: FilePath) -> None:
-        """Write the page of `perilune describe --report`: one HTML file. Raises InputError for what has no diagram."""
+        """Write the page of `perilune describe --report`, one HTML file. Raises InputError if there is no block
+        diagram.
+        """
         from ..documents.diagram.page import write_system_page  # half of what describe would take to start
 
         if self.prepare is None:
@@ -49,22 +51,21 @@ class Description(Documented, dict[str, Any]):
         write_system_page(self.prepare(), Path(path))
 
     def document(self) -> Document:
-        """Return what is described as lists of words."""
+        """Return the description as a document of lists."""
         return description_document(self)
 
 
 @verb(DESCRIBE)
 def describe(what: FilePath, component: str | None = None, **options: Unpack[DescribeOptions]) -> Description:
-    """Describe a system, an FMU or a slot: `perilune describe`, as a dictionary.
+    """Describe a system, an FMU or a slot: `perilune describe`.
 
-    ``what`` is a system, an FMU by name or file, or an interface by name; ``component`` one of a system, with all its
-    variables. Of a system the keys are components, connections, connectors, parameter_sets, campaigns, frames, loops;
-    of an FMU or a component ``variables``, with the ``items`` of Enumerations, and how an FMU is simulated ``alone``
-    (s); of a slot ``fmus`` too. A component says whether its outputs are treated as direct functions of inputs
-    (``feedthrough``) and where that comes from; an FMU lists the outputs that it does not declare it of, and the
-    variables of its ``terminals`` (FMI 3.0). With ``campaign`` it is a campaign of the system: ``values`` with those of
-    all files that it extends, each with the file and line that it comes from. The other options are those of
-    `simulate`. Raises InputError.
+    The result is a dictionary. A system has the keys components, connections, connectors, parameter_sets, campaigns,
+    frames and loops. An FMU, or a ``component`` of a system, has ``variables``, with ``items`` for Enumerations; an FMU
+    also has ``alone`` (its stand-alone simulation, s), its ``undeclared_outputs``, whose dependencies it does not
+    declare, and the variables of its ``terminals`` (FMI 3.0). A slot has ``variables`` and ``fmus``. A component states
+    whether its outputs are treated as direct functions of its inputs (``feedthrough``), and why. With ``campaign`` the
+    result describes a campaign of the system: ``values`` of all files that it extends, each with file and line. Raises
+    InputError.
     """
     name, system = os.fspath(what), system_options(options)
     if options["campaign"] is not None:

@@ -1,4 +1,4 @@
-"""`perilune.diff` and `perilune diff`: two runs over each other, signal by signal."""
+"""`perilune.diff` and `perilune diff`: comparison of two runs, signal by signal."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from .common.documented import Documented
 
 @dataclass(frozen=True, eq=False)
 class Differences(Documented):
-    """The differences of two runs: ``runs.signals`` by relative difference, each with its values in both.
+    """Differences of two runs: ``runs.signals`` by falling relative difference, each with its values in both runs.
 
-    Those within the ``tolerance``, or `LISTING` without one, are summarised.
+    Signals within ``tolerance`` (default: `LISTING`) are summarised.
     """
 
     runs: RunDifferences
@@ -33,11 +33,11 @@ class Differences(Documented):
         return f"{type(self).__name__}({len(signals)} signals, {sum(each.differs for each in signals)} differ)"
 
     def document(self) -> Document:
-        """Return what was compared, what differs and where."""
+        """Return a document with the compared runs, the signals that differ, and the times of the differences."""
         return differences_document(self.runs, LISTING if self.tolerance is None else self.tolerance)
 
     def problems(self) -> list[str]:
-        """Return signals beyond ``tolerance`` and signals that are not compared; nothing without a tolerance."""
+        """Return a line for each signal beyond ``tolerance`` or not compared; no lines without a tolerance."""
         if self.tolerance is None:
             return []
         beyond, _ = self.runs.split(self.tolerance)
@@ -48,11 +48,11 @@ class Differences(Documented):
 
 @verb(DIFF)
 def diff(first: FilePath, second: FilePath, **options: Unpack[DiffOptions]) -> Differences:
-    """Put two runs over each other, signal by signal: `perilune diff`.
+    """Compare two runs, signal by signal: `perilune diff`.
 
-    ``first`` and ``second`` are tables of signals over time (.csv, .parquet) that `simulate` wrote, or another tool's.
-    With ``tolerance`` a signal that differs by more than this fraction of its largest magnitude is a problem, and so is
-    one that only one run has. Raises InputError.
+    ``first`` and ``second`` are tables of signals over time (.csv, .parquet), written by `simulate` or by another tool.
+    With ``tolerance`` a signal is a problem if it differs by more than this fraction of its largest magnitude, or if
+    only one run has it. Raises InputError.
     """
     tolerance = options["tolerance"]
     if tolerance is not None and not tolerance >= 0.0:  # nan neither

@@ -20,7 +20,7 @@ FIRST_PAGE = BUILD / "site" / "index.html"
 
 @dataclass(frozen=True)
 class Documentation(Documented):
-    """The site's first ``page``, and whether a browser has opened it."""
+    """The first ``page`` of the documentation, and whether a browser opened it."""
 
     page: Path
     is_opened: bool
@@ -32,7 +32,7 @@ class Documentation(Documented):
 
 @verb(DOCS)
 def docs(**options: Unpack[DocsOptions]) -> Documentation:
-    """Open the documentation in a browser, or with ``print`` give its path: `perilune docs`. Raises InputError."""
+    """Open the documentation in a browser, or with ``print`` return its path: `perilune docs`. Raises InputError."""
     if not FIRST_PAGE.is_file():
         remedy = "build it with make docs" if IS_CHECKOUT else "read docs/ of the repository, or reinstall perilune"
         raise InputError("docs", str(FIRST_PAGE), "the site is not there", remedy)

@@ -1,4 +1,4 @@
-"""The flight server started ahead, while what else a command takes is imported: both take a second."""
+"""Early start of the server for simulation processes, parallel to other slow imports of a command."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..options.option import options_of
 
 
 def start_early(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:
-    """Start the server where a command will simulate in processes: FMUs of others, or campaigns with Python FMUs."""
+    """Start the server if a command will simulate in processes: foreign FMUs, or campaigns with Python FMUs."""
     if "in_process" not in options_of(verb.options) or options.get("in_process"):
         return
     files = [arguments.get("system"), *arguments.get("files", ()), *options.get("use", {}).values()]

@@ -1,4 +1,4 @@
-"""`perilune.export` and `perilune export`: an FMU, a system with its FMUs inside, or the blocks of a file, built."""
+"""`perilune.export` and `perilune export`: builds an FMU, a system with its FMUs, or the blocks of a file."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Exported(Documented, Written):
     fmi: int
 
     def document(self) -> Document:
-        """Return the paths that were written."""
+        """Return a document with the written paths."""
         return exported_document(**vars(self))
 
 
@@ -48,19 +48,18 @@ class Exported(Documented, Written):
 def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     """Build an FMU, a system as one .ssp with its FMUs, or the blocks of a .py file: `perilune export`.
 
-    ``name`` is a block's, a system's (or its folder), or a file; a block of one's own is looked up by its name in the
-    .py files of the working folder. ``fmi`` 3 writes native FMUs of FMI 3.0, for which a compiler is needed.
-    ``platforms`` are of native FMUs (linux64, win64, darwin64; of FMI 3.0 x86_64-linux and the like), by default those
-    that are prebuilt, or for which a compiler is installed; ``flavour`` is native by default, of a file both where one
-    is installed; ``ssp`` is the version of a system's documents, 2 with FMUs of FMI 3.0, which have arrays, and
-    ``studies`` are its campaigns, stability or all, whose reports the .ssp has as evidence; ``output`` is NAME.fmu or
-    NAME.ssp in the working folder, of a file its build/fmus.
+    ``name`` is a block, a system or its folder, or a file; a user's block is searched by name in the .py files of the
+    working folder. ``fmi`` 3 builds native FMUs of FMI 3.0, which needs a compiler. ``platforms`` of native FMUs are by
+    default those that are prebuilt, or for which a compiler is installed. ``flavour`` is native by default; blocks of a
+    file are built in both flavours if a compiler is installed. ``ssp`` is the version of a system's documents (default:
+    2 with FMUs of FMI 3.0), and ``studies`` are campaigns, stability or all, whose reports the .ssp contains as
+    evidence. ``output`` is by default NAME.fmu or NAME.ssp in the working folder, or build/fmus for a file.
 
-    ``as_fmu`` makes one FMU of a system, for all platforms for which a compiler is installed. ``slots`` maps a
-    component to FMUs (names or paths, with commas between), of which the FMU's parameter SLOT.use chooses one;
-    ``expose`` are signals that become local variables, ``faults`` connectors and tunable parameters for whose faults
-    it has inputs. ``use``, ``parameters``, ``set``, ``step``, ``stop_time``, ``algorithm`` and ``variant`` are those of
-    `simulate`. Raises InputError, with a line for each thing that is wrong with a block.
+    ``as_fmu`` builds one FMU of a system, for all platforms with a compiler. ``slots`` maps a component to FMUs (names
+    or paths separated by commas), among which the FMU's parameter SLOT.use selects; ``expose`` are signals that become
+    local variables, ``faults`` connectors and tunable parameters that get fault inputs. ``use``, ``parameters``,
+    ``set``, ``step``, ``stop_time``, ``algorithm`` and ``variant`` are as in `simulate`. Raises InputError, with a line
+    for each problem of a block.
     """
     text, flavour = os.fspath(name), options["flavour"]
     target = None if options["output"] is None else Path(options["output"])
@@ -86,7 +85,7 @@ def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
 
 
 def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
-    """Return the options of a system as one FMU. Raises InputError where some are given without `as_fmu`."""
+    """Return the request for a system as one FMU, if any. Raises InputError for its options without `as_fmu`."""
     if options["as_fmu"]:
         assembly = {name: value for name, value in options.items() if name in options_of(AssemblyOptions)}
         slots = {slot: _candidates(slot, fmus) for slot, fmus in options["slots"].items()}
@@ -102,7 +101,7 @@ def _read_one_fmu(options: ExportOptions) -> OneFmu | None:
 
 
 def _candidates(slot: str, fmus: object) -> list[str]:
-    """Return the candidates of a slot: one, a text with commas between them, or a list."""
+    """Return the candidates of a slot from a name, a text with commas, or a list. Raises InputError."""
     several = fmus if isinstance(fmus, list | tuple) else str(fmus).split(",") if isinstance(fmus, str | Path) else ()
     if not several or not all(isinstance(each, str | Path) for each in several):
         raise InputError("`slots`", slot, f"{fmus!r} are no FMUs", "give names or paths, in a text or a list")
@@ -110,7 +109,7 @@ def _candidates(slot: str, fmus: object) -> list[str]:
 
 
 def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
-    """Export a system as one FMU, from a name, a folder or an .ssp."""
+    """Export a system as one FMU from its name, its folder or an .ssp."""
     request.check_one_fmu()
     name = request.name
     if not _names_system(name) and not name.endswith(".ssp"):
@@ -127,12 +126,12 @@ def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
 
 
 def _names_system(name: str) -> bool:
-    """Return True if ``name`` is a system's name, its folder, or an SSD in its folder."""
+    """Return True if ``name`` is the name of a system, its folder, or an SSD in its folder."""
     return name in system_names() or Path(name).is_dir() or (name.endswith(".ssd") and Path(name).is_file())
 
 
 def _archive_name(name: str) -> str:
-    """Return the name of a system's file: that of its folder, or of an SSD next to the default one."""
+    """Return the file name of an exported system: the name of its folder, or of an SSD other than the default one."""
     path = Path(name).resolve()
     if path.suffix != ".ssd":
         return path.name
@@ -155,7 +154,7 @@ def _export(request: ExportRequest) -> Written:
 
 
 def _export_named(request: ExportRequest) -> Written:
-    """Export an FMU or a system of this repository or of a folder."""
+    """Export an FMU or a system by name or folder."""
     name, flavour, fmi = request.name, request.flavour or "native", request.fmi
     platforms = [] if flavour == "python" else request.find_platforms(prebuilt=True)
     blocks = catalogue()

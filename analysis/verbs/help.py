@@ -1,4 +1,4 @@
-"""Text of `perilune --help` and `perilune VERB --help` around the options: purposes, examples, exit statuses."""
+"""Help texts apart from options: verbs by purpose, examples, exit statuses."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NAME = 18  # columns of a verb's name
 
 
 class Formatter(argparse.HelpFormatter):
-    """Formatter of argparse, at most 100 columns wide, that keeps indented lines, those of examples, as they are."""
+    """argparse formatter, at most 100 columns wide, that leaves indented lines (examples) unchanged."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, max_help_position=32, width=min(shutil.get_terminal_size().columns, WIDEST))
@@ -33,7 +33,7 @@ class Formatter(argparse.HelpFormatter):
 
 
 class Parser(argparse.ArgumentParser):
-    """Parser of argparse with errors on one line and options in full."""
+    """argparse parser with errors on one line and without abbreviated options."""
 
     def __init__(self, **keywords: Any) -> None:
         super().__init__(**keywords, allow_abbrev=False, formatter_class=Formatter)
@@ -44,7 +44,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def overview() -> str:
-    """Return the verbs by purpose, each purpose with an example."""
+    """Return the verbs by purpose, with an example for each purpose."""
     lines = ["Spacecraft guidance, navigation and control as FMI components."]
     for purpose, verbs in PURPOSES.items():
         lines += ["", f"{purpose}:", *_rows([(verb.name, verb.text) for verb in verbs])]
@@ -54,13 +54,13 @@ def overview() -> str:
 
 
 def group_help(group: str) -> str:
-    """Return the verbs of a group."""
+    """Return the help text of a group: its verbs."""
     rows = [(name.split()[1], verb.text) for name, verb in VERBS.items() if name.split()[0] == group]
     return "\n".join([f"{GROUPS[group]}", "", *_rows(rows)])
 
 
 def verb_help(verb: Verb) -> str:
-    """Return a verb's examples, and the meaning of its exit statuses."""
+    """Return the examples of a verb and the meaning of its exit statuses."""
     examples = "".join(f"  {_break_line(command, 4)}\n      {comment}\n" for command, comment in verb.examples.items())
     return f"Examples:\n{examples}\n{exit_status(verb)}"
 
@@ -80,7 +80,7 @@ def _rows(rows: list[tuple[str, str]]) -> list[str]:
 
 
 def _break_line(command: str, indent: int) -> str:
-    """Return a command as a shell reads it, its lines no longer than WIDEST: broken before options."""
+    """Return a shell command broken before options into lines of at most WIDEST columns."""
     lines, first, *others = [], *command.split(" --")
     for other in others:
         if len(first) + len(other) + indent + 6 > WIDEST:

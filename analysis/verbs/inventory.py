@@ -1,4 +1,4 @@
-"""`perilune.inventory` and `perilune list`: systems, laws, searches and FMUs that are available."""
+"""`perilune.inventory` and `perilune list`: available systems, laws, searches and FMUs."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ KINDS = ("systems", "campaigns", "laws", "searches", "fmus")
 
 @dataclass(frozen=True)
 class SystemFiles:
-    """Description of a system, and its parameter sets, campaigns and loops by name."""
+    """Description of a system, and the names of its parameter sets, campaigns and loops."""
 
     description: str
     parameter_sets: tuple[str, ...]
@@ -37,7 +37,7 @@ class SystemFiles:
 
 @dataclass(frozen=True)
 class FmuEntry:
-    """An FMU: the interface that makes it swappable (None without one), its description, which flavours are built."""
+    """An FMU: its interface as a slot (None without one), its description, the flavours that are built."""
 
     interface: str | None
     description: str
@@ -46,9 +46,9 @@ class FmuEntry:
 
 @dataclass(frozen=True)
 class Inventory(Documented):
-    """``systems`` and ``fmus`` by name, those of the working folder too; names of ``laws`` and ``searches``.
+    """Available ``systems`` and ``fmus`` by name, including the working folder; names of ``laws`` and ``searches``.
 
-    ``campaigns_only`` is True of systems of which only campaigns are listed.
+    ``campaigns_only`` restricts the listing of systems to their campaigns.
     """
 
     systems: Mapping[str, SystemFiles]
@@ -58,19 +58,21 @@ class Inventory(Documented):
     campaigns_only: bool = False
 
     def document(self) -> Document:
-        """Return systems, laws, searches and FMUs as lists."""
+        """Return a document that lists systems, laws, searches and FMUs."""
         content = {name: entry for name, entry in asdict(self).items() if name != "campaigns_only"}
         return inventory_document(content, ("campaigns",)) if self.campaigns_only else inventory_document(content)
 
     def only(self, kind: str) -> Inventory:
-        """Return the inventory with one of `KINDS` alone."""
+        """Return the inventory restricted to one of `KINDS`."""
         if kind == "campaigns":
             systems = {name: system for name, system in self.systems.items() if system.campaigns}
             return Inventory(systems, (), (), {}, campaigns_only=True)
         return replace(Inventory({}, (), (), {}), **{kind: getattr(self, kind)})
 
     def matching(self, text: str) -> Inventory:
-        """Return entries with a text in name or description, in any case; of systems also in names of contents."""
+        """Return the entries whose name or description contains a text, ignoring case; for systems also names of
+        contents.
+        """
         sought = text.casefold()
         return Inventory(
             {
@@ -90,10 +92,10 @@ class Inventory(Documented):
 
 @verb(LIST)
 def inventory(what: str | None = None) -> Inventory:
-    """List what there is to simulate: `perilune list`.
+    """List what is available: `perilune list`.
 
-    Systems with their parameter sets, campaigns and loops; laws; searches; FMUs, those of the working folder too.
-    ``what`` is one of these kinds, or a text in names and descriptions. Raises InputError where nothing has it.
+    Systems with their parameter sets, campaigns and loops; laws; searches; FMUs, including those of the working folder.
+    ``what`` is one of these kinds, or a text in names or descriptions. Raises InputError if nothing matches.
     """
     everything = Inventory(
         {name: _system(open_system(name)) for name in system_names()},
@@ -123,7 +125,7 @@ def _system(archive: SystemArchive) -> SystemFiles:
 
 
 def _interface(block: type[Block]) -> str | None:
-    """Return the interface that makes a block swappable: the class right below Block; None without one."""
+    """Return the interface of a block, its base class directly below Block; None without one."""
     base = block.__mro__[block.__mro__.index(Block) - 1]
     return base.__name__ if base is not block else None
 

@@ -1,4 +1,4 @@
-"""Network operators: `perilune.law`, formula, parameter set and drawing; `perilune.synthesize`, a search for one."""
+"""Laws of network operators: `perilune.law`, a law with formula, parameter set and graph; `perilune.synthesize`."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes a
 
 @dataclass(frozen=True)
 class Law(Documented, laws.Law):
-    """A network operator's law: its matrix and parameters, as formula, drawing and parameter set.
+    """A law of a network operator: its matrix and parameters, shown as formula and graph, written as parameter set.
 
-    ``component`` is what the parameter set is for.
+    ``component`` is the component that the parameter set is for.
     """
 
     component: str = "guidance"
 
     def document(self) -> Document:
-        """Return formula, parameters and graph."""
+        """Return a document with formula, parameters and graph."""
         return law_document(self)
 
     def write(self, path: FilePath) -> None:
@@ -46,11 +46,11 @@ class Law(Documented, laws.Law):
         super().write(Path(path))
 
     def write_parameters(self, path: FilePath, component: str | None = None) -> None:
-        """Write the parameter set (.ssv) of the law, for its ``component`` unless another is given."""
+        """Write the parameter set (.ssv) of the law for ``component``, by default the law's."""
         write_atomically(Path(path), parameter_set(self, component or self.component))
 
     def write_graph(self, path: FilePath) -> None:
-        """Draw the law's graph (.svg)."""
+        """Write the law's graph as a drawing (.svg)."""
         _write_graph(self, Path(path))
 
     def plot(self) -> Plot:
@@ -63,14 +63,14 @@ class Law(Documented, laws.Law):
 
 @dataclass
 class SynthesisResult(Documented, outcome.SynthesisResult):
-    """Result of a search for a law; ``ended`` is the reason: success, generations or evaluations."""
+    """Result of a search for a law; ``ended`` is the reason for its end: success, generations or evaluations."""
 
     def document(self) -> Document:
-        """Return how the search ended, the chosen law and the Pareto set."""
+        """Return a document with the end of the search, the chosen law and the Pareto set."""
         return synthesis_document(self)
 
     def problems(self) -> list[str]:
-        """Return a line for a search without a successful law, with the remedy."""
+        """Return a line with a remedy if no law succeeded in all trials."""
         if self.succeeded:
             return []
         evaluation = self.search.choose().evaluation
@@ -93,10 +93,7 @@ def _write_graph(law: laws.Law, path: Path) -> None:
 
 @verb(LAW)
 def law(name: FilePath, **options: Unpack[LawOptions]) -> Law:
-    """Read a law of laws/ by name, or from its .json file: `perilune design law`.
-
-    ``component`` is the one that `Law.write_parameters` writes for. Raises InputError.
-    """
+    """Read a law by name, from laws/, or from its .json file: `perilune design law`. Raises InputError."""
     component = options["component"]
     if not component.isprintable() or "" in component.split("."):
         raise InputError("`component`", repr(component), "not a component's name", "name it as the system does")
@@ -105,12 +102,12 @@ def law(name: FilePath, **options: Unpack[LawOptions]) -> Law:
 
 @verb(SEARCH)
 def synthesize(search: FilePath, **options: Unpack[SearchOptions]) -> SynthesisResult:
-    """Search for a law of a network operator, every candidate simulated: `perilune design search`.
+    """Search for a law of a network operator by simulating every candidate: `perilune design search`.
 
-    ``search`` is a name of laws/searches/ or the path of a campaign that says what to search for; ``output`` a folder
-    for checkpoints, Pareto set and law, from which ``resume`` continues; the search ends with the generation in which
-    ``evaluations`` laws have been evaluated. The result's ``succeeded`` says whether the chosen law has every trial a
-    success. Raises InputError.
+    ``search`` is a name in laws/searches/ or the path of a campaign with a table [network_operator]. ``output`` is a
+    folder for checkpoints, Pareto set and law, from which ``resume`` continues. The search ends with the generation in
+    which ``evaluations`` laws have been evaluated. The result's ``succeeded`` is True if the chosen law succeeds in
+    every trial. Raises InputError.
     """
     folder = None if options["output"] is None else Path(options["output"])
     check_folder("`output`", folder, overwrite=options["resume"], otherwise="`resume` to continue")

@@ -1,4 +1,4 @@
-"""`perilune.new_block`, `perilune.new_system` and `perilune new`: a block or a system of one's own to start from."""
+"""`perilune.new_block`, `perilune.new_system` and `perilune new`: templates for a user's blocks and systems."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from .common.documented import Documented
 
 
 class NewFiles(Documented, block.Written):
-    """The ``paths`` that were written, and the ``commands`` that come next."""
+    """The ``paths`` that were written, and the ``commands`` to run next."""
 
     def document(self) -> Document:
-        """Return the paths, and the commands that come next."""
+        """Return a document with the paths and the commands."""
         return new_files_document(self)
 
 
 @verb(NEW_BLOCK)
 def new_block(name: str, slot: str | None = None) -> NewFiles:
-    """Write NAME.py with a block in the working folder: `perilune new block`.
+    """Write NAME.py with a block into the working folder: `perilune new block`.
 
-    ``slot`` is the interface of the guidance, filter or allocation that it is to be. Raises InputError.
+    ``slot`` is an interface (of a guidance, filter or allocation) that the block implements. Raises InputError.
     """
     return NewFiles(**vars(block.new_block(name, slot)))
 
 
 @verb(NEW_SYSTEM)
 def new_system(name: str) -> NewFiles:
-    """Write a folder NAME with a plant, a controller and what is needed to simulate them: `perilune new system`.
+    """Write a folder NAME with a plant, a controller and all files to simulate them: `perilune new system`.
 
     Raises InputError.
     """

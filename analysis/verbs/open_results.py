@@ -1,4 +1,4 @@
-"""Campaigns that are stored, in Python: `open_results`, and `plot_results` of several in one figure."""
+"""Stored campaigns in Python: `open_results`, and `plot_results` for several of them in one figure."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ Results = OpenedResults | BatchResult
 def plot_results(results: Mapping[str, FilePath | Results], metrics: Sequence[str] | None = None) -> Plot:
     """Plot distributions of metrics of several campaigns over all trials: a panel per metric, a line per variant.
 
-    ``results`` are folders that `batch` wrote, or what `batch` or `open_results` gave, by their labels; they may be of
-    different systems and draws, since only the metrics' names and units are put together. Without ``metrics`` it is
-    all that every campaign has and that vary. Raises KeyError for a metric that a campaign does not have, InputError
-    for units that differ and for what is no results, ValueError where there is none to draw.
+    ``results`` maps labels to folders of `batch`, or to results of `batch` or `open_results`. The campaigns may differ
+    in system and samples; only names and units of metrics must agree. By default all common metrics that vary are
+    plotted. Raises KeyError for an unknown metric, InputError for different units and other folders, ValueError if
+    there is nothing to plot.
     """
     if not results:
         raise InputError("plot_results", "", "no results", "give folders that batch(..., output=...) wrote, by labels")
@@ -46,7 +46,7 @@ def plot_results(results: Mapping[str, FilePath | Results], metrics: Sequence[st
 
 
 def distributions(results: Mapping[str, Results], metrics: Sequence[str] | None) -> Plot:
-    """Return the figure of `plot_results`; a label may be empty where it is the only one."""
+    """Return the figure of `plot_results`; the label of a single campaign may be empty."""
     declared = {label: _metrics(batch) for label, batch in results.items()}
     common = [name for name in next(iter(declared.values())) if all(name in batch for batch in declared.values())]
     for name in metrics or ():
@@ -77,7 +77,7 @@ def _metrics(results: Results) -> dict[str, Metric]:
 
 
 def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Metric:
-    """Return a metric that all campaigns have. Raises InputError where its units differ."""
+    """Return a metric that all campaigns have. Raises InputError if its units differ."""
     (first, metric), *others = ((label, known[name]) for label, known in declared.items())
     for label, other in others:
         if other.unit != metric.unit:
@@ -87,7 +87,7 @@ def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Met
 
 
 def _lines(label: str, results: Results, metric: str) -> list[tuple[str, np.ndarray]]:
-    """Return the values of a metric, each with the name of its line: the label, the variant, or both."""
+    """Return the values of a metric by the name of the line: the label, the variant, or both."""
     if isinstance(results, BatchResult):
         lines = {variant: rows.column(f"metric.{metric}") for variant, rows in results.rows.items()}
     else:
@@ -107,10 +107,10 @@ def _varies(values: np.ndarray) -> bool:
 
 
 class StoredResults(OpenedResults):
-    """A campaign's folder as it was when it was opened; only data that is requested is read, at that time.
+    """A campaign's folder as of its opening; data are read when they are requested.
 
-    ``columns`` are unit and meaning by name, ``trials`` how many the campaign has of each variant and ``flown`` how
-    many of them are there, ``provenance`` what the numbers depend on.
+    ``columns`` are units and descriptions by name, ``trials`` is the number of trials per variant, ``flown`` the number
+    of those available, and ``provenance`` lists what the numbers depend on.
     """
 
     def __repr__(self) -> str:
@@ -118,14 +118,14 @@ class StoredResults(OpenedResults):
         return f"{type(self).__name__}({self.provenance['system']}, {there} trials: {', '.join(self.variants)})"
 
     def to_pandas(self, columns: Sequence[str] | None = None) -> Any:
-        """Return all ``columns``, or some, as a pandas.DataFrame, a row per variant and trial; needs pandas."""
+        """Return ``columns`` (default: all) as a pandas.DataFrame, a row per variant and trial; needs pandas."""
         require_pandas()
         return self.arrow(columns).to_pandas()
 
     def plot(self, *metrics: str) -> Plot:
-        """Plot distributions of metrics over all trials, variant next to variant; by default all metrics that vary.
+        """Plot distributions of metrics over all trials, variants side by side; by default all metrics that vary.
 
-        Raises KeyError for a metric that the campaign does not have, and ValueError where there is none to draw.
+        Raises KeyError for an unknown metric, ValueError if there is nothing to plot.
         """
         return distributions({"": self}, metrics or None)
 
@@ -136,9 +136,9 @@ class StoredResults(OpenedResults):
 
 
 def open_results(folder: FilePath) -> StoredResults:
-    """Open the folder that `batch` wrote to its ``output``, whole or still flying: nothing of the trials is read yet.
+    """Open a folder that `batch` wrote to its ``output``, complete or unfinished, without reading trials.
 
-    A campaign that still flies gives the trials that are there: open it again for more. Raises InputError for a folder
-    that is none; a damaged shard, and one of another campaign, are named when they are read.
+    An unfinished campaign has the trials stored so far; open it again for more. Raises InputError for any other folder.
+    Damaged shards, and shards of another campaign, raise InputError when they are read.
     """
     return StoredResults(read_folder(Path(folder)))

@@ -1,4 +1,4 @@
-"""Plans of least propellant: `perilune.plan_hover_transfer`, `perilune.plan_landing_bound`, and their commands."""
+"""Trajectories of least propellant: `perilune.plan_hover_transfer`, `perilune.plan_landing_bound`, their commands."""
 
 from __future__ import annotations
 
@@ -47,12 +47,12 @@ NEEDS = {
 
 
 def format_numbers(options: Mapping[str, Any], names: Collection[str]) -> dict[str, float]:
-    """Return the numbers among the options that are set, by name."""
+    """Return the options among ``names`` that are set, by name."""
     return {name: options[name] for name in names if options[name] is not None}
 
 
 def propellant_problems(vehicle: Vehicle, propellant: float, what: str) -> list[str]:
-    """Return a line for a plan that takes more propellant (kg) than is on board."""
+    """Return a line if ``what`` uses more propellant (kg) than is on board."""
     carried = vehicle.mass - vehicle.dry_mass
     if propellant <= carried:
         return []
@@ -61,14 +61,14 @@ def propellant_problems(vehicle: Vehicle, propellant: float, what: str) -> list[
 
 @dataclass(frozen=True)
 class HoverPlan(Documented, HoverStudy):
-    """A transfer planned: its ``programme``, compared with optimum and bound as far as they were requested."""
+    """A planned transfer: its ``programme``, compared with the optimum and the bound, if requested."""
 
     def document(self) -> Document:
-        """Return plans, their times, the conditions of the optimum, figures."""
+        """Return a document with the plans, their times, the conditions of the optimum, and figures."""
         return transfer_document(self)
 
     def problems(self) -> list[str]:
-        """Return a line if the programme takes more propellant than is on board."""
+        """Return a line if the programme uses more propellant than is on board."""
         return propellant_problems(
             self.vehicle, self.programme.propellant_fraction * self.vehicle.mass, "the programme"
         )
@@ -80,14 +80,13 @@ def plan_hover_transfer(
 ) -> HoverPlan:
     """Plan a transfer between two hovers: `perilune design transfer`; see docs/planning.md.
 
-    ``transfer`` and ``vehicle`` are the published case, with numbers of it replaced by keywords of their names.
-    ``margins`` leave feedback its part of throttle and angular acceleration: `Margins`, or True for the published ones;
-    ``maximum_throttle``, ``minimum_throttle`` and ``angular_acceleration`` (deg/s2) replace their numbers.
-    ``duration`` (s) is the programme's end, by default that of least propellant; ``optimum`` and ``bound`` need the
-    extra `plan`. ``adjoint`` integrates the adjoint system along the optimum, ``finite_switches`` computes the best
-    profile with a finite number of switches and ``free_fall`` the programme that becomes vertical in free fall, with
-    the fraction ``turn_begun`` of the turn before it, and at ``distances`` (m), too. Raises InputError for a vehicle
-    that cannot hover, and PlanError where there is no such plan.
+    ``transfer`` and ``vehicle`` are by default the published case; keywords replace single numbers of them. ``margins``
+    (`Margins`, or True for the published ones) reserve throttle and angular acceleration for feedback;
+    ``maximum_throttle``, ``minimum_throttle`` and ``angular_acceleration`` (deg/s2) replace single margins. ``optimum``
+    and ``bound`` need the extra `plan`. ``adjoint`` integrates the adjoint system along the optimum;
+    ``finite_switches`` computes the best profile with a finite number of switches; ``free_fall`` computes the programme
+    that becomes vertical in free fall, after the fraction ``turn_begun`` of its turn, also for ``distances`` (m).
+    Raises InputError for a vehicle that cannot hover, and PlanError if no plan exists.
     """
     if options["intervals"] is not None and not (options["optimum"] or options["bound"]):
         problem = "without effect unless `optimum` or `bound` is given"
@@ -119,7 +118,7 @@ def plan_hover_transfer(
 
 
 def _margins(options: TransferOptions, vehicle: Vehicle) -> Margins | None:
-    """Return the margins with the numbers that replace theirs; None where none are requested."""
+    """Return the margins with single numbers replaced; None if no margins are requested."""
     margins = options["margins"]
     numbers = format_numbers(options, ("maximum_throttle", "minimum_throttle", "angular_acceleration"))
     if not numbers and not margins:
@@ -137,19 +136,19 @@ OF_LANDING = tuple(Landing.__dataclass_fields__)
 
 @dataclass(frozen=True)
 class LandingBound(Documented, LandingStudy):
-    """The bound of a landing: ``propellant`` (kg) and the ``bound`` path that takes it.
+    """Lower bound on the propellant of a landing: ``propellant`` (kg) and the ``bound`` trajectory that attains it.
 
-    ``file`` is where the bound is stored, in the system's folder, if it was requested.
+    ``file`` is the file in the system's folder that stores the bound, if requested.
     """
 
     file: Path | None = None
 
     def document(self) -> Document:
-        """Return the bound, its checks and its path."""
+        """Return a document with the bound, its checks and its trajectory."""
         return landing_bound_document(self, self.file)
 
     def problems(self) -> list[str]:
-        """Return a line if the bound is more propellant than is on board."""
+        """Return a line if the bound exceeds the propellant on board."""
         return propellant_problems(self.vehicle, self.propellant, "the bound")
 
 
@@ -160,11 +159,12 @@ def plan_landing_bound(
     system: FilePath | None = None,
     **options: Unpack[BoundOptions],
 ) -> LandingBound:
-    """Bound the propellant of a single-burn braking and landing: `perilune design bound`; needs the extra `plan`.
+    """Compute a lower bound on the propellant of a single-burn braking and landing: `perilune design bound`.
 
-    ``landing`` and ``vehicle`` are those of a ``system`` that declares a bound, else the published case, with numbers
-    replaced by keywords of their names; ``climb`` is in deg. ``direct`` checks the bound by a direct method. ``store``
-    writes it to the system's folder, for the pages of its simulations. Raises InputError and PlanError.
+    Needs the extra `plan`. ``landing`` and ``vehicle`` are by default those of the ``system``, if it declares a bound,
+    else the published case; keywords replace single numbers of them (``climb`` in deg). ``direct`` verifies the bound
+    by a direct method. ``store`` writes it to the system's folder for the pages of its simulations. Raises InputError
+    and PlanError.
     """
     chosen = system_options(options)
     if system is None and chosen != SystemOptions():
@@ -207,7 +207,7 @@ def _read_inputs(prepared: PreparedSystem) -> Inputs:
 
 
 def _check_store(prepared: PreparedSystem | None, changed: Sequence[str]) -> None:
-    """Refuse to store a bound that is not that of the system as its files say, or in a folder that cannot hold it."""
+    """Reject storing a bound for changed values, or in a folder that cannot store it. Raises InputError."""
     if prepared is None:
         raise InputError("`store`", "", "no system to store it with", "name a system")
     check_stored_system(prepared.archive)

@@ -23,17 +23,18 @@ NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # on which r
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RareResult(Required, outcome.RareResult):
-    """A rare failure: ``probability``, ``interval``, ``flights``, ``failures``, and the conditions of all of them.
+    """Probability of a rare failure: ``probability``, ``interval``, ``flights`` (simulations), ``failures``,
+    conditions.
 
-    ``simulation`` has the levels, ``flown`` every simulation; ``folder`` is where it is stored, if it is.
+    ``simulation`` contains the levels, ``flown`` every simulation; ``folder`` is where the result is stored, if it is.
     """
 
     def document(self) -> Document:
-        """Return probability, interval, levels and design points with their conditions."""
+        """Return a document with probability, interval, levels, and design points with their conditions."""
         return rare_document(self, self.folder)
 
     def write(self, folder: FilePath) -> None:
-        """Write rare.json, flights.parquet and, where there are failures, failures.parquet."""
+        """Write rare.json and flights.parquet, and failures.parquet if there are failures."""
         super().write(Path(folder))
 
 
@@ -41,13 +42,15 @@ class RareResult(Required, outcome.RareResult):
 def rare(system: FilePath, campaign: FilePath, **options: Unpack[RareOptions]) -> RareResult:
     """Estimate the probability of a rare failure over a campaign's dispersions and noise: `perilune rare`.
 
-    The method is subset simulation. ``failure`` is an expression over metrics and draws, by default that a trial is no
-    success; ``samples`` are the simulations of a level; the search ends where a failure is less probable than
-    ``least``. ``hold`` fixes dispersed inputs.
-    The noise of components is random, unless ``noise_trial`` is the trial of the campaign whose noise all simulations
-    have: then the probability is conditional on that realisation. ``compare`` chooses the FMU of a slot that the
-    campaign compares; ``output`` is a folder for rare.json, flights.parquet and failures.parquet; ``require`` are
-    expressions over probability, interval[1], interval[2] and flights. The rest is as in `batch`. Raises InputError.
+    The method is subset simulation. ``failure`` is an expression over metrics and sampled inputs; by default a trial
+    fails if it is no success. ``samples`` is the number of simulations per level; the search ends once a failure is
+    less probable than ``least``. ``hold`` fixes dispersed inputs.
+
+    Noise of components is random, unless ``noise_trial`` selects the noise of one trial of the campaign for all
+    simulations: the probability is then conditional on this realisation. ``compare`` selects the FMU of a slot that the
+    campaign compares. ``output`` is a folder for rare.json, flights.parquet and failures.parquet; ``require`` are
+    expressions over probability, interval[1], interval[2] and flights. Other options are as in `batch`. Raises
+    InputError.
     """
     folder = results_folder(options)
     requirements = read_requirements(options["require"], NUMBERS)

@@ -1,4 +1,4 @@
-"""`perilune.replay`: a trial of a campaign again, with all signals, from the campaign's folder or from its system."""
+"""`perilune.replay`: repetition of a trial with all signals, from its campaign's folder or from its system."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ OF_A_FOLDER = {
 
 @dataclass(repr=False, kw_only=True)
 class ReplayResult(Result):
-    """A trial of a campaign as a simulation with every signal; see `Result` for what it has, plots and page.
+    """A trial of a campaign simulated again with every signal; see `Result` for its members, plots and page.
 
-    ``replayed`` is the trial in its campaign: its ``configuration``, outcome and faults, and how it differs from the
-    stored one: not at all on the machine that simulated the campaign.
+    ``replayed`` is the trial within its campaign: ``configuration``, outcome, faults, and differences from the stored
+    trial, of which there are none on the machine that simulated the campaign.
     """
 
     replayed: ReplayedTrial
@@ -50,7 +50,7 @@ class ReplayResult(Result):
 
     @property
     def configuration(self) -> str:
-        """The campaign's variant."""
+        """The variant of the campaign."""
         return self.replayed.configuration
 
     @property
@@ -60,32 +60,32 @@ class ReplayResult(Result):
 
     @property
     def success(self) -> bool:
-        """True if the trial is a success of its campaign."""
+        """True if the trial meets the campaign's success condition."""
         return self.replayed.outcome.success
 
     @property
     def metrics(self) -> dict[str, float]:
-        """The campaign's metrics of the trial."""
+        """The campaign's metrics of this trial, by name."""
         return self.replayed.outcome.metrics
 
     @property
     def stored(self) -> bool:
-        """True if the folder has the trial."""
+        """True if the folder contains the trial."""
         return self.replayed.stored
 
     @property
     def differences(self) -> tuple[str, ...]:
-        """Differences of the simulation from the stored trial."""
+        """The differences from the stored trial, a line each."""
         return self.replayed.differences
 
     def context(self) -> RunContext:
-        """Return the campaign's trial behind the document."""
+        """Return the context of the document: system, command, and the trial of the campaign."""
         context = super().context()
         title = f"{self.system}, {self.configuration}, trial {self.trial}"
         return replace(context, title=title, draw_diagram=None, lines=[*context.lines, *self._lines()])
 
     def to_json(self) -> dict[str, object]:
-        """Return that of `Result`, campaign, the trial's success and metrics, and differences from the stored one."""
+        """Return the JSON of `Result` with campaign, success, metrics and differences of the trial added."""
         metrics = {name: value if abs(value) < float("inf") else None for name, value in self.metrics.items()}
         faults = {"faults": list(self.replayed.faults)} if self.replayed.plan.fault_texts() else {}
         return (
@@ -103,7 +103,7 @@ class ReplayResult(Result):
         )
 
     def _lines(self) -> list[str]:
-        """Return the terminal's lines on the trial, which follow those of its simulation."""
+        """Return lines on the trial, which the terminal shows after those of the simulation."""
         metrics = self.replayed.plan.campaign.metrics
         lines = outcome_lines(self.configuration, self.trial, self.replayed.outcome, metrics)
         lines += [faults_line(self.replayed.faults)] if self.replayed.faults else []
@@ -112,7 +112,7 @@ class ReplayResult(Result):
         return lines
 
     def problems(self) -> list[str]:
-        """Return those of `Result`, a line for a trial without success, and differences from the stored one."""
+        """Return the problems of `Result`, a missed success, and differences from the stored trial."""
         name, lines = f"{self.source}: trial {self.trial}", super().problems()
         success = self.replayed.plan.campaign.success.text
         if self.complete and not self.success:
@@ -124,18 +124,18 @@ class ReplayResult(Result):
         return lines + [f"{name}: {each}{'' if self.replayed.is_cut_off else remedy}" for each in self.differences]
 
     def last_values(self) -> dict[str, float]:
-        """Return the last values of signals and of time, and the metrics, for requirements."""
+        """Return the last values of time and signals, and the metrics, for requirements."""
         return super().last_values() | {METRIC + name: value for name, value in self.metrics.items()}
 
 
 @verb(REPLAY)
 def replay(source: FilePath, trial: int, **options: Unpack[ReplayOptions]) -> ReplayResult:
-    """Simulate a trial of a campaign again, with all signals, to the last bit: `perilune replay`.
+    """Repeat a trial of a campaign, identical to the last bit and with all signals: `perilune replay`.
 
-    ``source`` is a folder of `batch`, or with ``campaign`` a system; ``configuration`` names the variant where the
-    campaign compares several. ``log`` writes FMU messages to standard error; ``timeout`` (s, wall clock) takes the
-    place of the campaign's own. The rest is as in `batch`, and goes with a system only: a folder has its own. Raises
-    InputError, and TimeoutError where a step of an FMU does not return.
+    ``source`` is a folder of `batch`, or with ``campaign`` a system; ``configuration`` selects a variant if there are
+    several. ``timeout`` (s, wall clock) replaces that of the campaign. Other options are as in `batch` and apply to a
+    system only, since a folder defines its own. Raises InputError, and TimeoutError if a step of an FMU does not
+    return.
     """
     with chdir(Path.cwd()):  # an FMU may change the folder
         try:

@@ -29,7 +29,7 @@ WRITERS = {"report": "report", "output": "write", "data": "write_data"}
 
 
 def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]) -> None:
-    """Refuse files that cannot be written, and options without their file, before any work. Raises InputError."""
+    """Reject files that cannot be written, and options that need a missing file, before any work. Raises InputError."""
     declared = options_of(verb.files)
     everything = {**options_of(verb.options), **declared}
     for name, path in files.items():
@@ -49,7 +49,7 @@ def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]
 
 
 def report_state_of_fmus(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:
-    """Print a line on standard error for every source that changed since what is simulated was built of it."""
+    """Print a line on standard error for each source that changed since its FMU or SSD was built from it."""
     if "system" not in arguments or "use" not in options_of(verb.options):
         return
     complete = {**defaults_of(verb.options), **options}
@@ -60,7 +60,7 @@ def report_state_of_fmus(verb: Verb, arguments: Mapping[str, Any], options: Mapp
 
 
 def present(verb: Verb, result: Documented, files: Mapping[str, Any]) -> ExitStatus:
-    """Print a result or its JSON document, write its files, report its problems; return the command's exit status."""
+    """Print a result or its JSON document, write its files, report its problems; return the exit status."""
     written, declared, flags = Results(), options_of(verb.files), flags_of(verb)
     written.written += [folder] if (folder := getattr(result, "folder", None)) is not None else []
     target = files.get("json")

@@ -45,11 +45,11 @@ STUCK = "nothing is written; see its messages with `log` all, or give a longer `
 
 @dataclass(repr=False, kw_only=True)
 class Result(Documented, results.Result):
-    """A simulation. ``result["plant.position"]`` is a signal over ``time``, [n] or [n, k]; see `Flight` for the rest.
+    """Result of a simulation: ``result["plant.position"]`` is a signal over ``time``, [n] or [n, k]; see `Flight`.
 
-    ``prepared`` is the system as it was simulated, ``figures`` those that its SSD declares, which `report` plots;
-    ``faults`` were injected, ``requirements`` are those of the option ``require``; ``command`` simulates it again, with
-    the same input over time unless that was an array.
+    ``prepared`` is the simulated system, ``figures`` are those that its SSD declares for `report`, ``faults`` the
+    injected faults, ``requirements`` the expressions of the option ``require``. ``command`` repeats the simulation,
+    with its input over time unless that was an array.
     """
 
     prepared: PreparedSystem
@@ -68,7 +68,7 @@ class Result(Documented, results.Result):
         return run_document(self, self.context(), self.to_json())
 
     def context(self) -> RunContext:
-        """Return the system and the command behind the document."""
+        """Return the context of the document: system and command."""
         faults = [faults_line(self.faults)] if self.faults else []
         notes = [*note_lines(self.prepared), *([] if self.signals else missing_outputs(self.prepared.network))]
         lines = [*flight_lines(self.prepared, self.figures, self), *notes, *faults]
@@ -86,9 +86,9 @@ class Result(Documented, results.Result):
         return make_diagram(self.prepared, faults_of(self.faults))
 
     def plot(self, *names: str) -> Plot:
-        """Plot signals over time, a panel for each name; a vector's elements share one.
+        """Plot signals over time, a panel for each name; the elements of a vector share one panel.
 
-        Raises KeyError for an unknown name, InputError without any.
+        Raises KeyError for an unknown name, InputError without a name.
         """
         from ..documents.of.simulation.histories import signal_plot
 
@@ -99,7 +99,7 @@ class Result(Documented, results.Result):
         return signal_plot(self, names)
 
     def plot_trajectory(self) -> Plot:
-        """Plot the path of each position: ground track and side view. Raises ValueError where there is none."""
+        """Plot the trajectory of each position: ground track and side view. Raises ValueError without a position."""
         from ..documents.of.simulation.trajectory import trajectory_plot
 
         plot = trajectory_plot(self)
@@ -109,24 +109,24 @@ class Result(Documented, results.Result):
 
     @property
     def limits(self) -> list[dict[str, Any]]:
-        """The SSD's `Limits`, evaluated at the end: name, value, unit, least, most and verdict of each.
+        """The SSD's `Limits` evaluated at the end: name, value, unit, least, most and verdict of each.
 
-        The verdict is ``met``, ``violated`` or ``not evaluated``, with the reason why not.
+        The verdict is ``met``, ``violated`` or ``not evaluated``; the latter includes the reason.
         """
         return limit_document(self.figures, self)
 
     def to_json(self) -> dict[str, object]:
-        """Return status, provenance, limits and final values, for other programs."""
+        """Return status, provenance, limits and final values as JSON values, for other programs."""
         final = {name: value if abs(value) < float("inf") else None for name, value in self.final().items()}
         return self.summary() | {"limits": self.limits, "final": final}
 
     def problems(self) -> list[str]:
-        """Return the reason for an incomplete simulation, violated limits, and requirements that are not met."""
+        """Return a line for an incomplete simulation, violated limits, and each requirement that is not met."""
         problems = flight_problems(self.prepared, self.figures, self)
         return problems + requirement_problems(self.requirements, self.last_values())
 
     def last_values(self) -> dict[str, float]:
-        """Return the last values of signals and of time, for requirements."""
+        """Return the last values of time and signals, for requirements."""
         if not self.time.size:
             return {}
         return {"time": float(self.time[-1]), **{name: float(value) for name, value in self.final().items()}}
@@ -136,15 +136,15 @@ class Result(Documented, results.Result):
 def simulate(system: FilePath, **options: Unpack[RunOptions]) -> Result:
     """Simulate a system, or an FMU alone, once: `perilune run`.
 
-    ``system`` is a name under ssp_systems, a folder, an .ssp or .fmu; ``use`` maps components to FMUs (block names or
-    paths), ``parameters`` lists parameter sets (names of the system's, or paths), ``set`` maps ``component.variable``
-    to values in SI units, and ``component.vector`` to lists of them; ``faults`` are `Fault` or their texts; ``step``
-    and ``stop_time`` are in s. ``input`` are inputs over time: the path of a CSV file, a structured array or columns by
-    name, ``time`` (s) and unconnected inputs. ``record`` names further variables to record, such as local ones,
-    ``component.vector`` all its elements; of an FMU alone without the component. ``log`` writes FMU messages from this
-    level on to standard error; ``timeout`` (s, wall clock) ends the simulation at its next communication point;
-    ``require`` are expressions over the last values, see `Result.problems`. Raises InputError, and TimeoutError where a
-    step of an FMU does not return; a simulation that fails comes back with its ``status``.
+    ``use`` maps components to FMUs (block names or paths); ``parameters`` are names of the system's parameter sets, or
+    paths; ``set`` maps ``component.variable`` to values in SI units, and ``component.vector`` to lists; ``faults`` are
+    `Fault` or their texts. ``input`` is the path of a CSV file, a structured array, or columns by name: ``time`` (s)
+    and unconnected inputs. ``record`` names further variables to record; ``component.vector`` stands for all elements,
+    and names of an FMU alone have no component. ``timeout`` (s, wall clock) ends the simulation at its next
+    communication point. ``require`` are expressions over the last values; see `Result.problems`.
+
+    Raises InputError, and TimeoutError if a step of an FMU does not return. A simulation that fails returns a result
+    with its ``status``.
     """
     series = None if options["input"] is None else read_series(options["input"])
     prepared = prepare_system(os.fspath(system), system_options(options), series=series)

@@ -25,10 +25,10 @@ if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes a
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SensitivityResult(Stored, study.SensitivityResult):
-    """Sobol' indices of metrics and success: `of` gives those of one, ``ranks`` the rank correlations."""
+    """Sobol' indices of metrics and success: `of` returns those of one, ``ranks`` are the rank correlations."""
 
     def document(self) -> Document:
-        """Return the indices and rank correlations with their conditions."""
+        """Return a document with indices, rank correlations and conditions."""
         return sensitivity_document(self, self.folder)
 
     def write(self, folder: FilePath) -> None:
@@ -36,9 +36,9 @@ class SensitivityResult(Stored, study.SensitivityResult):
         super().write(Path(folder))
 
     def plot(self, *metrics: str) -> Plot:
-        """Plot total and first-order indices with their intervals, a panel for each metric; by default all.
+        """Plot total and first-order indices with confidence intervals, a panel for each metric; by default all.
 
-        Raises KeyError for a metric that has no indices, ValueError where none has any.
+        Raises KeyError for a metric without indices, ValueError if no metric has any.
         """
         for name in metrics:
             if name not in self.with_indices:
@@ -54,12 +54,12 @@ class SensitivityResult(Stored, study.SensitivityResult):
 def sensitivity(
     system: FilePath, campaign: FilePath, base: int, **options: Unpack[SensitivityOptions]
 ) -> SensitivityResult:
-    """Compute Sobol' indices of a campaign's metrics and of its success: `perilune sensitivity`.
+    """Compute Sobol' indices of a campaign's metrics and success: `perilune sensitivity`.
 
-    ``base`` is a power of two, 32 or more: that many times the number of dispersed inputs and 3 are simulated, or the
-    number and 2 where no noise is random. The noise of all components is one input in addition to the dispersed ones.
-    Jointly normal draws are refused. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder
-    for sensitivity.json, flights.parquet and draws.parquet. The rest is as in `batch`. Raises InputError.
+    ``base`` is a power of two, at least 32. For k dispersed inputs ``base`` * (k + 3) trials are simulated, or ``base``
+    * (k + 2) without random noise; the noise of all components counts as one further input. Jointly normal inputs are
+    rejected. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for sensitivity.json,
+    flights.parquet and draws.parquet. Other options are as in `batch`. Raises InputError.
     """
     folder = results_folder(options)
     plan = read_campaign(system, campaign, options)

@@ -1,4 +1,4 @@
-"""A campaign in parts: `prepare` writes its folder, `shard` simulates shards of it, `merge` puts them together."""
+"""A campaign in shards: `prepare` writes its folder, `shard` simulates some shards, `merge` combines them."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ from .common.documented import Documented
 
 @dataclass(frozen=True)
 class PreparedCampaign(Documented):
-    """A campaign's ``folder`` with ``shards`` of ``shard_size`` trials, the last one with the rest."""
+    """A campaign's ``folder`` with ``shards`` of ``shard_size`` trials each; the last shard may be smaller."""
 
     folder: Path
     shards: int
     shard_size: int
 
     def document(self) -> Document:
-        """Return the folder, and the commands that simulate and merge its shards."""
+        """Return a document with the folder and the commands that simulate and merge its shards."""
         return prepared_document(**vars(self))
 
 
@@ -46,7 +46,7 @@ def prepare(
 ) -> PreparedCampaign:
     """Write a campaign to the folder ``output`` without simulating it: `perilune prepare`.
 
-    `shard` simulates its shards, here or wherever the folder is, and `merge` puts them together. Options are as in
+    `shard` simulates its shards on any machine that has the folder, and `merge` combines them. Options are as in
     `batch`. Raises InputError.
     """
     folder = Path(output)
@@ -62,7 +62,7 @@ def prepare(
 
 @dataclass(frozen=True)
 class ShardResult(Documented):
-    """Numbers of shards: simulated, complete before, and missing, of ``count``."""
+    """Numbers of shards: simulated now, complete before, and still missing, out of ``count``."""
 
     simulated: int
     complete_before: int
@@ -71,20 +71,20 @@ class ShardResult(Documented):
     failures: tuple[str, ...]
 
     def document(self) -> Document:
-        """Return the numbers of shards."""
+        """Return a document with the numbers of shards."""
         return shards_document(self.simulated, self.complete_before, self.missing, self.count)
 
     def problems(self) -> list[str]:
-        """Return failed simulations of each variant."""
+        """Return a line for each variant with failed simulations."""
         return list(self.failures)
 
 
 @verb(SHARD)
 def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpack[ShardOptions]) -> ShardResult:
-    """Simulate some shards of a campaign's folder: `perilune shard`. Complete ones stay as they are.
+    """Simulate some shards of a campaign's folder, except complete ones: `perilune shard`.
 
-    ``numbers`` are shards, the first is 0, or a list of them and of texts "A-B"; ``scheduler`` and ``retry_crashed``
-    are as in `batch`. Raises InputError, for a number that is no shard's too.
+    ``numbers`` is the number of a shard, from 0, or a list of numbers and texts "A-B". ``scheduler`` and
+    ``retry_crashed`` are as in `batch`. Raises InputError, also for an unknown number.
     """
     if isinstance(numbers, str):
         raise InputError("shard", numbers, "a text, not a list of shards", f"give [{numbers!r}]")
@@ -115,7 +115,7 @@ def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpac
 
 @verb(MERGE)
 def merge(folder: FilePath, **options: Unpack[MergeOptions]) -> BatchResult:
-    """Merge the shards of a campaign's folder: `perilune merge`. Raises InputError where some are missing."""
+    """Merge the shards of a campaign's folder: `perilune merge`. Raises InputError if shards are missing."""
     with chdir(Path.cwd()), resume_hint(Path(folder)):
         campaign = open_folder(Path(folder))
         requirements = campaign_requirements(campaign.plan, options["require"])

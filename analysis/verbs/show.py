@@ -1,4 +1,4 @@
-"""`perilune.show` and `perilune show`: stored campaigns in a browser, for those that are too large for a page."""
+"""`perilune.show` and `perilune show`: stored campaigns in a browser, also those too large for a page."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class ServedCampaigns(Documented):
     folders: tuple[Path, ...]
 
     def document(self) -> Document:
-        """Return that the server has ended."""
+        """Return a document that states that the server ended."""
         return served_document(self.folders)
 
 
@@ -34,8 +34,8 @@ class ServedCampaigns(Documented):
 def show(*folders: FilePath | Sequence[FilePath], **options: Unpack[ShowOptions]) -> ServedCampaigns:
     """Serve stored campaigns to a browser on this machine until Ctrl-C: `perilune show`.
 
-    ``folders`` are those that `batch` wrote to its ``output``, or a list of them; the address of the page is printed.
-    Nothing is written. Raises InputError.
+    ``folders`` are folders that `batch` wrote to its ``output``, as arguments or a list. The address of the page is
+    printed; nothing is written. Raises InputError.
     """
     paths = tuple(Path(folder) for folder in path_list(folders))
     if not paths:

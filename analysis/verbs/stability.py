@@ -1,4 +1,4 @@
-"""A study of stability from Python: `stability`, and its result with page, diagrams and tables."""
+"""`perilune.stability`: a stability study; its result with page, diagrams and tables."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes a
 
 @dataclass(repr=False)
 class StabilityReport(Documented, report.StabilityReport):
-    """A study: ``loops``, ``points``, ``sweeps``, ``joint`` and a ``verdict``; gains as factors, angles in rad.
+    """Result of a stability study: ``loops``, ``points``, ``sweeps``, ``joint`` and a ``verdict``.
 
-    ``command`` repeats it.
+    Gains are factors, angles are in rad; ``command`` repeats the study.
     """
 
     command: str = ""
@@ -45,7 +45,7 @@ class StabilityReport(Documented, report.StabilityReport):
         return f"{type(self).__name__}({self.system}: {self.verdict}; {verdicts})"
 
     def loop(self, name: str, point: str | None = None) -> LoopReport:
-        """Return a loop by its name and, where it is studied at several, its operating point. Raises KeyError."""
+        """Return a loop by name; ``point`` is needed if it is studied at several operating points. Raises KeyError."""
         named = {loop.point: loop for loop in self.loops if loop.name == name}
         if not named:
             raise KeyError(f"no loop {name}; {suggestion(name, {loop.name for loop in self.loops})}")
@@ -56,17 +56,17 @@ class StabilityReport(Documented, report.StabilityReport):
         return next(iter(named.values())) if point is None else named[point]
 
     def document(self) -> Document:
-        """Return the study with its verdict, margins, operating points and loops."""
+        """Return a document with verdict, margins, operating points and loops."""
         return stability_document(self, self.command)
 
     def problems(self) -> list[str]:
-        """Return requirements that are not met or withheld, and what could not be studied."""
+        """Return a line for each requirement not met or withheld, and for each loop that could not be studied."""
         return stability_problems(self)
 
     def to_pandas(self) -> Any:
         """Return margins as a pandas.DataFrame, a row per loop and operating point, in dB, deg and s; needs pandas.
 
-        An unstable loop has no margins: nan; one without a crossing has inf.
+        Margins of an unstable loop are NaN; a margin without a crossing is infinite.
         """
         require_pandas()
         from pandas import DataFrame
@@ -84,26 +84,26 @@ class StabilityReport(Documented, report.StabilityReport):
         write_data(self, Path(folder))
 
     def plot_bode(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """Plot gain and phase of a loop, by default the first that fails, else the first.
+        """Plot gain and phase of a loop over frequency; by default of the first loop that fails, else of the first.
 
-        This and the other diagrams raise KeyError for an unknown loop, ValueError where the study lacks what one takes.
+        All diagrams raise KeyError for an unknown loop, ValueError if the study lacks the data of the diagram.
         """
         return self._plot(Diagram.BODE, loop, point)
 
     def plot_nyquist(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """Plot the response in the complex plane, with the zone that it is to stay out of."""
+        """Plot the response of a loop in the complex plane, with its exclusion zone."""
         return self._plot(Diagram.NYQUIST, loop, point)
 
     def plot_nichols(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """Plot gain over phase, with the zone that it is to stay out of."""
+        """Plot gain over phase of a loop, with its exclusion zone."""
         return self._plot(Diagram.NICHOLS, loop, point)
 
     def plot_sensitivity(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """Plot sensitivity and complementary sensitivity, with their peaks."""
+        """Plot sensitivity and complementary sensitivity of a loop, with their peaks."""
         return self._plot(Diagram.SENSITIVITY, loop, point)
 
     def plot_poles(self, loop: str | None = None, point: str | None = None) -> Plot:
-        """Plot poles of the closed loop in the z plane."""
+        """Plot the poles of the closed loop in the z plane."""
         return self._plot(Diagram.POLES, loop, point)
 
     def plot_step(self, loop: str | None = None, point: str | None = None) -> Plot:
@@ -124,12 +124,11 @@ class StabilityReport(Documented, report.StabilityReport):
 def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> StabilityReport:
     """Compute margins, poles and robustness of a system's loops: `perilune stability`; see docs/stability.md.
 
-    ``loops`` are names that the system declares (all of them by default), or connectors to cut as
-    ``component.connector`` at the time ``at`` (s), or at several. Declared loops are studied there, too, with the
-    settings of their points. ``campaign`` disperses the margins over its trials, with one ``configuration`` where it
-    has several; ``trial`` studies the draws of one of them instead, and ``draws`` is a file of given draws, as in
-    `batch`. The rest is as in `simulate`. Raises InputError, and StudyError where a simulation that the study needs
-    fails.
+    ``loops`` are names that the system declares (default: all), or connectors ``component.connector`` to cut at one or
+    several times ``at`` (s). With ``at``, declared loops are studied at these times, too, with the settings of their
+    points. ``campaign`` disperses the margins over its trials; ``configuration`` selects one of several. ``trial``
+    studies the sample of a single trial instead. Other options are as in `simulate`. Raises InputError, and StudyError
+    if a simulation of the study fails.
     """
     at, campaign, draws = options["at"], options["campaign"], options["draws"]
     times = (at,) if isinstance(at, int | float) else tuple(at)

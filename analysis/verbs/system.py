@@ -26,9 +26,10 @@ from .run import Result, simulate
 
 
 class System:
-    """A system as `perilune compose` composes it from a `system.toml`, line by line in Python.
+    """A system composed in Python, with the content of a `system.toml`.
 
-    Problems are raised together by `run` and `write`, which write nothing then. ``step`` and ``stop_time`` are in s.
+    `run` and `write` check it and report all problems together; in that case nothing is written. ``step`` and
+    ``stop_time`` are in s.
     """
 
     def __init__(
@@ -48,9 +49,10 @@ class System:
         return write_toml(self._source)
 
     def add(self, name: str, fmu: FilePath, **parameters: SetValue) -> None:
-        """Add a component: an FMU by name, or by path, which `write` copies; parameters in their variables' units.
+        """Add a component; ``fmu`` is a name or a path, ``parameters`` are in their variables' units.
 
-        Raises InputError for a second component of the name, or a second file of an FMU's name.
+        `write` copies an FMU given by path. Raises InputError for a second component of the same name, or a second FMU
+        file of the same name.
         """
         if name in self._source.components:
             raise InputError(self._source.name, name, "two components have this name", "rename one")
@@ -66,39 +68,40 @@ class System:
             self.set(f"{name}.{parameter}", setting)
 
     def connect(self, source: str, *sinks: str) -> None:
-        """Connect ``COMPONENT.OUTPUT`` with inputs, whole vectors at once; a connector of the system has no component.
+        """Connect ``COMPONENT.OUTPUT`` to inputs, whole vectors at once; system connectors are named without a
+        component.
 
-        A connector of the system is declared by `connector` first.
+        A system connector must be declared by `connector` first.
         """
         entries = [Entry(f"{source} -> {', '.join(sinks)}", "connect")]
         self._source = replace(self._source, connections=(*self._source.connections, *entries))
 
     def connector(self, name: str, kind: str) -> None:
-        """Declare a connector of the system itself, of kind ``input``, ``output`` or ``parameter``.
+        """Declare a connector of the system of kind ``input``, ``output`` or ``parameter``.
 
-        Type and unit are those of what it is connected to; the output ``finished`` ends the simulation.
+        Its type and unit follow from its connection; an output ``finished`` ends the simulation.
         """
         self._source = replace(self._source, connectors={**self._source.connectors, name: kind})
 
     def set(self, name: str, setting: SetValue) -> None:
-        """Set a parameter, ``COMPONENT.PARAMETER``, in its variable's unit; of a vector a list."""
+        """Set a parameter ``COMPONENT.PARAMETER`` in the unit of its variable; a vector takes a list."""
         numbers = setting if isinstance(setting, int | float | str | Sequence) else list(setting)
         self._source = replace(self._source, set={**self._source.set, name: numbers})
 
     def declare(self, *names: str) -> None:
-        """Declare connectors of components that nothing is connected to."""
+        """Declare connectors of components that remain unconnected."""
         entries = (Entry(name, "declare") for name in names)
         self._source = replace(self._source, declare=(*self._source.declare, *entries))
 
     def leave_unconnected(self, *names: str) -> None:
-        """Let inputs keep the start values of their FMUs."""
+        """Leave inputs unconnected, at the start values of their FMUs."""
         entries = (Entry(name, "leave_unconnected") for name in names)
         self._source = replace(self._source, unconnected=(*self._source.unconnected, *entries))
 
     def write(self, folder: FilePath) -> list[Path]:
-        """Write `system.toml`, SystemStructure.ssd and FMUs that were given by path; return the paths.
+        """Write `system.toml`, SystemStructure.ssd and all FMUs added by path; return the paths.
 
-        Raises InputError with a line for each problem, and where one of these files was edited since.
+        Raises InputError with a line for each problem, and if one of these files was edited.
         """
         home = Path(folder)
         raw = self.toml.encode()

@@ -1,4 +1,4 @@
-"""`perilune.validate` and `perilune validate`: files checked without a simulation."""
+"""`perilune.validate` and `perilune validate`: check of files without a simulation."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ FILES = (".ssv", ".json", ".toml")  # that are no systems
 
 @dataclass(frozen=True)
 class FileCheck:
-    """One path that was checked: ``problems`` (a line each, none where it is valid) and ``notes``."""
+    """Check of one path: ``problems`` (a line each, none if it is valid) and ``notes``."""
 
     path: str
     problems: tuple[str, ...]
@@ -65,7 +65,7 @@ class FileCheck:
 
 @dataclass(frozen=True)
 class Validation(Documented, Sequence[FileCheck]):
-    """The checks, in the order of the paths."""
+    """The checks in the order of the paths."""
 
     checks: tuple[FileCheck, ...]
     problem_status: ClassVar[ExitStatus] = ExitStatus.REFUSED
@@ -81,7 +81,7 @@ class Validation(Documented, Sequence[FileCheck]):
         return len(self.checks)
 
     def document(self) -> Document:
-        """Return notes, and the valid paths."""
+        """Return a document with notes and valid paths."""
         return validation_document([asdict(check) for check in self.checks])
 
     def problems(self) -> list[str]:
@@ -91,11 +91,11 @@ class Validation(Documented, Sequence[FileCheck]):
 
 @verb(VALIDATE)
 def validate(*paths: FilePath | Sequence[FilePath], **options: Unpack[ValidateOptions]) -> Validation:
-    """Check systems, FMUs, parameter sets, campaigns, laws: `perilune validate`.
+    """Check systems, FMUs, parameter sets, campaigns and laws: `perilune validate`.
 
-    They are given one by one or as a list; the result has a `FileCheck` for each. Of a system the variant is checked
-    that `simulate` would take, or ``all_variants``; the other options are those of `simulate`, for systems and FMUs
-    alone. Raises InputError for options that exclude each other.
+    ``paths`` are arguments or a list; the result contains a `FileCheck` for each. A system is checked in the variant
+    that `simulate` would use, or in ``all_variants``. Other options are as in `simulate` and apply to systems and FMUs
+    only. Raises InputError for incompatible options.
     """
     system, all_variants = system_options(options), options["all_variants"]
     if all_variants and system.chosen["variant"] is not None:
@@ -139,7 +139,7 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
 
 
 def _broken_rules(fmu: Fmu) -> list[str]:
-    """Return violations of the schema by an FMU's description; if none, those of FMI's rules on names and structure."""
+    """Return schema violations of an FMU's description; if none, violations of FMI's rules on names and structure."""
     if fmu.flaws:
         return fmu.flaws
     # FMPy parses a name in a millisecond: it is asked about those that are not plainly right.
@@ -156,7 +156,7 @@ def _broken_rules(fmu: Fmu) -> list[str]:
 
 
 def _check_campaign(path: str, systems: Sequence[str]) -> list[str]:
-    """Check a search, or a campaign as `batch` does, with its system if known; return notes. Raises InputError."""
+    """Check a search, or a campaign as `batch` does if its system is known; return notes. Raises InputError."""
     raw = _read(path)
     system = find_system(raw, Path(path), systems)
     table = read_source(raw, path, None if system is None else open_system(system)).table()
@@ -171,7 +171,7 @@ def _check_campaign(path: str, systems: Sequence[str]) -> list[str]:
 
 
 def _check_short_file(path: Path) -> list[str]:
-    """Compose a system without writing it; return a note where the SSD next to it differs. Raises InputError."""
+    """Compose a system without writing it; return a note if the SSD next to its file differs. Raises InputError."""
     _, document = compose_file(path)
     ssd = path.with_name(DESCRIPTION)
     if not ssd.exists() or find_difference(document, read_input(ssd, "move it away", bound_of(ssd.name))) is None:
@@ -180,7 +180,7 @@ def _check_short_file(path: Path) -> list[str]:
 
 
 def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
-    """Return notes on a variant of a system, or on all. Raises InputError."""
+    """Check one variant of a system, or all; return notes. Raises InputError."""
     notes: list[str] = []
     others = [name for name in open_system(path).variants() if name != DEFAULT_VARIANT] if all_variants else []
     for variant in (options.chosen["variant"], *others):
@@ -203,13 +203,13 @@ def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
 
 
 def _reset_notes(fmu: Fmu, name: str, options: System) -> list[str]:
-    """Return a note on an FMU whose reset fails: it is tried, unless it is our own."""
+    """Return a note if the reset of an FMU fails; foreign FMUs are tested."""
     note = renewal_note(name, find_verdict(fmu, options))
     return [] if note is None else [note]
 
 
 def _check_loops(subject: Subject, declared: Declaration) -> None:
-    """Refuse an operating point that cannot be set, and a loop that is cut where no signal is."""
+    """Reject an operating point that cannot be set, and a loop without a signal at its cut. Raises InputError."""
     points = {point.name: subject.at(point) for point in declared.points}
     for loop in declared.loops:
         for name in loop.points:

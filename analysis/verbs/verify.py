@@ -1,4 +1,4 @@
-"""`perilune.verify` and `perilune verify`: the evidence inside FMUs and systems, reproduced."""
+"""`perilune.verify` and `perilune verify`: reproduction of the evidence inside FMUs and systems."""
 
 from __future__ import annotations
 
@@ -39,23 +39,23 @@ class Verifications(Documented, Sequence[Verification]):
         return len(self.files)
 
     def document(self) -> Document:
-        """Return each experiment, notes, and which files are as they were handed on."""
+        """Return a document with each experiment, notes, and the files that are unaltered."""
         return verification_document(self.files)
 
     def problems(self) -> list[str]:
-        """Return problems of all files: altered, not reproduced, or compared with too little."""
+        """Return the problems of all files: altered, not reproduced, or insufficiently compared."""
         return verification_problems(self.files)
 
 
 @verb(VERIFY)
 def verify(*paths: FilePath | Sequence[FilePath], **options: Unpack[VerifyOptions]) -> Verifications:
-    """Simulate the reference trajectories inside FMUs and systems again, and check their files: `perilune verify`.
+    """Reproduce the reference trajectories inside FMUs and systems, and check their files: `perilune verify`.
 
-    ``paths`` are .fmu and .ssp files with a manifest of FMI-LS-REF, Perilune's or another tool's, or names of FMUs, of
-    which ``flavour`` says the build. Signals without a declared tolerance may differ by ``tolerance`` of their greatest
-    magnitude: by default 1e-6, and 0, the same bits, in Perilune's own. A tolerance above 1e-2 or fewer than 10 samples
-    verify nothing. ``timeout`` (s, wall clock) is of each simulation; the other options say what foreign FMUs may do.
-    Raises InputError for a file without evidence, and for an experiment that takes more than a bound permits.
+    ``paths`` are .fmu and .ssp files of any tool with a manifest of FMI-LS-REF, or names of FMUs, of which ``flavour``
+    selects the build. Signals without a declared tolerance may differ by ``tolerance`` of their greatest magnitude: by
+    default 1e-6, and 0 (identical bits) in Perilune's files. A tolerance above 1e-2 or fewer than 10 samples verify
+    nothing. ``timeout`` (s, wall clock) limits each simulation; other options restrict foreign FMUs. Raises InputError
+    for a file without evidence, and for an experiment that exceeds a limit on size.
     """
     system = SystemOptions(**trust_of(options).trust)
     watch = Watch(options["timeout"])
@@ -69,7 +69,7 @@ def verify(*paths: FilePath | Sequence[FilePath], **options: Unpack[VerifyOption
 
 
 def _path(text: str, flavour: str | None) -> Path:
-    """Return the file of a path or of an FMU's name. Raises InputError for folders and other files."""
+    """Return the file for a path or the name of an FMU. Raises InputError for folders and other files."""
     path = Path(text)
     if names_fmu(path) or path.suffix.lower() == ".ssp":
         return path

@@ -30,15 +30,18 @@ NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class WorstResult(Required, outcome.WorstResult):
-    """A worst case: ``worst`` and ``worst_random`` with their draws and metrics, and every simulation in ``flown``.
+    """Result of a worst-case search: ``worst`` and ``worst_random`` with samples and metrics, every simulation in
+    ``flown``.
 
-    ``plan`` is what was simulated; None for a stability margin. ``folder`` is where the result is stored, if it is.
+    ``plan`` is the simulated plan, None for a stability margin. ``folder`` is where the result is stored, if it is.
     """
 
     plan: BatchPlan | None = None
 
     def document(self) -> Document:
-        """Return the worst case with its conditions, the search, random trials and the box; its page simulates it."""
+        """Return a document with the worst case, conditions, search, random trials and box; its page simulates the
+        worst case.
+        """
         simulate = None if self.plan is None else partial(simulate_worst, self, self.plan)
         return worst_document(self, self.folder, simulate)
 
@@ -60,17 +63,18 @@ class Search(Conditions, total=False):
 def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions]) -> WorstResult:
     """Search for the worst case of a metric within a box of a campaign's dispersions: `perilune worst`.
 
-    ``metric`` is an expression over metrics and draws, the larger the worse, by default the margin to the success
-    condition. With ``loop`` it is the smallest stability ``margin`` instead, by default the disk margin: of a loop that
-    the system names, at an operating ``point`` of it, or of a connector to cut at the time ``at`` (s); an unstable loop
-    is worse than any margin, and ``compare``, ``faults``, ``input``, ``log`` and ``timeout`` do not go with one.
+    ``metric`` is an expression over metrics and sampled inputs that grows as the case gets worse; default: the margin
+    to the success condition. With ``loop`` the objective is the smallest stability ``margin`` (default: disk margin) of
+    a loop that the system declares, at its operating ``point``, or of a connector to cut at the time ``at`` (s). An
+    unstable loop is worse than any margin; ``compare``, ``faults``, ``input``, ``log`` and ``timeout`` exclude
+    ``loop``.
 
-    ``sigmas`` bounds normal draws, others have their full range; ``flights`` are by default 2000, for a margin 500.
-    Where components have noise, every point has the same ``realisations`` of it, by default 5, for a margin 1, whose
-    ``quantile`` is made largest, by default 0.5, the median; the worst point gets ten times as many new ones.
-    ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for worst.json, flights.parquet
-    and worst.parquet; ``require`` are expressions over worst, random, fresh_worst, fresh_quantile and flights. The
-    rest is as in `batch`. Raises InputError.
+    ``sigmas`` bounds normal inputs; others have their full range. ``flights`` is the number of simulations, by default
+    2000, or 500 for a margin. If components have noise, every point is simulated with the same ``realisations`` of it
+    (by default 5, or 1 for a margin), whose ``quantile`` (default: 0.5, the median) is maximised; the worst point gets
+    ten times as many new ones. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for
+    worst.json, flights.parquet and worst.parquet; ``require`` are expressions over worst, random, fresh_worst,
+    fresh_quantile and flights. Other options are as in `batch`. Raises InputError.
     """
     folder = results_folder(options)
     loop = options["loop"]
@@ -107,7 +111,7 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
 
 
 def _commands_of_margin(search: MarginAsked) -> Commands:
-    """Return the commands for the studies of a search for the worst margin."""
+    """Return the writers of commands for the studies of a search for the worst margin."""
 
     def replay(draws: Path, trial: int) -> str:
         return study_command(replace(search.request, draws=draws), search.loop.name, trial)

@@ -1,6 +1,6 @@
 // Written by build_web.py from analysis/show/documents.py.
 
-// A column of a campaign; numbers are in SI, times ``factor`` in ``unit``.
+// A column of a campaign; its numbers are in SI, multiplied by ``factor`` they are in ``unit``.
 export interface Quantity {
   name: string;
   unit: string;
@@ -8,13 +8,13 @@ export interface Quantity {
   meaning: string;
 }
 
-// A variant of a campaign, and its colour.
+// A variant of a campaign with its colour.
 export interface Variant {
   name: string;
   colour: string;
 }
 
-// A campaign in a folder; ``flown`` of its trials are there.
+// A campaign in a folder; ``flown`` is the number of trials available.
 export interface Campaign {
   folder: string;
   system: string;
@@ -26,7 +26,7 @@ export interface Campaign {
   quantities: Quantity[];
 }
 
-// Campaigns, and sizes: bins of a column, bars of a histogram, histograms at first.
+// Campaigns, and sizes: bins per column, bars per histogram, initial number of histograms.
 export interface ShowDocument {
   campaigns: Campaign[];
   bins: number;
@@ -34,20 +34,20 @@ export interface ShowDocument {
   figures: number;
 }
 
-// A range of numbers; of asinh(x / knee) unless the knee is 0.
+// A range of numbers, linear if the knee is 0, else linear in asinh(x / knee).
 export interface ScaleDocument {
   low: number;
   high: number;
   knee: number;
 }
 
-// Counts by variant: of the bars, then of nan, infinity and minus infinity.
+// Counts by variant: of the bars, then of NaN, infinity and minus infinity.
 export interface HistogramCounts {
   counts: number[][];
   scale: ScaleDocument | null;
 }
 
-// Trials one by one: row numbers, bins, outcomes and variants as little-endian integers in base64.
+// Individual trials: row numbers, bins, outcomes and variants as little-endian integers in base64.
 export interface DotsDocument {
   rows: string;
   x: string;
@@ -56,7 +56,7 @@ export interface DotsDocument {
   variants: string;
 }
 
-// Trials over two columns: counts and failures of squares, rows from the bottom; or dots of few trials.
+// Trials over two columns: trials and failures per square, rows from the bottom; or few trials as dots.
 export interface GridCounts {
   x: ScaleDocument | null;
   y: ScaleDocument | null;
@@ -65,14 +65,14 @@ export interface GridCounts {
   dots?: DotsDocument;
 }
 
-// The ends of a range in SI, ``low`` included, ``high`` not; ``step`` is the least distance to another end.
+// The ends of a range in SI: ``low`` inclusive, ``high`` exclusive; ``step`` is the least distance between ends.
 export interface RangeEnds {
   low: number;
   high: number;
   step: number;
 }
 
-// The answer to a query; ``outcomes`` are failures and successes of each variant.
+// The answer to a query; ``outcomes`` are the failures and successes of each variant.
 export interface Counts {
   outcomes: [number, number][];
   ranges: (RangeEnds | null)[];
@@ -80,7 +80,7 @@ export interface Counts {
   grids: GridCounts[];
 }
 
-// A trial, the command that simulates it again, and numbers: null is nan, a text infinite.
+// A trial, the command that repeats it, and its numbers: null is NaN, a text is infinite.
 export interface TrialEntry {
   row: number;
   trial: number;

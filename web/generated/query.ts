@@ -1,13 +1,13 @@
 // Written by build_web.py from analysis/show/query.py.
 
-// The rows of which a column is in the bins from ``first`` to ``last``.
+// Rows whose value in a column is in the bins ``first`` to ``last``, both included.
 export interface Range {
   column: number;
   first: number;
   last: number;
 }
 
-// Query of ``histograms`` and ``grids`` of columns, over the rows in all ranges, of the outcome and variants.
+// Query for ``histograms`` and ``grids`` of columns, over the rows that match all ranges, outcome and variants.
 export interface Query {
   histograms?: number[];
   grids?: [number, number][];

@@ -1,1 +1,1 @@
-"""A system as one FMU of FMI 2.0: its components' C, and the steps between them, in one self-contained file."""
+"""Export of a system as one self-contained FMU of FMI 2.0: the C of its components, and the co-simulation steps."""

@@ -1,4 +1,4 @@
-"""The FMU of a system, written: description, sources, libraries for platforms, parameter sets, pages."""
+"""Builder of a system's FMU: description, sources, libraries, parameter sets, pages."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ def build_system_fmu(
     *,
     portable: bool,
 ) -> None:
-    """Build one FMU of a system at ``path``; two builds are byte-identical.
+    """Build one FMU of a system at ``path``; the build is reproducible to the byte.
 
-    ``portable`` compiles with zig even where the system has a compiler. Raises InputError for what cannot be in one
-    FMU, `CompilerMissing` and `CompilationFailed`.
+    ``portable`` compiles with zig even if the machine has another compiler. Raises InputError for content that one FMU
+    cannot have, `CompilerMissing` and `CompilationFailed`.
     """
     slots, options = request.slots, request.options
     preparation = Preparation(archive, options, slots)
@@ -74,7 +74,7 @@ def build_system_fmu(
 def _files(
     name: str, model: SystemModel, variables: Variables, others: OtherSets, is_ours: bool, guid: str
 ) -> dict[str, bytes]:
-    """Return the FMU without its binaries and its manifest."""
+    """Return the files of the FMU except binaries and manifest."""
     about = model.network.description.system.about or f"the system {name}"
     sources = read_wrapper(2, "system")
     sources |= {file_name(source): write_kind(source).encode() for source in model.sources}
@@ -107,7 +107,7 @@ def _files(
 
 
 def _system_units(model: SystemModel) -> dict[str, UnitDefinition]:
-    """Return the units of the system's connectors, as its description defines them."""
+    """Return the units of the system's connectors as its description defines them."""
     nodes = (node for choice in model.choices for node in choice.prepared.network.nodes.values())
     units = {node.unit.name: node.unit for node in nodes if node.unit is not None}
     return {
@@ -145,7 +145,7 @@ def _check_names(declared: Sequence[FmuVariable], file: str) -> None:
 
 
 def _model_identifier(system: str, model: SystemModel) -> str:
-    """Return the name of a system's FMU, one of C that no component and no other file has."""
+    """Return the C identifier of a system's FMU, distinct from those of its components and other files."""
     name = re.sub(r"\W", "_", system, flags=re.ASCII)
     name = name if not name[:1].isdigit() else f"fmu_{name}"
     used = {source.prefix.removesuffix("_") for source in model.sources} | {

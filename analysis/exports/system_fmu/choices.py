@@ -1,4 +1,4 @@
-"""The systems that one FMU has inside: one for each choice of candidates in its slots."""
+"""Variants of a system inside one FMU: one for each choice of candidates for its slots."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ NOT_ONE = "export the system as .ssp"
 
 @dataclass(frozen=True)
 class Choice:
-    """A system with one candidate in each slot: ``candidates`` by slot, ``numbers`` of them among all, from 1."""
+    """A system with one candidate in each slot: ``candidates`` by slot, and their ``numbers``, counted from 1."""
 
     candidates: Mapping[str, str]
     numbers: tuple[int, ...]
@@ -33,12 +33,12 @@ class Choice:
 
     @property
     def name(self) -> str:
-        """For functions of C; empty where there is nothing to choose."""
+        """The suffix of C functions; empty without slots."""
         return "".join(f"_{number}" for number in self.numbers)
 
 
 class Preparation:
-    """Prepares the choices of a system, with the FMUs that are loaded already."""
+    """Prepares the choices of a system; loaded FMUs are shared between them."""
 
     def __init__(self, archive: SystemArchive, options: SystemOptions, slots: Mapping[str, Sequence[str]]) -> None:
         self.archive = archive
@@ -47,7 +47,7 @@ class Preparation:
         self._loaded: dict[str, Fmu] = {}
 
     def choices(self) -> list[Choice]:
-        """Return one for each combination of candidates. Raises InputError for a system that cannot be one FMU."""
+        """Return a choice for each combination of candidates. Raises InputError for a system that cannot be one FMU."""
         for slot, candidates in self.slots.items():
             names = [candidate_name(each) for each in candidates]
             if len(set(names)) < len(names):
@@ -68,12 +68,14 @@ class Preparation:
         return choices
 
     def combinations(self) -> list[dict[str, str]]:
-        """Return the replacements of each slot's component, for every choice."""
+        """Return, for every choice, the candidate of each slot."""
         return [dict(zip(self.slots, use, strict=True)) for use in itertools.product(*self.slots.values())]
 
     def choice(self, use: Mapping[str, str], *more: str) -> Choice:
-        """Return the system with these candidates and, after the chosen ones, ``more``
-        parameter sets. Raises InputError."""
+        """Return the system with these candidates; the parameter sets ``more`` apply after the chosen ones.
+
+        Raises InputError.
+        """
         options = self.options
         parameters = (*options.parameters, *more)
         changed = options.but(
@@ -91,7 +93,7 @@ class Preparation:
         return Choice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
 
     def _values_for(self, use: Mapping[str, str]) -> dict[str, SetValue]:
-        """Return the values of options; of SLOT.CANDIDATE.PARAMETER those of these candidates."""
+        """Return the values of the option `set`; of SLOT.CANDIDATE.PARAMETER only those of these candidates."""
         chosen = {}
         for name, number in self.options.set.items():
             slot, _, inside = name.partition(".")
@@ -115,12 +117,12 @@ class Preparation:
 
 
 def candidate_name(use: str) -> str:
-    """Return the name of a candidate, of a block or of a file."""
+    """Return the name of a candidate: the block, or the stem of the file."""
     return Path(use).stem if names_fmu(use) else use
 
 
 def _start_of(network: Network, name: str) -> float | bool | str:
-    """Return the start of an input of the system: that of the first input of a component that it reaches."""
+    """Return the start value of a system input, taken from the first component input that it drives."""
     start, node = _start_reached(network, name), network.nodes[name]
     if start is None or (node.type_name == "Enumeration" and start not in node.enumeration.values()):
         return _no_start(network, name)
@@ -128,7 +130,7 @@ def _start_of(network: Network, name: str) -> float | bool | str:
 
 
 def _no_start(network: Network, name: str) -> float | bool | str:
-    """Return 0, false, or the first item of an enumeration."""
+    """Return the neutral start value of an input: 0, false, or the first item of an enumeration."""
     node = network.nodes[name]
     check_type(network, node)
     if node.enumeration:
@@ -137,7 +139,10 @@ def _no_start(network: Network, name: str) -> float | bool | str:
 
 
 def _start_reached(network: Network, name: str) -> float | None:
-    """Return the value with which the first input of a component that a connector reaches has its start."""
+    """Return the value of a connector at which the first component input that it drives has its start value.
+
+    None if the connector drives no component input through a linear conversion.
+    """
     for link in network.driver.values():
         if link.source.name != name or link.transformation.table or not link.transformation.factor:
             continue
@@ -156,13 +161,13 @@ def _start_reached(network: Network, name: str) -> float | None:
 
 
 def check_type(network: Network, node: Node) -> None:
-    """Refuse a connector of the system whose type no block has. Raises InputError."""
+    """Reject a system connector of a type that blocks do not have. Raises InputError."""
     if node.type_name in TEXTS:
         raise InputError(network.file, node.where, f"a {node.type_name}, which no block has", NOT_ONE)
 
 
 def system_connectors(network: Network, kind: str) -> list[str]:
-    """Return the connectors of the system itself that are of this kind."""
+    """Return the connectors of the system, of one kind, by name."""
     return [name for name, connector in network.description.system.connectors.items() if connector.kind == kind]
 
 
@@ -174,7 +179,7 @@ def _check(prepared: PreparedSystem) -> None:
 
 
 def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem, options: SystemOptions) -> int:
-    """Return a slot's default candidate: that of the system, else the first; counted from 1."""
+    """Return the number (from 1) of a slot's default candidate: the system's own if a candidate, else the first."""
     given = options.use.get(slot)
     component = dict(prepared.network.components()).get(slot)
     names = [candidate_name(each) for each in candidates]
@@ -183,7 +188,10 @@ def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem,
 
 
 def parameter_chain(network: Network, values: Mapping[str, float | str], target: str) -> list[str]:
-    """Return the connectors that bring a parameter its value, from the outermost that has one down to ``target``."""
+    """Return the connectors along which a parameter gets its value: the outermost with a value first, ``target`` last.
+
+    Empty if no connector before ``target`` has a value.
+    """
     chain = [target]
     while chain[-1] in network.driver:
         chain.append(network.driver[chain[-1]].source.name)
@@ -194,7 +202,7 @@ def parameter_chain(network: Network, values: Mapping[str, float | str], target:
 
 
 def check_slots(slots: Mapping[str, Sequence[str]], network: Network) -> None:
-    """Refuse a slot that is no component. Raises InputError."""
+    """Reject a slot that is not a component. Raises InputError."""
     for slot in slots:
         if slot not in network.fmus:
             raise InputError("`slots`", slot, "no such component", suggestion(slot, network.fmus))

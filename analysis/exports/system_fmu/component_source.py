@@ -1,6 +1,7 @@
-"""The C of a kind of component: its FMU's without the wrapper of FMI, its names with a prefix, and what is added.
+"""C source of a type of component, derived from that of its FMU.
 
-Added are the initialisation and the steps that FMI's wrapper would give it alone."""
+The FMI wrapper is removed, all names get a prefix, and functions to initialise and to step the component are added.
+"""
 
 from __future__ import annotations
 
@@ -71,8 +72,11 @@ static void {prefix}advance({type} *self, Fault *fault, double start_time, doubl
 
 @dataclass(frozen=True)
 class Member:
-    """A variable of a block in its C struct: ``kind`` is KIND_REAL, KIND_INTEGER or KIND_BOOLEAN, ``role`` ROLE_INPUT,
-    ROLE_OUTPUT, ROLE_PARAMETER, ROLE_TUNABLE or ROLE_STATE."""
+    """A variable of a block in its C struct.
+
+    ``kind`` is KIND_REAL, KIND_INTEGER or KIND_BOOLEAN; ``role`` is ROLE_INPUT, ROLE_OUTPUT, ROLE_PARAMETER,
+    ROLE_TUNABLE or ROLE_STATE.
+    """
 
     path: str
     kind: str
@@ -81,8 +85,10 @@ class Member:
 
 @dataclass(frozen=True)
 class ComponentSource:
-    """``text`` is the C of an FMU's block, whose names begin with ``prefix``, and ``members`` its variables in order of
-    value references."""
+    """The C ``text`` of an FMU's block with names that begin with ``prefix``.
+
+    ``members`` are its variables in the order of value references.
+    """
 
     prefix: str
     text: str
@@ -90,24 +96,26 @@ class ComponentSource:
 
     @property
     def block(self) -> str:
-        """The type of the block's struct."""
+        """The C type of the block's struct."""
         return f"{self.prefix}Block"
 
     @property
     def type_name(self) -> str:
-        """The type of a component: a block and the samples that it has taken."""
+        """The C type of a component: a block, and the number of samples taken."""
         return f"{self.prefix}Component"
 
     @property
     def given(self) -> dict[str, bool]:
-        """The struct's members, whole, that are parameters and inputs, and whether they are arrays of C."""
+        """The struct members that contain parameters and inputs; True for arrays."""
         given = [each.path for each in self.members if each.role in GIVEN]
         return {re.split(r"[.\[]", path)[0]: re.match(r"\w+\[", path) is not None for path in given}
 
 
 def read_component_source(fmu: Fmu, name: str) -> ComponentSource:
-    """Read the source of an FMU of ours, whose names begin with ``name``. Raises InputError for the C of another
-    build."""
+    """Read the C source of one of Perilune's FMUs; its names get the prefix ``name``_.
+
+    Raises InputError for source of another build.
+    """
     sources = fmu.read_sources()
     main = sources.get(f"{fmu.description.coSimulation.modelIdentifier}.c", "")
     if "system_steps.h" in sources:
@@ -127,7 +135,7 @@ def read_component_source(fmu: Fmu, name: str) -> ComponentSource:
 
 
 def rename(text: str, prefix: str) -> str:
-    """Return the text of a block's file, all names that it defines with a prefix; comments and strings as they are."""
+    """Return a block's source with a prefix on all names that it defines; comments and strings remain unchanged."""
     defined = {name for pattern in (STRUCT, STATIC, MACRO) for name in pattern.findall(text)} | {"Block"}
     checked = set(CHECKED.findall(text))
     names: Mapping[str, str] = {
@@ -143,7 +151,7 @@ def rename(text: str, prefix: str) -> str:
 
 
 def write_kind(source: ComponentSource) -> str:
-    """Return the file of a kind of component, which the system's file includes."""
+    """Return the header of a type of component, which the system's source includes."""
     name = source.prefix.removesuffix("_")
     return FILE.format(
         name=name,
@@ -157,7 +165,7 @@ def write_kind(source: ComponentSource) -> str:
 
 
 def _begin(source: ComponentSource) -> list[str]:
-    """Restore the starts, but for parameters and inputs."""
+    """Return the statements that restore start values of a block but retain its parameters and inputs."""
     retained = [_retain(member, is_array) for member, is_array in source.given.items()]
     begin = f"self->block = {source.prefix}STARTS;"
     return [f"const {source.block} given = self->block;", begin, *retained] if retained else [begin]
@@ -170,5 +178,5 @@ def _retain(member: str, is_array: bool) -> str:
 
 
 def file_name(source: ComponentSource) -> str:
-    """Return its name among the sources."""
+    """Return the name of a component's header."""
     return f"{source.prefix.removesuffix('_')}.h"

@@ -1,4 +1,4 @@
-"""Direct dependence of a system's outputs on its inputs: within one step, through components that have it."""
+"""Direct dependence of a system's outputs on its inputs within one step, through feedthrough of components."""
 
 from __future__ import annotations
 
@@ -12,11 +12,10 @@ from .choices import system_connectors
 def find_dependencies(
     systems: Sequence[PreparedSystem], inputs: Sequence[str], faulty: Sequence[str]
 ) -> dict[str, list[str]]:
-    """Return the inputs that each output depends on directly in one of the systems, which differ in their candidates.
+    """Return the inputs on which each output depends directly in at least one of the systems (one per choice).
 
-    Those of the faults of a connector are among them where its value reaches the output in the same step.
-
-    With Jacobi's algorithm no component does: all step with the values of the step's start.
+    Fault inputs of a connector are included if its value affects the output in the same step. With Jacobi's algorithm
+    no dependence passes through a component, because all components step with values from the start of the step.
     """
     sources = {**{name: [name] for name in inputs}, **{name: fault_inputs(name) for name in faulty}}
     direct: dict[str, list[str]] = {}
@@ -28,12 +27,16 @@ def find_dependencies(
 
 
 def fault_inputs(connector: str) -> list[str]:
-    """Return the FMU's inputs for the faults of a connector: the kind of fault, and its value."""
+    """Return the names of the FMU's inputs for the faults of a connector: kind and value."""
     return [f"fault.{connector}.kind", f"fault.{connector}.value"]
 
 
 def _follow(prepared: PreparedSystem, start: str) -> list[str]:
-    """Return what carries a value at ``start`` on: of a parameter the outputs of a component that steps behind it."""
+    """Return the signals that carry the value at ``start`` on: the signal itself, or the outputs of a parameter's
+    component.
+
+    A parameter has none if its component steps before its inputs are updated.
+    """
     component, variable = split_name(start, prepared.network.fmus)
     known = prepared.network.fmus[component].variables if component else {}
     if variable not in known or known[variable].causality != "parameter":
@@ -44,7 +47,7 @@ def _follow(prepared: PreparedSystem, start: str) -> list[str]:
 
 
 def _find_outputs(prepared: PreparedSystem, start: str) -> list[str]:
-    """Return the system's outputs that a value at ``start`` reaches in the same communication point."""
+    """Return the system outputs that the value at ``start`` affects at the same communication point."""
     network = prepared.network
     stepping = {} if prepared.algorithm == "jacobi" else prepared.schedule.feedthrough.stepping
     readers: dict[str, list[str]] = {}

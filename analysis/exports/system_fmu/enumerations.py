@@ -1,4 +1,4 @@
-"""The types of a system's Enumerations, as its components and its description define them."""
+"""Enumeration types of a system, as defined by its components and its description."""
 
 from __future__ import annotations
 
@@ -14,24 +14,23 @@ from ...runtime.system.network import Network
 
 
 class Enumerations:
-    """Types by name of a signal or connector; ``networks`` are those of the system with each choice of candidates."""
+    """Enumeration types of signals and connectors by name; ``networks`` are those of all choices of candidates."""
 
     def __init__(self, networks: Sequence[Network]) -> None:
         self._networks = networks
         self._in_fmus: dict[str, Mapping[str, EnumerationType]] = {}  # by digest
 
     def of(self, name: str) -> EnumerationType | None:
-        """Return the type of a signal or connector.
+        """Return the enumeration type of a signal or connector.
 
-        None of one that is no Enumeration, or has other members with another candidate, so that it can be an Integer
-        alone.
+        None if it has no such type, or if candidates differ in its members: it then becomes an Integer.
         """
         types = [each for network in self._networks for each in self._in_network(network, name)]
         first = types[0] if types else None
         return first if all(first and each and each.numbers == first.numbers for each in types) else None
 
     def in_fmu(self, fmu: Fmu) -> Mapping[str, EnumerationType]:
-        """Return the types of an FMU's Enumerations by variable."""
+        """Return the enumeration types of an FMU by variable."""
         if fmu.digest not in self._in_fmus:
             defined = _read_types(fmu)
             declared = {each.name: each.declaredType for each in fmu.description.modelVariables}
@@ -40,7 +39,7 @@ class Enumerations:
         return self._in_fmus[fmu.digest]
 
     def _in_network(self, network: Network, name: str) -> list[EnumerationType | None]:
-        """Return the type in one network, nothing where it does not have the name."""
+        """Return the type of a name in one network; an empty list if the network does not contain the name."""
         component, variable = split_name(name, network.fmus)
         if component:
             fmu = network.fmus[component]
@@ -57,7 +56,7 @@ class Enumerations:
 
 
 def _read_types(fmu: Fmu) -> dict[str, EnumerationType]:
-    """Return the Enumerations that the modelDescription.xml of an FMU of ours defines, by name."""
+    """Return the enumeration types defined by the modelDescription.xml of one of Perilune's FMUs, by name."""
     root = parse_xml(read_entry(open_zip(fmu.content, fmu.label), DESCRIPTION, fmu.label), fmu.label)
     types = {}
     for kind in root.iterfind("TypeDefinitions/SimpleType[Enumeration]"):

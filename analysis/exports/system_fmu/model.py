@@ -1,4 +1,4 @@
-"""Content of a system's FMU, for all candidates: components with their C, signals, names in C."""
+"""Model of a system's FMU with all candidates: components with their C source, signals, C identifiers."""
 
 from __future__ import annotations
 
@@ -41,7 +41,10 @@ ALWAYS = (float("-inf"), float("inf"))
 
 @dataclass(frozen=True)
 class Candidate:
-    """A component, or a candidate of a slot: ``identifier`` in C, ``label`` before its variables' names."""
+    """A component, or a candidate of a slot.
+
+    ``identifier`` is its name in C, ``label`` the prefix of its variables.
+    """
 
     component: str
     fmu: Fmu
@@ -50,7 +53,7 @@ class Candidate:
     label: str
 
     def member(self, variable: str) -> Member:
-        """Return the member of the block's struct that is a variable."""
+        """Return the struct member of a variable."""
         return self.source.members[self.fmu.variables[variable].reference]
 
     def path_of(self, variable: str) -> str:
@@ -60,12 +63,12 @@ class Candidate:
 
 @dataclass
 class Identifiers:
-    """Names of C, each issued once; ``used`` are those taken."""
+    """Generator of unique C identifiers; ``used`` are those already in use."""
 
     used: set[str] = field(default_factory=set)
 
     def new(self, text: str) -> str:
-        """Return the text as a name, with a number after it where it is taken."""
+        """Return an unused identifier for a text, with a number appended if necessary."""
         base = re.sub(r"\W+", "_", text, flags=re.ASCII).strip("_") or "x"
         name = base = f"n_{base}" if base[0].isdigit() else base
         number = 2
@@ -77,7 +80,7 @@ class Identifiers:
 
 @dataclass(frozen=True)
 class ChoiceProgram:
-    """The instructions of one choice, and what wrote them; ``candidates`` by number of the component."""
+    """The instructions of one choice, with the list they were assembled from; ``candidates`` by component number."""
 
     choice: Choice
     program: arrays.Program
@@ -91,19 +94,22 @@ class ChoiceProgram:
 
     @cached_property
     def names(self) -> list[str]:
-        """The signal of each slot."""
+        """The name of the signal in each slot."""
         return list(self.layout.slots)
 
     @property
     def starts(self) -> dict[str, float]:
-        """The values that signals begin with, where they have one before anything is exchanged."""
+        """The initial values of signals that have one before the first exchange."""
         initial = zip(self.names, self.program.initial.tolist(), strict=True)
         return {name: start for name, start in initial if not math.isnan(start)}
 
 
 class SystemModel:
-    """``exposed`` are the signals that the FMU gives as local variables, ``faulty`` the connectors and tunable
-    parameters whose faults are its inputs. Raises InputError for unknown names, and for C of another build."""
+    """Model of the FMU: choices, candidates, signals and C identifiers.
+
+    ``exposed`` are the signals that become local variables of the FMU, ``faulty`` the connectors and tunable parameters
+    for whose faults it has inputs. Raises InputError for unknown names, and for C source of another build.
+    """
 
     def __init__(self, choices: Sequence[Choice], exposed: Sequence[str], faulty: Sequence[str]) -> None:
         self.choices = choices
@@ -142,19 +148,22 @@ class SystemModel:
 
     @cached_property
     def inputs(self) -> list[str]:
-        """The inputs of the system itself."""
+        """The names of the system's inputs."""
         return system_connectors(self.network, "input")
 
     @cached_property
     def outputs(self) -> list[str]:
-        """The outputs of the system itself that have a source."""
+        """The names of the system's outputs that have a source."""
         names = system_connectors(self.network, "output")
         for name in names:
             check_type(self.network, self.network.nodes[name])
         return [name for name in names if name in self.signals]
 
     def _check_alike(self, name: str) -> None:
-        """Refuse a signal that is another quantity with another candidate: one variable stands for all."""
+        """Reject a signal whose type or unit differs between candidates, since one variable represents it.
+
+        Raises InputError.
+        """
         layouts = [program.layout for program in self.programs if name in program.layout.slots]
         kinds = {
             f"{layout.types[name].replace('Enumeration', 'Integer')} in {layout.units[name] or '1'}": None
@@ -186,7 +195,7 @@ class SystemModel:
         return self._candidates[component, candidate]
 
     def _find_exposed(self, names: Sequence[str]) -> list[str]:
-        """Return the variables that names mean, of any candidate that has them."""
+        """Return the variables that these names stand for, in any candidate. Raises InputError."""
         exposed: dict[str, None] = {}
         for name in names:
             error = None
@@ -221,7 +230,7 @@ class SystemModel:
 
 
 def _macros() -> set[str]:
-    """Return names with another meaning to the preprocessor, anywhere."""
+    """Return the macro names that C identifiers must avoid."""
     texts = [text.decode() for text in read_wrapper(2, "system").values()]
     ours = {
         "SAMPLE_TOLERANCE",
@@ -243,7 +252,7 @@ def _is_known(network: Network, name: str) -> bool:
 
 
 def _find_faulty(choices: Sequence[Choice], names: Sequence[str]) -> list[str]:
-    """Return the connectors and tunable parameters whose faults are inputs: of all candidates. Raises InputError."""
+    """Return the connectors and tunable parameters with fault inputs; all choices must have them. Raises InputError."""
     for name in names:
         for choice in choices:
             changeable(choice.prepared.network, name, ("`faults`", name), tunable=True)

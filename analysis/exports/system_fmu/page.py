@@ -1,4 +1,4 @@
-"""Documentation in a system's FMU: documentation/index.html, and the README of its sources."""
+"""Documentation inside a system's FMU: documentation/index.html, and the README of its sources."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ component, with the C that its block was translated into, and the wrapper of FMI
 
 
 def system_readme(name: str, about: str) -> str:
-    """Return the instructions for compiling the sources."""
+    """Return the README, with instructions to compile the sources."""
     return TEXT.format(name=name, about=about)
 
 
@@ -43,7 +43,7 @@ def system_page(
     dependencies: Mapping[str, Sequence[str]],
     others: OtherSets,
 ) -> bytes:
-    """Return the page: components, simulation, its variables."""
+    """Return the HTML page: components, simulation, variables."""
     body = [builder.H1(name), builder.P(about), builder.H2("Components")]
     body.append(
         _table(["component", "block"], [[candidate.label, candidate.fmu.name] for candidate in model.candidates])

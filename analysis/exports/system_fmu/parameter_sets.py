@@ -1,4 +1,4 @@
-"""The parameter sets of a system that are not applied, as sets of its FMU's parameters."""
+"""Conversion of a system's further parameter sets to parameter sets of its FMU."""
 
 from __future__ import annotations
 
@@ -20,14 +20,16 @@ RESOURCES = "resources/"
 
 @dataclass(frozen=True)
 class OtherSets:
-    """``files`` by name in the FMU; ``unfit`` says of sets, or of candidates with one, why they do not fit."""
+    """Converted parameter sets: ``files`` by name in the FMU; ``unfit`` states why others do not fit, a line each."""
 
     files: Mapping[str, bytes]
     unfit: Sequence[str]
 
 
 def other_parameter_sets(preparation: Preparation, system: System, declared: Sequence[FmuVariable]) -> OtherSets:
-    """Return the changes of the ``declared`` parameters and inputs by each further set of the ``system``."""
+    """Return the further sets of the ``system``, each reduced to the ``declared`` parameters and inputs that it
+    changes.
+    """
     files, unfit = {}, []
     starts = {each.name: each.start for each in declared if each.causality in ("parameter", "input")}
     for file in _others(preparation, system):
@@ -41,7 +43,7 @@ def other_parameter_sets(preparation: Preparation, system: System, declared: Seq
 
 
 def _others(preparation: Preparation, system: System) -> list[str]:
-    """Return the sets of a system that are neither chosen nor bound by its description."""
+    """Return the parameter sets of a system that are neither chosen nor bound by its description."""
     files = preparation.archive.files
     used = _bound(system)
     for name in preparation.options.parameters:
@@ -50,7 +52,7 @@ def _others(preparation: Preparation, system: System) -> list[str]:
 
 
 def _bound(element: Element) -> set[str]:
-    """Return the files of parameter bindings of a system, and of all that is in it."""
+    """Return the parameter files bound to an element or to elements inside it."""
     inner = element.elements.values() if isinstance(element, System) else ()
     files = {posixpath.normpath(binding.source) for binding in element.bindings if binding.source is not None}
     return files.union(*map(_bound, inner))

@@ -1,4 +1,4 @@
-"""The reference trajectory inside a system's FMU: the system flown from the FMUs of its components, all bits."""
+"""Reference trajectory of a system's FMU, from a simulation with the FMUs of its components; equal to the last bit."""
 
 from __future__ import annotations
 
@@ -26,10 +26,9 @@ def find_default_program(programs: Sequence[ChoiceProgram], defaults: Mapping[st
 def record_reference(
     name: str, program: ChoiceProgram, declared: list[FmuVariable]
 ) -> tuple[dict[str, bytes], list[Related]]:
-    """Record outputs and exposed signals with all parameters and inputs at their starts; nothing of a system without
-    any.
+    """Record outputs and exposed signals with all parameters and inputs at their start values.
 
-    Signals that only other candidates have are left out.
+    Signals that only other candidates have are omitted; without any signal there are no files.
     """
     visible = [each.name for each in declared if each.causality in ("output", "local")]
     visible = [each for each in visible if each in program.layout.slots]

@@ -11,9 +11,11 @@ from ...runtime.system.options import SystemOptions
 
 @dataclass(frozen=True)
 class OneFmu:
-    """Request for a system as one FMU: ``slots`` have candidates by component, ``exposed`` are visible signals,
-    ``faulty`` connectors and tunable parameters with inputs for faults; ``options`` are those of the system. Raises
-    InputError."""
+    """Request for a system as one FMU.
+
+    ``slots`` are the candidates by component, ``exposed`` the signals to expose, ``faulty`` the connectors and tunable
+    parameters with fault inputs, ``options`` the options of the system. Raises InputError.
+    """
 
     slots: Mapping[str, Sequence[str]]
     exposed: Sequence[str]

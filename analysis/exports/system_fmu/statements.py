@@ -1,7 +1,7 @@
-"""C statements for the instructions of a system's steps, on the blocks inside its struct.
+"""C statements for the instructions of a system's steps, applied to the blocks inside its struct.
 
-They do what `loop/c/loop.c` does with FMUs, in the same order of operations, so that results have the same bits.
-`self` is the system, `s` its signals; a failure leaves its words in `fault` and returns.
+They repeat the operations of `loop/c/loop.c` in the same order, so results are equal to the last bit. `self` is the
+system, `s` are its signals; on failure a statement stores a message in `fault` and returns.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ SKIPPED = (codes.SETUP, codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.READ_BAC
 
 @dataclass
 class Statements:
-    """Writes the statements of one choice; ``constants`` are the signals' numbers in C by name.
+    """Writer of the statements of one choice; ``constants`` are the C constants of signals by name.
 
-    ``unsettled`` are the components with inputs set in the initialisation, which is under way where ``is_starting``,
-    and not computed since.
+    ``is_starting`` is True during initialisation. ``unsettled`` are the components whose inputs were set since their
+    last computation.
     """
 
     choice: ChoiceProgram
@@ -38,7 +38,7 @@ class Statements:
     is_starting: bool = False
 
     def initialisation(self) -> list[str]:
-        """Write the initialisation: from parameters and inputs to the outputs at the start."""
+        """Return the statements of the initialisation: from parameters and inputs to the first outputs."""
         program = self.choice.program
         self.unsettled, self.is_starting = set(range(len(self.choice.candidates))), True
         lines = self._of(range(program.reset_end, int(program.phases[0])))
@@ -46,12 +46,14 @@ class Statements:
         return lines
 
     def step(self, phase: int) -> list[str]:
-        """Write one of the repeated steps."""
+        """Return the statements of one phase of the repeated steps."""
         first, end = self.choice.program.phases[phase : phase + 2].tolist()
         return self._of(range(first, end))
 
     def renewal(self, component: int, rows: np.ndarray) -> list[str]:
-        """Carry the connections of a component from the system's inputs, which these rows hold, into it."""
+        """Return the statements that pass new values of the system's inputs to a component, for these instruction
+        rows.
+        """
         candidate = self.choice.candidates[component]
         lines: list[str] = []
         targets: list[int] = []
@@ -72,11 +74,11 @@ class Statements:
         return np.flatnonzero(self.choice.program.fault_slot == slot).tolist()
 
     def injection(self, number: int, function: str = "inject") -> str:
-        """Write a fault applied to its signal."""
+        """Return the statement that applies a fault to its signal."""
         return f"{function}(&{self.signal(int(self.choice.program.fault_slot[number]))}, &self->fault[{number}]);"
 
     def give(self, candidate: Candidate, slot: int) -> list[str]:
-        """Write a signal to the variable of a component at its slot."""
+        """Return the statements that write the signal of a slot to its variable in a component."""
         member = candidate.source.members[int(self.choice.program.reference[slot])]
         path, signal = f"self->{candidate.identifier}.block.{member.path}", self.signal(slot)
         variable = candidate.fmu.variables[self.choice.names[slot].removeprefix(f"{candidate.component}.")]
@@ -102,7 +104,7 @@ class Statements:
         return [(slot, self.signal(slot)) for slot in range(row.first, row.first + row.size)]
 
     def variable(self, row: Instruction, slot: int) -> tuple[str, str]:
-        """Return the path and kind of the component's variable at a slot."""
+        """Return path and kind of the component's variable for a slot."""
         candidate = self.candidate(row)
         member = candidate.source.members[int(self.choice.program.reference[slot])]
         return f"self->{candidate.identifier}.block.{member.path}", member.kind
@@ -111,7 +113,7 @@ class Statements:
         return self.choice.candidates[row.component]
 
     def settle(self, component: int) -> list[str]:
-        """Initialise a component that has inputs set since it last computed."""
+        """Return the statements that initialise a component whose inputs were set since its last computation."""
         if not self.is_starting or component not in self.unsettled:
             return []
         self.unsettled.discard(component)
@@ -121,7 +123,7 @@ class Statements:
 
 
 def _check_bounds(variable: Variable, signal: str, name: str) -> list[str]:
-    """Refuse the value of a tunable parameter with its fault where the FMU would refuse it."""
+    """Return the checks of a tunable parameter, including its fault, against the bounds of the FMU."""
     lines = [f"CHECK_FINITE({signal}, {quoted(name)})"] if variable.type == "Real" else []
     for sign, bound, side in (
         ("<", variable.minimum, "below its minimum"),
@@ -134,12 +136,12 @@ def _check_bounds(variable: Variable, signal: str, name: str) -> list[str]:
 
 
 def check(subject: str) -> str:
-    """Return where the statement before has failed."""
+    """Return a statement that returns if the previous one failed in ``subject``."""
     return f"FAILED_IN({quoted(subject)})"
 
 
 def quoted(text: str) -> str:
-    """Return a text as C has it, on one line."""
+    """Return a text as a C string literal on one line."""
     escaped = text.replace("\\", r"\\").replace('"', r"\"").replace("?", r"\?").replace(" ", NO_BREAK)
     return f'"{escaped}"'
 
@@ -175,7 +177,10 @@ def _map(to: Statements, row: Instruction) -> list[str]:
 
 
 def map_value(source: str, target: str, entries: Iterable[tuple[float, float]], subject: str) -> list[str]:
-    """Write a mapping by a table: an entry from NaN leaves other values as they are, without it they are a failure."""
+    """Return the statements that map a value by a table.
+
+    An entry from NaN leaves unlisted values unchanged; without it an unlisted value is a failure.
+    """
     tests, otherwise = [], f"FAIL({quoted(subject)}, {quoted('a mapping has no entry for its value')})"
     for given, becomes in entries:
         if math.isnan(given):

@@ -1,4 +1,4 @@
-"""The C of a system: a struct of its components, its variables, and its steps for each choice of candidates."""
+"""C source of a system: a struct of its components, its variables, and its steps for each choice of candidates."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ FOOTER = """\
 
 
 def write_system(name: str, about: str, guid: str, model: SystemModel, variables: Variables) -> str:
-    """Write the file that is compiled, of an FMU with this GUID; it includes the others."""
+    """Return the main source file of the FMU with this GUID; it includes all other files."""
     header = HEADER.format(
         name=name,
         about=comment(about),
@@ -87,7 +87,7 @@ def write_system(name: str, about: str, guid: str, model: SystemModel, variables
 
 
 def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables) -> list[str]:
-    """Write the initialisation and the step of one choice."""
+    """Return the initialisation and step functions of one choice."""
     statements = Statements(program, model.signals)
     initialise = Lines()
     initialise.open(f"static void initialize{program.choice.name}(Block *self, Fault *fault)\n{{")
@@ -140,7 +140,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
 
 
 def _take_inputs(program: ChoiceProgram, model: SystemModel, variables: Variables) -> list[str]:
-    """Take what importers set: inputs of the system, parameters that have faults."""
+    """Return the statements that read values set by the importer: system inputs, and parameters with fault inputs."""
     paths = {each.name: each.path for each in variables.declared}
     sources = {model.signals[name]: paths[name] for name in model.inputs if name in model.signals}
     for tuned in variables.tuned:
@@ -150,8 +150,10 @@ def _take_inputs(program: ChoiceProgram, model: SystemModel, variables: Variable
 
 
 def _renewal(statements: Statements, phase: int) -> list[str]:
-    """Write the system's inputs, and parameters with faults, to the components that step with the inputs of the
-    start."""
+    """Return the statements that pass system inputs, and parameters with faults, to components at the start of a step.
+
+    They concern the components that step with the inputs of the start.
+    """
     program = statements.choice
     prepared = program.prepared
     names = list(prepared.network.fmus)
@@ -160,7 +162,7 @@ def _renewal(statements: Statements, phase: int) -> list[str]:
 
 
 def _find_passed_signals(program: ChoiceProgram, variables: Variables) -> dict[str, list[str]]:
-    """Return the parameters of systems that signals come from, each with the chain of connectors to its value."""
+    """Return the system parameters that are signals, each with its chain of connectors from the one with the value."""
     network, values = program.prepared.network, program.prepared.settings.nodes
     nodes = (network.nodes[name] for name in program.layout.slots if name in network.nodes)
     names = [node.name for node in nodes if node.component is None and node.kind in PARAMETERS]
@@ -169,7 +171,7 @@ def _find_passed_signals(program: ChoiceProgram, variables: Variables) -> dict[s
 
 
 def _check_faults(model: SystemModel) -> list[str]:
-    """Refuse what a fault input cannot be."""
+    """Return the checks of the fault inputs."""
     kinds = {"Real": "KIND_REAL", "Boolean": "KIND_BOOLEAN"}
     return [
         f"CHECK_FAULT(self->fault[{number}], {kinds.get(model.types[name], 'KIND_INTEGER')}, {quoted(f'fault.{name}')})"
@@ -178,7 +180,7 @@ def _check_faults(model: SystemModel) -> list[str]:
 
 
 def _end_step(statements: Statements, model: SystemModel, variables: Variables) -> list[str]:
-    """Write the end of a step: if the system has ended, its outputs, the faults that were applied."""
+    """Return the statements at the end of a step: end of the system, applied faults, outputs."""
     program = statements.choice
     finished = program.program.finished_slot
     lines = [f"self->has_finished = {statements.signal(finished)} != 0.0;"] if finished >= 0 else []
@@ -194,7 +196,7 @@ def _end_step(statements: Statements, model: SystemModel, variables: Variables) 
 
 
 def _entry_points(model: SystemModel, variables: Variables) -> str:
-    """Write the functions that the wrapper calls, for the choice by the slots' parameters."""
+    """Return the functions that the wrapper calls; they select the choice by the parameters of the slots."""
     lines = Lines()
     lines.open("static void model_set_start_time(Block *self, double start_time)\n{")
     lines.add("self->start_time = start_time;")
@@ -209,7 +211,7 @@ def _entry_points(model: SystemModel, variables: Variables) -> str:
 
 
 def _dispatch(lines: Lines, function: str, programs: Sequence[ChoiceProgram], slots: Sequence[FmuVariable]) -> None:
-    """Call the function of the choice: the last slot's candidates change fastest among the programs."""
+    """Add the calls of the choices' functions; among the programs the candidates of the last slot vary fastest."""
     numbers_of = itertools.product(*(slot.enumeration.numbers.values() for slot in slots if slot.enumeration))
     for program, chosen in zip(programs, numbers_of, strict=True):
         tests = " && ".join(f"self->{slot.path} == {number}" for slot, number in zip(slots, chosen, strict=True))

@@ -1,4 +1,4 @@
-"""The tables by value reference of a system's C: elements, their ranges at the start, names."""
+"""Tables of a system's C source, indexed by value reference: elements, ranges of start values, names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .variables import FmuVariable, Variables
 
 @dataclass(frozen=True)
 class Row:
-    """An element of the system's struct: what the wrapper lets be done with it, and where it may lie at the start."""
+    """An element of the system's struct: its role in the wrapper, and the range of its start value."""
 
     name: str
     path: str
@@ -24,7 +24,7 @@ class Row:
 
 
 def _row_of(each: FmuVariable) -> Row:
-    """Return the row of a variable that modelDescription.xml declares."""
+    """Return the row of a variable declared in modelDescription.xml."""
     within = None
     if each.causality == "parameter":
         within = _range(each.kind, each.minimum, each.maximum)
@@ -34,14 +34,14 @@ def _row_of(each: FmuVariable) -> Row:
 
 
 def _range(kind: str, minimum: str | None, maximum: str | None) -> tuple[float, float] | None:
-    """Return the least and the largest value of a Real, or of an Integer that has bounds."""
+    """Return minimum and maximum of a Real, or of an Integer with bounds; None for others."""
     if kind == "KIND_BOOLEAN" or (kind == "KIND_INTEGER" and minimum is None and maximum is None):
         return None
     return (-LARGEST if minimum is None else float(minimum), LARGEST if maximum is None else float(maximum))
 
 
 def _list_hidden(model: SystemModel, variables: Variables) -> list[Row]:
-    """Return the rows of what the state has and modelDescription.xml does not declare."""
+    """Return the rows of state elements that modelDescription.xml does not declare."""
     declared = {each.path for each in variables.declared}
     faulty = {each.candidate.path_of(each.variable.name) for each in variables.tuned}  # steps compare these
     hidden = [
@@ -72,7 +72,7 @@ def _list_hidden(model: SystemModel, variables: Variables) -> list[Row]:
 
 
 def write_tables(guid: str, model: SystemModel, variables: Variables) -> str:
-    """Write the tables of the wrapper: GUID, and variables by value reference, undeclared ones last."""
+    """Return the tables of the wrapper: GUID, and elements by value reference, undeclared ones last."""
     rows = [*map(_row_of, variables.declared), *_list_hidden(model, variables)]
     lines = Lines()
     lines.add(f'#define MODEL_GUID "{guid}"')

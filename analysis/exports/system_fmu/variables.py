@@ -1,4 +1,4 @@
-"""The variables of a system's FMU: what it declares, and what only its state has."""
+"""Variables of a system's FMU: declared ones, and elements of the state only."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ FAULT_KINDS = numbered_type("FaultKind", ("none", "override", "bias", "freeze"),
 
 @dataclass(frozen=True)
 class FmuVariable:
-    """A variable as modelDescription.xml declares it; it lies at ``path`` in the system's struct.
+    """A variable declared in modelDescription.xml; its value is at ``path`` in the system's struct.
 
-    ``causality`` is input, output, parameter or local, ``enumeration`` the type of an Enumeration. An input of a
-    component that nothing is connected to is a parameter.
+    ``causality`` is input, output, parameter or local; ``enumeration`` is the type of an Enumeration. An unconnected
+    input of a component is a parameter.
     """
 
     name: str
@@ -47,20 +47,23 @@ class FmuVariable:
 
     @property
     def role(self) -> str:
-        """Role that decides on the wrapper's permissions."""
+        """The role that determines the wrapper's permissions."""
         parameter = "ROLE_TUNABLE" if self.tunable else "ROLE_PARAMETER"
         return {"input": "ROLE_INPUT", "parameter": parameter}.get(self.causality, "ROLE_OUTPUT")
 
     @property
     def is_member(self) -> bool:
-        """True if it is a member of the system's struct itself."""
+        """True if the variable is a direct member of the system's struct."""
         return "." not in self.path and "[" not in self.path
 
 
 @dataclass(frozen=True)
 class Passed:
-    """A parameter of a component that connections of a ``network`` bring the value of a system's: its path, the chain
-    of names, and whether the component's FMU lets it be set between steps."""
+    """A component's parameter whose value follows from a system parameter.
+
+    ``path`` is the parameter's, ``chain`` are the connectors from the system parameter to it in the ``network``, and
+    ``tunable`` is True if it may be set between steps.
+    """
 
     path: str
     kind: str
@@ -71,7 +74,7 @@ class Passed:
 
 @dataclass(frozen=True)
 class Tuned:
-    """A tunable parameter of a component that has faults: ``path`` is where its value without them lies."""
+    """A tunable parameter of a component with fault inputs; its value without faults is at ``path``."""
 
     candidate: Candidate
     variable: Variable
@@ -79,7 +82,7 @@ class Tuned:
 
     @property
     def name(self) -> str:
-        """Its name among the signals."""
+        """The name of its signal."""
         return f"{self.candidate.component}.{self.variable.name}"
 
     @property
@@ -89,9 +92,12 @@ class Tuned:
 
 
 class Variables:
-    """``declared`` are the variables of the FMU, ``passed`` the parameters inside that follow from those of systems,
-    ``parameter_paths`` where these lie, by connector; ``starts`` the values that differ from the blocks' own.
-    ``effective`` are the values that all parameters and inputs have, declared or passed, by name."""
+    """The variables of the FMU and values of its parameters.
+
+    ``declared`` are the variables of the FMU, ``passed`` the component parameters that follow from system parameters,
+    ``parameter_paths`` the paths of the latter by connector, ``starts`` the values that differ from the defaults of the
+    blocks. ``effective`` are the values of all parameters and inputs by name.
+    """
 
     def __init__(self, model: SystemModel, defaults: Mapping[str, int], slots: Mapping[str, Sequence[str]]) -> None:
         self.model = model
@@ -135,9 +141,9 @@ class Variables:
                 yield variable
 
     def _are_readers_tunable(self, declared: FmuVariable) -> bool:
-        """Return True for a parameter of the system that components read as parameters that are all tunable.
+        """Return True for a system parameter that components read only as tunable parameters.
 
-        One that drives signals or inputs, which initialisation sets, is fixed.
+        A parameter that drives signals or inputs, which are set at initialisation, is fixed.
         """
         name = declared.name
         if declared.causality != "parameter":
@@ -250,7 +256,7 @@ class Variables:
 
 
 def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate]]:
-    """Yield each candidate once, with the first choice that has it."""
+    """Yield each candidate once, with the first choice that contains it."""
     seen: set[str] = set()
     for program in model.programs:
         for candidate in program.candidates:
@@ -260,7 +266,7 @@ def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate
 
 
 def _is_tunable(variable: Variable) -> bool:
-    """Return True for what a component's FMU lets be set between steps."""
+    """Return True for a variable that the component's FMU permits to be set between steps."""
     return variable.variability == "tunable" or variable.causality == "input"
 
 
@@ -269,7 +275,7 @@ def _type_of(node: Node) -> str:
 
 
 def _in_a_system(type_name: str) -> str:
-    """Return the type of the numbers that a system's FMU passes on."""
+    """Return the type of a signal between components: an Enumeration is exchanged as an Integer."""
     return "Integer" if type_name == "Enumeration" else type_name
 
 
@@ -282,5 +288,5 @@ def _start(variable: Variable, candidate: Candidate) -> ParameterValue:
 
 
 def _find_type(type_name: str, enumeration: EnumerationType | None) -> str:
-    """Return the type that modelDescription.xml states: an Integer where candidates differ in their members."""
+    """Return the type for modelDescription.xml; an Enumeration whose candidates differ becomes an Integer."""
     return "Enumeration" if enumeration is not None else _in_a_system(type_name)

@@ -1,4 +1,4 @@
-"""The C of a system's variables: the struct with its components, starts, parameters."""
+"""C source of a system's variables: the struct with its components, start values, parameters."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .variables import C_TYPES, Passed, Variables
 
 
 def write_signals(model: SystemModel) -> str:
-    """Write the numbers of the signals."""
+    """Return the enum of signal numbers."""
     lines = Lines()
     lines.comment(
         "Values on their way from component to component, by number: of outputs, connected inputs, connectors."
@@ -69,7 +69,7 @@ def write_starts(model: SystemModel, variables: Variables) -> str:
 
 
 def write_parameters(model: SystemModel, variables: Variables) -> str:
-    """Write the parameters of components that follow from those of systems."""
+    """Return the function that sets component parameters from system parameters."""
     lines = Lines()
     lines.comment("Parameters of components that follow from those of systems.")
     lines.open("static void pass_parameters(Block *self, Fault *fault)\n{")
@@ -86,7 +86,7 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
 
 
 def write_use(model: SystemModel, variables: Variables) -> str:
-    """Return the function that says of which candidates in slots the variables are simulated."""
+    """Return the function that tells whether a variable belongs to a chosen candidate."""
     lines = Lines()
     lines.comment("True where the variable there is of what is simulated, and not of a candidate that is not chosen.")
     lines.open("static bool is_used(const Block *self, uint32_t offset)\n{")
@@ -107,7 +107,7 @@ def write_use(model: SystemModel, variables: Variables) -> str:
 
 
 def pass_along(network: Network, chain: Sequence[str]) -> list[str]:
-    """Pass the ``value`` of a system's parameter, the first of a chain of connectors, to that of the last."""
+    """Return the statements that convert ``value`` from the first connector of a chain to the last."""
     return [line for number, name in enumerate(chain[1:]) for line in _pass_on(network, network.driver[name], number)]
 
 

@@ -1,1 +1,1 @@
-"""Shared by verbs: text of a flight, requirements, remarks on a system."""
+"""Code shared by verbs: arguments, requirements, texts, plans of campaigns, results with documents."""

@@ -1,4 +1,4 @@
-"""Arguments of several verbs: requirements on a result's numbers, paths one by one or as a list."""
+"""Arguments common to several verbs: requirements on a result's numbers, and paths as arguments or as a list."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from ...options.option import FilePath
 
 
 def read_requirements(texts: Sequence[str], known: Collection[str], families: tuple[str, ...] = ()) -> list[Expression]:
-    """Read requirements on known numbers, or on those whose names begin like ``families``. Raises InputError."""
+    """Read requirements on ``known`` numbers, or numbers whose names begin with one of ``families``. Raises
+    InputError.
+    """
     requirements = [Expression(text, ("`require`", text)) for text in texts]
     for requirement in requirements:
         for name in sorted(requirement.names - set(known)):
@@ -33,7 +35,7 @@ def requirement_problems(requirements: Sequence[Expression], values: Mapping[str
 
 
 def path_list(entries: Sequence[FilePath | Sequence[FilePath]]) -> list[str]:
-    """Return the paths of a call that takes them one by one, or as a list."""
+    """Return the paths of a call, passed as separate arguments or as lists."""
     paths: list[str] = []
     for entry in entries:
         paths += [os.fspath(entry)] if isinstance(entry, str | os.PathLike) else [os.fspath(path) for path in entry]

@@ -11,7 +11,7 @@ REMEDY = "open its file yourself"
 
 
 def require_browser(option: str) -> None:
-    """Refuse what needs a browser where there is none. Raises InputError."""
+    """Reject ``option`` if no browser is installed. Raises InputError."""
     try:
         webbrowser.get()
     except webbrowser.Error as error:
@@ -19,6 +19,6 @@ def require_browser(option: str) -> None:
 
 
 def open_page(option: str, page: Path) -> None:
-    """Open a page in a browser. Raises InputError where none opens it."""
+    """Open a page in the browser. Raises InputError if that fails."""
     if not webbrowser.open(page.absolute().as_uri()):
         raise InputError(option, str(page), "no browser opens it", REMEDY)

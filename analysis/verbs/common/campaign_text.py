@@ -1,4 +1,4 @@
-"""Text of a campaign's result: failed simulations, requirements, meanings of statuses."""
+"""Text about a campaign's result: failed simulations, requirements, outcome of a trial."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def campaign_problems(result: BatchResult, requirements: Sequence[Expression]) -
 
 
 class Failures(NamedTuple):
-    """Failed flights of a variant: their number, the first one's trial and message."""
+    """Failed simulations of a variant: their number, and trial and message of the first."""
 
     flights: int
     trial: int
@@ -49,7 +49,7 @@ class Failures(NamedTuple):
 
 
 def find_failed(parts: Iterable[Mapping[str, TrialTable]]) -> dict[str, Failures]:
-    """Find the failures of each variant that has any; ``parts`` are trials by variant, in order of trial."""
+    """Return the failures of each variant that has any; ``parts`` are tables by variant, in the order of trials."""
     failures: dict[str, Failures] = {}
     for rows in parts:
         for variant, own in rows.items():
@@ -63,7 +63,7 @@ def find_failed(parts: Iterable[Mapping[str, TrialTable]]) -> dict[str, Failures
 
 
 def failure_lines(failures: Mapping[str, Failures], plan: BatchPlan, folder: Path | None) -> list[str]:
-    """Return a line for each variant with failed simulations, with the command that replays its first failed trial."""
+    """Return a line for each variant with failed simulations, with the command that replays the first of them."""
     variants, lines = plan.campaign.variants(), []
     for variant, (flights, trial, message) in failures.items():
         replay = "" if folder is None else f"; see it: {replay_of_folder(folder, variants, variant, trial)}"
@@ -72,7 +72,7 @@ def failure_lines(failures: Mapping[str, Failures], plan: BatchPlan, folder: Pat
 
 
 def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Iterable[Metric]) -> list[str]:
-    """Return the result of one trial of a variant: its status, success, and metrics."""
+    """Return lines on the outcome of one trial of a variant: status, success, metrics."""
     success = "success" if outcome.success else "no success"
     cells = []
     for metric in metrics:
@@ -84,7 +84,7 @@ def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Itera
 
 
 def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Expression]:
-    """Read requirements; refuse numbers that the summary will not have, before any simulation. Raises InputError."""
+    """Read requirements before any simulation. Raises InputError for numbers that the summary will not contain."""
     nothing = np.full(1, np.nan)
     metrics = {f"metric.{metric.name}": nothing for metric in plan.campaign.metrics}
     blank = TrialTable.of({"status": [""], "success": np.zeros(1, dtype=bool), **metrics})

@@ -1,4 +1,4 @@
-"""The plan of a campaign from the options of a verb, and the commands that simulate its trials again."""
+"""Plan of a campaign from the options of a verb, and commands that repeat its trials."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
 
 
 def _read_compare(compare: Mapping[str, FilePath | Sequence[FilePath]]) -> dict[str, list[str]] | None:
-    """Return the FMUs of each slot that is compared, names or paths; a single one stands for a list of one."""
+    """Return the compared FMUs (names or paths) by slot; a single FMU becomes a list."""
     if not compare:
         return None
     return {
@@ -71,7 +71,7 @@ def _read_compare(compare: Mapping[str, FilePath | Sequence[FilePath]]) -> dict[
 
 
 def commands_of(plan: BatchPlan) -> Commands:
-    """Return the commands for the simulations of a study's plan."""
+    """Return the writers of commands for the simulations of a study."""
     (variant,) = plan.campaign.variants()
 
     def replay(draws: Path, trial: int) -> str:
@@ -85,7 +85,7 @@ def commands_of(plan: BatchPlan) -> Commands:
 
 
 def name_foreign(campaign: PreparedCampaign) -> None:
-    """Warn of the foreign FMUs that a campaign's folder is about to run: its author has chosen them."""
+    """Warn of the foreign FMUs in a campaign's folder before they run: the author of the folder chose them."""
     fmus = {fmu.digest: fmu for system in campaign.systems.values() for fmu in system.network.fmus.values()}
     foreign = sorted(f"{fmu.name} ({digest[:12]})" for digest, fmu in fmus.items() if not fmu.is_own)
     if foreign:
@@ -96,7 +96,7 @@ def name_foreign(campaign: PreparedCampaign) -> None:
 
 @contextmanager
 def resume_hint(folder: Path | None) -> Iterator[None]:
-    """Add a campaign's folder and the way to resume it to the error that ends it early. Raises EndedError."""
+    """Add a campaign's folder and how to resume it to an error that ends the campaign early. Raises EndedError."""
     home = None if folder is None else folder.absolute()  # an FMU may change the working folder
     try:
         yield

@@ -1,4 +1,4 @@
-"""Results that have a document: their text, view in a notebook, JSON and page."""
+"""Results that are shown as documents: in the terminal, in a notebook, as JSON and as a page."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from ...options.option import FilePath
 
 
 class Documented:
-    """Result of a verb, whose `document` has everything that is shown of it.
+    """Result of a verb; its `document` contains everything that is shown.
 
-    It may have ``write(path)`` and other methods that write the files of its verb; a ``folder`` in which it is stored
-    already; and ``problem_status``, the exit status of problems where it is not 1.
+    Optional members: ``write(path)`` and other methods that write output files; ``folder``, in which the result is
+    already stored; ``problem_status``, the exit status if there are problems (default: 1).
     """
 
     def document(self) -> Document:
@@ -22,7 +22,7 @@ class Documented:
         raise NotImplementedError
 
     def problems(self) -> Sequence[str]:
-        """Return a line for each requirement that is not met and each simulation that did not complete."""
+        """Return a line for each requirement that is not met, and for each simulation that did not complete."""
         return []
 
     def lines(self) -> list[str]:
@@ -32,12 +32,12 @@ class Documented:
         return document_lines(self.document())
 
     def to_json(self) -> object:
-        """Return the result as strict JSON, for other programs."""
+        """Return the result as values of strict JSON (no NaN or infinity), for other programs."""
         json = self.document().json
         return to_json(json() if callable(json) else json)
 
     def report(self, path: FilePath) -> None:
-        """Write the page of the verb's option `report`: one HTML file."""
+        """Write the page of the option `report`, one HTML file."""
         from ...documents.render.html import write_document
 
         write_document(self.document(), Path(path))

@@ -1,4 +1,4 @@
-"""Text of commands on one flight: limits, statuses, unmet conditions; notes on its system."""
+"""Text about one simulation: limits, statuses, problems; notes on its system."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def flight_problems(prepared: PreparedSystem, figures: Sequence[FigureDeclaratio
 
 
 def _is_cut_off(prepared: PreparedSystem, result: Flight) -> bool:
-    """Return True if a system with an output for its end did not reach it by a stop time that is not the user's."""
+    """Return True if a system with an output ``finished`` did not finish before a default stop time."""
     end = prepared.network.nodes.get(FINISHED)
     says_so = end is not None and end.component is None and end.kind == "output"
     return says_so and result.status == "stop_time" and prepared.options.chosen["stop_time"] is None
@@ -71,7 +71,7 @@ INDEX = re.compile(r"\[[\d,]+\]$")
 def note_lines(prepared: PreparedSystem) -> list[str]:
     """Return the notes of `perilune validate` on a system, a line for each kind of note.
 
-    Of a system of this repository it is what was assumed only: an FMU of another's may fly in it.
+    For a system of this repository only assumptions are listed, because it may contain a foreign FMU.
     """
     is_ours = prepared.archive.path.is_relative_to(SYSTEMS.resolve())
     notes = prepared.assumptions if is_ours else prepared.network.notes

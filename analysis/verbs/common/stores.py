@@ -1,4 +1,4 @@
-"""Systems whose folder takes what is computed for them."""
+"""Check of systems whose folder stores computed results."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ...runtime.ssp.archive import SystemArchive
 
 
 def check_stored_system(archive: SystemArchive) -> None:
-    """Refuse `store` for a system that is no folder, or is one of the installed package. Raises InputError."""
+    """Reject `store` for a system that is not a folder or belongs to the installed package. Raises InputError."""
     if not archive.path.is_dir():
         raise InputError("`store`", str(archive.path), "not a folder", "unpack the .ssp and name its folder")
     if not IS_CHECKOUT and archive.path.is_relative_to(PACKAGE):

@@ -1,4 +1,4 @@
-"""Shared by verbs of studies: results with documents and folders, requirements on their numbers, options."""
+"""Code shared by verbs of studies: results with documents and folders, requirements on their numbers, options."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ Study = TypeVar("Study", bound=_Writable)
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Stored(Documented):
-    """Result of a study; ``folder`` is where it is stored, if it is."""
+    """Result of a study; ``folder`` is the folder in which it is stored, if any."""
 
     folder: Path | None = None
 
@@ -44,7 +44,7 @@ class Stored(Documented):
         return f"{type(self).__name__}({document.title.partition(': ')[0]}, {lead_text(document)})"
 
     def plot(self) -> Plot:
-        """Return the figures that a notebook has of the study."""
+        """Plot the figures of the study, as a notebook shows them."""
         from ...documents.render.notebook import figures_of, plot_figures
 
         return plot_figures(figures_of(self.document()))
@@ -52,17 +52,17 @@ class Stored(Documented):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Required(Stored):
-    """A stored result with ``requirements``, those of the option `require`."""
+    """Result of a study with ``requirements``, the expressions of the option `require`."""
 
     requirements: Sequence[Expression] = ()
 
     def problems(self: _RequiredOutcome) -> list[str]:
-        """Return requirements that are not met."""
+        """Return a line for each requirement that is not met."""
         return requirement_problems(self.requirements, self.values())
 
 
 class Conditions(TypedDict):
-    """Constants of a study, and its workers."""
+    """Fixed conditions of a study, and its number of workers."""
 
     hold: dict[str, float]
     noise_trial: int | None
@@ -70,7 +70,7 @@ class Conditions(TypedDict):
 
 
 def results_folder(options: ConditionOptions) -> Path | None:
-    """Return the folder of ``output``, checked before anything is simulated. Raises InputError."""
+    """Return the folder of ``output``, checked before any simulation. Raises InputError."""
     output = options["output"]
     folder = None if output is None else Path(output).absolute()  # an FMU may change the working folder
     check_folder("`output`", folder, overwrite=options["overwrite"], otherwise="`overwrite`")
@@ -78,14 +78,15 @@ def results_folder(options: ConditionOptions) -> Path | None:
 
 
 def conditions(options: ConditionOptions) -> Conditions:
-    """Return the constants of a study, and its workers."""
+    """Return the fixed conditions of a study, and its number of workers."""
     return {"hold": dict(options["hold"]), "noise_trial": options["noise_trial"], "workers": options["workers"]}
 
 
 def store_result(kind: Callable[..., Study], result: StudyResult, folder: Path | None, **more: object) -> Study:
-    """Return a study's result as its public subclass ``kind``, with the fields ``more``, and write it to its folder.
+    """Convert a study's result to its public subclass ``kind`` with the fields ``more``; write it to its folder, if
+    any.
 
-    Raises UnwrittenError, which has the result.
+    Raises UnwrittenError, which contains the result.
     """
     complete = kind(**{field.name: getattr(result, field.name) for field in fields(result)}, folder=folder, **more)
     if folder is not None:

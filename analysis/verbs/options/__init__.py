@@ -1,1 +1,1 @@
-"""Declarations that need higher rooms: the verbs of design, the list of all verbs, completion in a shell."""
+"""Declarations that need higher layers: the verbs of design, the list of all verbs, completion in a shell."""

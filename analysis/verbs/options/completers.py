@@ -1,4 +1,4 @@
-"""Candidates of a shell's completion: names of systems, campaigns, sets, FMUs, where finding them is cheap."""
+"""Completers for a shell: names of systems, campaigns, parameter sets and FMUs, as far as they are cheap to find."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def parameter_sets(prefix: str, parsed_args: argparse.Namespace, **_: object) ->
 
 
 def slots_with_fmus(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """Return ``SLOT=`` of the system first, then ``SLOT=FMU``."""
+    """Return ``SLOT=`` for the slots of the system, then, after a slot, ``SLOT=FMU`` for each FMU."""
     slot, equals, remainder = prefix.partition("=")
     if equals:
         return [f"{slot}={name}" for name in fmus(remainder)]
@@ -82,7 +82,7 @@ def block_slots(prefix: str, **_: object) -> list[str]:
 
 
 def _system(parsed_args: argparse.Namespace) -> SystemArchive | None:
-    """Return the system that the line names so far."""
+    """Return the system named on the command line so far."""
     try:
         return open_system(parsed_args.system) if getattr(parsed_args, "system", None) else None
     except InputError:

@@ -1,4 +1,4 @@
-"""The verbs of design: law and search of network operators, transfer and bound of least propellant."""
+"""Verbs of design: law and search for network operators, transfer and bounds for least propellant."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ SEARCH = Verb(
 
 
 def _defaults(name: str, unit: str) -> str:
-    """Return the unit of a number of the vehicle, and its published values."""
+    """Return the unit of a number of the vehicle, and its published values, as text."""
     values = f"{getattr(HOVER_VEHICLE, name):g} (transfer), {getattr(LANDING_VEHICLE, name):g} (bound)"
     return f", {unit}; default: {values}"
 
