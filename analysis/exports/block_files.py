@@ -46,7 +46,7 @@ def find_block_file(name: str) -> Path | None:
 
 
 def export_file(file: Path, request: ExportRequest, only: str | None = None) -> Written:
-    """Export the blocks of a file, or ``only`` one of them, to build/fmus, where the option `use` finds them by name.
+    """Export the blocks of a file, or ``only`` one, to build/fmus, where the option `use` finds them by name.
 
     Raises InputError.
     """

@@ -33,7 +33,9 @@ WORKERS = 2  # requests that are worked on at a time
 
 
 class Service:
-    """Answers to requests about campaigns, computed in separate threads; once the server stops, reading ends."""
+    """Answers to requests about campaigns, computed in separate threads; after the server stops, reading ends with a
+    shard.
+    """
 
     def __init__(self, campaigns: Sequence[OpenCampaign], page: str) -> None:
         self._page = page

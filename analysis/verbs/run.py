@@ -109,7 +109,7 @@ class Result(Documented, results.Result):
 
     @property
     def limits(self) -> list[dict[str, Any]]:
-        """The SSD's `Limits` evaluated at the end: name, value, unit, least, most and verdict of each.
+        """The SSD's `LimitsFigure` evaluated at the end: name, value, unit, least, most and verdict of each.
 
         The verdict is ``met``, ``violated`` or ``not evaluated``; the latter includes the reason.
         """

@@ -179,7 +179,7 @@ def _check(prepared: PreparedSystem) -> None:
 
 
 def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem, options: SystemOptions) -> int:
-    """Return the number (from 1) of a slot's default candidate: the system's own if a candidate, else the first."""
+    """Return the number (from 1) of a slot's default candidate: the system's own if possible, else the first."""
     given = options.use.get(slot)
     component = dict(prepared.network.components()).get(slot)
     names = [candidate_name(each) for each in candidates]
@@ -188,9 +188,9 @@ def find_default(slot: str, candidates: Sequence[str], prepared: PreparedSystem,
 
 
 def parameter_chain(network: Network, values: Mapping[str, float | str], target: str) -> list[str]:
-    """Return the connectors along which a parameter gets its value: the outermost with a value first, ``target`` last.
+    """Return the connectors along which a parameter gets its value, from the outermost with a value inwards.
 
-    Empty if no connector before ``target`` has a value.
+    The last one is ``target``. Empty if no connector before it has a value.
     """
     chain = [target]
     while chain[-1] in network.driver:

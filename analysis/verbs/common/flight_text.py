@@ -23,7 +23,7 @@ REMEDIES = {
 
 
 def flight_lines(prepared: PreparedSystem, figures: Sequence[FigureDeclaration], result: Result) -> list[str]:
-    """Return the end of a flight: status, limits, statuses of components."""
+    """Return lines on the end of a simulation: status, limits, statuses of components."""
     lines = [f"{prepared.archive.name}: {result.ending}"]
     for figure in figures:
         if isinstance(figure, LimitsFigure):
@@ -34,7 +34,7 @@ def flight_lines(prepared: PreparedSystem, figures: Sequence[FigureDeclaration],
 
 
 def flight_problems(prepared: PreparedSystem, figures: Sequence[FigureDeclaration], result: Result) -> list[str]:
-    """Return a line for each reason why a flight did not complete, or violates a limit of its SSD."""
+    """Return a line for each reason why a simulation did not complete or violates a limit of its SSD."""
     file, lines = prepared.network.file, []
     if not result.complete:
         remedy = REMEDIES.get(result.status, "see the FMU's message and its documentation")
