@@ -116,12 +116,13 @@ def test_page_json_file_and_talk_to_the_terminal(plain, tmp_path, capsys):
     assert main(["stability", plain, "--report", str(page), "--json", str(file)]) == 0
     captured = capsys.readouterr()
     (loop,) = strict(file.read_text())["loops"]
-    line, last, written = captured.out.splitlines()
+    line, tightest, last, written = captured.out.splitlines()
     assert written == f"written: {page}, {file}"
     assert line.startswith(
         f"loop at there: gain margin {loop['gain_margin_db']:.2f} dB, phase margin {loop['phase_margin_deg']:.2f} deg, "
     )
     assert line.endswith("linearised and measured responses agree: pass")
+    assert tightest.startswith("tightest margin: loop at there, ")
     assert re.fullmatch(r"late_double_integrator: pass, \d+\.\d s", last)
     assert captured.err == ""
     assert page.read_text().lower().startswith("<!doctype html")

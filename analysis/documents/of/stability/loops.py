@@ -11,14 +11,37 @@ from ...common.quantities import MINUS, display_unit
 from ...model import Fold, Group, Items, Missing, Node, Note, Repeat, Text, Tile, Tiles
 from ...pictures import Figure, Figures
 from .figures import SIGHT, figures_by_part
-from .how_to_read import HOW_TO_READ
-from .margins import anchor, link, loop_table
+from .margins import loop_table
 from .paper import Paper, paper_of
 from .parts import Part, list_absent, parts
 from .shared import TOLERANCE, Shared, share
-from .words import fold_long, left_out, numeral, verdict
+from .words import anchor, fold_long, left_out, link, numeral, verdict
 
 SEEN = ("Bode", "Nichols")  # labels of the figures at first sight
+HOW_TO_READ = (
+    "Frequencies are angular, in rad/s, up to the Nyquist frequency of the loop's sample period. Lines are L; small "
+    "circles are the response measured in flight, where L is linearised. Diamonds mark gain margins, squares phase "
+    "margins and peaks; the decisive ones are filled.",
+    "Bode: bars are the decisive gain and phase margin, read at the dotted frequencies; the short dashed lines are "
+    f"the margins required. Nyquist: the cross is {MINUS}1; the solid circle about it is the modulus margin, the "
+    "dashed one its limit; dotted curves are the unit circle and negative frequencies; the arrow points to higher "
+    f"frequencies. A loop is stable where the whole curve, from {MINUS}π/T to π/T, encircles {MINUS}1 "
+    "counter-clockwise as often as the open loop has unstable poles.",
+    "Nichols: the hatched diamond is the exclusion zone, with its corners at the required gain and phase margins; "
+    "the dashed oval is the limit of the modulus margin.",
+    "Sensitivities: S = 1/(1 + L) solid, T = L/(1 + L) dashed; the dashed horizontal line is the limit that the "
+    "modulus margin sets on S.",
+    "Poles: the solid circle is the unit circle, dotted lines have constant damping (0.2, 0.5, 0.8). Crosses are "
+    "modes controllable and observable at the break point; triangles down are not controllable from it, triangles up"
+    " not observable at it, squares neither. Poles on or outside the circle are in orange.",
+    "Over trials: dashed is the limit, the triangle the worst trial; the hatched bar at the left counts unstable "
+    "trials. Crosses are the nominal poles, dots those of all trials.",
+    f"Harmonic balance: a limit cycle is predicted where L and {MINUS}1/N meet; filled dots are stable ones, rings "
+    "unstable ones.",
+    f"Encirclements, counter-clockwise positive: by Nyquist's criterion N of {MINUS}1 and P unstable poles of the "
+    f"open loop leave P {MINUS} N unstable closed-loop poles, and stable is P = N. Integrators (z = 1) are passed on "
+    "the outside: not among P. Disk margin: gain and phase may vary simultaneously within it.",
+)
 
 
 def loop_nodes(report: StabilityReport) -> list[Node]:
@@ -82,7 +105,9 @@ def _elsewhere(report: StabilityReport, shared: Shared, *, at_sight: bool) -> li
     }
     same = f", which is the same within {TOLERANCE} pt, half the width of a line."
     return [
-        Note([f"{', '.join(labels)}: see ", link(report, other), same]) for other, labels in labelled.items() if labels
+        Note([f"{', '.join(labels)}: see ", link(report, report.loops[other]), same])
+        for other, labels in labelled.items()
+        if labels
     ]
 
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from ....stability.loops.margin_values import UNSTABLE, Quantity
 from ....stability.results.report import Judged, LoopReport, StabilityReport
-from ....stability.results.requirement import Scope
-from ...cell import Cell, Lines, Link, Strong
+from ....stability.results.requirement import Requirement, Scope
+from ...cell import Cell, Lines, Phrase, Strong
 from ...model import Table
+from ..reserve import TIGHTEST
 from .orders import order_loops, order_note
+from .tightest import is_tightest, tightest, with_mark
 from .words import (
     NO_CROSSING,
     crossing_text,
@@ -17,6 +19,7 @@ from .words import (
     in_decibels,
     in_degrees,
     limit,
+    link,
     names,
     numbers,
     numeral,
@@ -32,34 +35,29 @@ from .words import (
 SCOPES = {Scope.NOMINAL: "nominal", Scope.DISPERSED: "dispersed", Scope.JOINT: "simultaneous"}
 
 
-def anchor(index: int) -> str:
-    """Return the anchor of a loop's article; names may hold characters that an anchor cannot."""
-    return f"loop-{index + 1}"
-
-
-def link(report: StabilityReport, index: int) -> Link:
-    """Return a loop's name, which leads to its article."""
-    return Link(report.loops[index].name, anchor(index))
-
-
-def verdict_table(report: StabilityReport, judgements: Iterable[Judged]) -> Table:
-    """Return a row for each requirement: value, limit, verdict and, where there is none, why."""
-    indices = {id(loop): index for index, loop in enumerate(report.loops)}
+def verdict_table(report: StabilityReport, judgements: Sequence[Judged]) -> Table:
+    """Return a row for each requirement: value, limit, verdict and, where there is none, why; one is the tightest."""
+    nearest = tightest(report) if len(judgements) > 1 else None
     rows = [
         (
-            link(report, indices[id(subject)]) if isinstance(subject, LoopReport) else subject.name,
+            link(report, subject),
             subject.point,
             SCOPES[item.scope],
             item.title,
             crossing_text(item),
             limit(item),
             verdict(item.verdict),
-            order_note(item),
+            _note(item, is_tightest=nearest is not None and item is nearest.requirement),
         )
         for subject, item in judgements
     ]
     heads = names("loop", "operating point", "scope", "quantity"), numbers("value", "limit"), names("verdict")
     return Table([*(head for group in heads for head in group), *sentences("note")], rows)
+
+
+def _note(requirement: Requirement, *, is_tightest: bool) -> Cell:
+    words = order_note(requirement)
+    return Phrase([Strong(TIGHTEST), *([f", {words}"] if words else [])], is_unbroken=False) if is_tightest else words
 
 
 SIZES = (
@@ -70,8 +68,8 @@ SIZES = (
 def summary_table(report: StabilityReport) -> Table:
     """Return loops by operating points with their margins."""
     rows = [
-        (link(report, index), loop.point, *margin_cells(loop), verdict(loop.verdict))
-        for index, loop in enumerate(report.loops)
+        (with_mark(report, loop, link(report, loop)), loop.point, *margin_cells(loop), verdict(loop.verdict))
+        for loop in report.loops
     ]
     heads = [*names("loop", "operating point"), *numbers(*SIZES), *names("closed loop", "verdict")]
     return Table(heads, rows)
@@ -107,7 +105,8 @@ def joint_table(report: StabilityReport) -> Table:
             numeral(joint.disk_frequency),
         )
         unstable = (*[size(UNSTABLE)] * 3, numeral(None))
-        name = Lines([Strong(joint.name), ", ".join(joint.channels)])
+        mark = [TIGHTEST] if is_tightest(report, joint) else []
+        name = Lines([Strong(joint.name), ", ".join(joint.channels), *map(Strong, mark)])
         rows.append((name, joint.point, *(margins if joint.stable else unstable), verdict(joint.verdict)))
     sizes = numbers("disk margin", "gain, dB, upper and lower", "phase, deg", "at rad/s")
     return Table(["channels", "operating point", *sizes, "verdict"], rows)
@@ -117,7 +116,7 @@ def order_table(report: StabilityReport) -> Table:
     """Return two rows for each loop, without and with feedthrough; none where there is one order only."""
     others = {(loop.name, loop.point): loop for loop in order_loops(report)}
     rows: list[tuple[Cell, ...]] = []
-    for index, loop in enumerate(report.loops):
+    for loop in report.loops:
         other = others.get((loop.name, loop.point))
         for feedthrough, each in (("none", loop), ("all", other)) if others else ():
             if each is None:
@@ -125,6 +124,6 @@ def order_table(report: StabilityReport) -> Table:
             delay = state(each.margins) or numeral(each.classical.delay_margin, infinite=NO_CROSSING)
             margins = [size(each.margins.size(quantity)) for quantity in (Quantity.MODULUS, Quantity.DISK)]
             crossings = gain_margin(each.margins), phase_margin(each.margins), delay
-            rows.append((link(report, index), loop.point, feedthrough, *crossings, *margins, verdict(loop.verdict)))
+            rows.append((link(report, loop), loop.point, feedthrough, *crossings, *margins, verdict(loop.verdict)))
     sizes = numbers("gain margin, dB", "phase margin, deg", "delay margin, s", "modulus margin", "disk margin")
     return Table([*names("loop", "operating point", "feedthrough"), *sizes, *names("verdict")], rows)

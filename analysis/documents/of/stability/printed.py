@@ -9,7 +9,9 @@ from ....stability.loops.margin_values import MARGINS, UNLIMITED, Quantity
 from ....stability.results.report import JointReport, LoopReport, StabilityReport, Unstudied
 from ....stability.results.requirement import Requirement, Verdict
 from ....stability.results.varied import SweepCrossing, SweepReport
+from ...render.words import rich_text
 from .orders import order_loops, order_sentences, withheld_line
+from .tightest import tightest_nodes
 
 
 def stability_lines(report: StabilityReport) -> list[str]:
@@ -22,6 +24,7 @@ def stability_lines(report: StabilityReport) -> list[str]:
     lines += [_verdict_line(lost) for lost in report.unstudied if lost.verdict is not None]
     lines += [f"note: {sentence}" for sentence in order_sentences(report)]
     lines += [_crossing_line(sweep, crossing) for sweep in report.sweeps for crossing in sweep.crossings]
+    lines += [rich_text(node.content) for node in tightest_nodes(report)]
     return [*lines, f"{report.system}: {report.verdict}, {report.seconds:.1f} s"]
 
 

@@ -20,6 +20,7 @@ from .over_time import courses, over_time_nodes
 from .points import point_nodes
 from .printed import stability_lines
 from .sweeps import sweep_nodes
+from .tightest import dispersion_nodes, tightest_nodes, with_mark
 from .words import fold_long, gain_margin, phase_margin, size, verdict
 
 
@@ -64,7 +65,7 @@ def _notebook_nodes(report: StabilityReport) -> list[Node]:
     heads = ("loop", "operating point", "gain margin, dB", "phase margin, deg", "modulus", "disk", "")
     rows = [
         (
-            loop.name,
+            with_mark(report, loop, loop.name),
             loop.point,
             gain_margin(loop.margins),
             phase_margin(loop.margins),
@@ -80,6 +81,8 @@ def _notebook_nodes(report: StabilityReport) -> list[Node]:
 
     return [
         Text(str(report.verdict)),
+        *tightest_nodes(report),
+        *dispersion_nodes(report),
         *map(Text, order_sentences(report)),
         *(Text(f"{item.name} at {item.point} not studied") for item in report.unstudied),
         Table(heads, rows),
@@ -96,7 +99,7 @@ def _verdict(report: StabilityReport) -> Verdict:
     }
     others = [f"{verdicts.count(each)} {text}" for each, text in words.items() if each in verdicts]
     met = f"{verdicts.count(Judgement.PASS)} of {len(verdicts)} requirement{'s' if len(verdicts) != 1 else ''} met"
-    nodes = [Text(", ".join([met, *others]))]
+    nodes = [Text(", ".join([met, *others])), *tightest_nodes(report), *dispersion_nodes(report)]
     return Verdict([verdict(report.verdict)], nodes, is_bad=report.verdict is not Judgement.PASS)
 
 
@@ -144,7 +147,8 @@ def _unstudied_nodes(report: StabilityReport) -> list[Node]:
 def _margin_nodes(report: StabilityReport) -> list[Node]:
     nearest = Note(
         "The gain margin is the one nearest to 0 dB, upwards or downwards, the phase margin the one nearest to 0. "
-        "Samples are the loop's own. One loop is broken at a time, all other loops closed."
+        "Samples are the loop's own. One loop is broken at a time, all other loops closed. Tightest: least reserve "
+        "relative to its limit."
     )
     joint = Group(
         "Simultaneous (multi-loop) margins",

@@ -13,9 +13,9 @@ import numpy as np
 
 from ....stability.loops.margin_values import UNSTABLE, Margins
 from ....stability.loops.readings import decibel_size, decibels, degree_size
-from ....stability.results.report import LoopReport
+from ....stability.results.report import JointReport, LoopReport, StabilityReport
 from ....stability.results.requirement import Requirement, Verdict
-from ...cell import Cell, Displayed, Head, Inline, Judged, Phrase, Quantity, Rich, Strong
+from ...cell import Cell, Displayed, Head, Inline, Judged, Link, Phrase, Quantity, Rich, Strong
 from ...common.quantities import MINUS, NONE, display_unit, number
 from ...model import Fold, Node, Table
 
@@ -64,6 +64,17 @@ def numeral(value: Any, unit: str | None = None, digits: int = 4, infinite: str 
     if isinstance(value, float) and not math.isfinite(value):
         return infinite if math.isinf(value) else NONE
     return value if isinstance(value, str) else Quantity(value, unit, digits, is_bare=True)
+
+
+def anchor(index: int) -> str:
+    """Return the anchor of a loop's article; names may hold characters that an anchor cannot."""
+    return f"loop-{index + 1}"
+
+
+def link(report: StabilityReport, subject: LoopReport | JointReport) -> Link | str:
+    """Return the name of a loop, which leads to its article, or of channels, which have none."""
+    index = next((index for index, loop in enumerate(report.loops) if loop is subject), None)
+    return subject.name if index is None else Link(subject.name, anchor(index))
 
 
 def in_decibels(factor: float | None, infinite: str = NO_CROSSING, *, absolute: bool = False) -> Inline:
@@ -158,18 +169,18 @@ def text_of_closed_loop(stable: bool | None) -> str:
     return {True: "stable", False: "unstable", None: "not known"}[None if stable is None else bool(stable)]
 
 
-def crossing_text(requirement: Requirement) -> Cell:
+def crossing_text(requirement: Requirement) -> Inline | Phrase:
     """Return the value of a requirement with its unit."""
     value = requirement.value
     is_number = value is not None and math.isfinite(value)
     return _with_unit(size(value), requirement.unit if is_number else "1")
 
 
-def limit(requirement: Requirement) -> Cell:
+def limit(requirement: Requirement) -> Inline | Phrase:
     """Return the limit of a requirement with its unit."""
     return _with_unit(numeral(float(requirement.limit)), requirement.unit)
 
 
-def _with_unit(cell: Inline, unit: str) -> Cell:
+def _with_unit(cell: Inline, unit: str) -> Inline | Phrase:
     displayed = display_unit(unit)
     return Phrase([cell, f" {displayed}"]) if displayed else cell

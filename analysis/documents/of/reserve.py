@@ -1,0 +1,21 @@
+"""Reserves of values to their limits, by which pages mark the tightest one."""
+
+from __future__ import annotations
+
+import math
+
+TIGHTEST = "tightest"
+
+
+def relative_reserve(value: float, low: float | None, high: float | None) -> float:
+    """Return the distance of a value from its nearer limit, relative to that limit, in a range to half its width.
+
+    It is below 0 outside of the limits, and infinite for a limit of 0 alone, of which there is no fraction.
+    """
+    if math.isnan(value):
+        return -math.inf
+    below = math.inf if low is None else value - low
+    above = math.inf if high is None else high - value
+    scale = low if high is None else high if low is None else 0.5 * (high - low)
+    distance = min(below, above)
+    return distance / abs(scale) if scale else math.copysign(math.inf, distance)
