@@ -1,1 +1,1 @@
-"""Declarations of an FMU's variables, in one vocabulary for FMI 2.0 and FMI 3.0."""
+"""Declared variables of FMUs, in one vocabulary for FMI 2.0 and FMI 3.0."""

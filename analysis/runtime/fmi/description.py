@@ -1,5 +1,4 @@
-"""Conditions on an FMI 3.0 modelDescription.xml for its FMU to be simulated, and elements of it
-that FMPy does not read."""
+"""Requirements on the modelDescription.xml of an FMU of FMI 3.0, and elements of it that FMPy does not read."""
 
 from __future__ import annotations
 
@@ -23,12 +22,12 @@ NUMBERS = ("start", "min", "max", "nominal")
 
 
 def is_fmi3(version: str | None) -> bool:
-    """Return True if a fmiVersion is a released one of FMI 3."""
+    """Return True if an fmiVersion is a released version of FMI 3."""
     return version is not None and RELEASED.fullmatch(version) is not None
 
 
 def check_description(root: etree._Element, label: str) -> None:
-    """Refuse an FMU without co-simulation, with clocks, without names or references, with numbers that are none.
+    """Reject an FMU without co-simulation, with clocks, or with missing names or references or malformed numbers.
 
     Raises InputError, with the FMU's ``label``.
     """
@@ -61,7 +60,7 @@ def check_description(root: etree._Element, label: str) -> None:
 
 
 def complete(description: ModelDescription, root: etree._Element) -> None:
-    """Add to FMPy's description what it leaves out: limits of unsigned and typed variables, starts of arrays."""
+    """Add what FMPy's description omits: limits of unsigned and typed variables, start values of arrays."""
     elements = {each.get("name"): each for each in root.iterfind("ModelVariables/*")}
     for variable in description.modelVariables:
         element = elements[variable.alias.name if variable.alias is not None else variable.name]
@@ -73,7 +72,7 @@ def complete(description: ModelDescription, root: etree._Element) -> None:
 
 
 def check_sizes(description: ModelDescription, sizes: dict[int, int], label: str) -> None:
-    """Refuse arrays of more elements than can be exchanged one by one. Raises InputError."""
+    """Reject arrays with more elements than can be exchanged one by one. Raises InputError."""
     total = sum(math.prod(shape(each, sizes)) for each in description.modelVariables if each.dimensions)
     if total > MOST_ELEMENTS:
         problem = f"its arrays have {total} elements, of {MOST_ELEMENTS} at most"
@@ -107,9 +106,9 @@ def _check_variable(variable: etree._Element, label: str) -> None:
 
 
 def _starts(variable: etree._Element) -> list[str]:
-    """Return the declared starts, one or one for each element; those of texts are child elements.
+    """Return the declared start values, one or one for each element; those of texts are child elements.
 
-    The FMU Manipulation Toolbox declares those of all arrays so.
+    The FMU Manipulation Toolbox declares the start values of all arrays as child elements.
     """
     texts = [each.get("value", "") for each in variable.iterfind("Start")]
     if variable.tag in TEXTS:
@@ -118,7 +117,7 @@ def _starts(variable: etree._Element) -> list[str]:
 
 
 def _check_references(root: etree._Element, variables: list[etree._Element], label: str) -> None:
-    """Refuse value references of no variable: those that are listed as dependencies, states or sizes."""
+    """Reject undefined value references in lists of dependencies, states or sizes."""
     known = {int(each.get("valueReference", "0")): each for each in variables}
     wanted = [(each, "valueReference") for each in root.iterfind("ModelVariables/*/Dimension")]
     wanted += [(each, "derivative") for each in variables]

@@ -1,4 +1,4 @@
-"""The communication steps that FMUs propose: those of their default experiments, and fixed internal ones."""
+"""Communication steps that FMUs propose: the step of the default experiment, or a fixed internal step."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from ..ssp.fmu_description import DESCRIPTION
 
 
 def step_of_experiment(description: ModelDescription, label: str, notes: list[str]) -> float | None:
-    """Return the step (s) of an FMU's default experiment; None where it states none.
+    """Return the step (s) of an FMU's default experiment, or None if it states none.
 
-    Tools write 0 for none, which is noted. Raises InputError for one that is no positive number otherwise.
+    Some tools write 0 for no step, which is noted. Raises InputError for other values that are not positive numbers.
     """
     text = getattr(description.defaultExperiment, "stepSize", None)
     return _seconds(text, STEP_SIZE, label, notes)
 
 
 def proposed_step(description: ModelDescription, label: str, notes: list[str]) -> float | None:
-    """Return likewise the step of its default experiment, else its fixed internal one."""
+    """Return the step (s) of an FMU's default experiment, else its fixed internal step, else None."""
     step = step_of_experiment(description, label, notes)
     return step or _seconds(description.coSimulation.fixedInternalStepSize, INTERNAL_STEP_SIZE, label, notes)
 

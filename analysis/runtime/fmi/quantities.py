@@ -1,4 +1,4 @@
-"""The attribute relativeQuantity of variables: FMPy looks for it among an element's children, and misses it."""
+"""Attribute relativeQuantity of variables, which FMPy misses because it looks in the wrong element."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ STATED = ("ModelVariables/ScalarVariable/Real[@relativeQuantity]", "ModelVariabl
 
 
 def complete_quantities(description: ModelDescription, root: etree._Element) -> None:
-    """Add relativeQuantity to the variables of FMPy's description that state it, and to their aliases."""
+    """Set relativeQuantity on the variables of FMPy's description whose elements state it, and on their aliases."""
     stated: dict[str | None, bool] = {}
     for path in STATED:
         for element in root.iterfind(path):

@@ -1,4 +1,4 @@
-"""Storage of variables: the types of FMI 3.0, with the kind of type that each is and its range."""
+"""Storage of variables: the types of FMI 3.0 with their ranges, and the runtime's type of each."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ EXACT = 2**53  # whole numbers up to this one are float64 exactly
 
 
 class Representation(NamedTuple):
-    """A type of FMI 3.0. ``type`` is what is connected and recorded: Real, Integer, Boolean, String or Binary."""
+    """Type of FMI 3.0; ``type`` is the runtime's: Real, Integer, Boolean, String or Binary."""
 
     name: str
     type: str
@@ -21,15 +21,15 @@ class Representation(NamedTuple):
 
     @property
     def is_wide(self) -> bool:
-        """True if it has whole numbers that a float64 has not."""
+        """True if it has integers that a float64 cannot represent."""
         return self.dtype in ("int64", "uint64")
 
     def complaint(self) -> str:
-        """Return the error of a number beyond its limits, as a predicate."""
+        """Return the predicate of the error message for a number out of range."""
         return "has more than 32 bits" if self.name == "Int32" else f"is no {self.name}"
 
     def demand(self) -> str:
-        """Return the permitted whole numbers, as an object."""
+        """Return the permitted integers as text, the object of a sentence."""
         low, high = self.limits
         return "a whole number of 32 bits" if self.name == "Int32" else f"a whole number from {low} to {high}"
 

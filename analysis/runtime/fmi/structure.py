@@ -1,4 +1,4 @@
-"""The structural parameters of a component of FMI 3.0, which size its arrays: read before its variables are named."""
+"""Structural parameters of a component of FMI 3.0, which size its arrays, read before its variables are named."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ def structural_sizes(
     names: Collection[str],
     chosen: Sequence[Assignment],
 ) -> dict[str, int]:
-    """Return the values of these parameters of a component, by its flat name.
+    """Return the values of the structural parameters of a component, by its flat name.
 
-    They come from its bindings, those of the systems around it, then ``chosen``; later ones win. Raises InputError for
-    one that is no whole number.
+    They are set by its bindings, by those of the systems around it, and by ``chosen``; later ones win. Raises
+    InputError for a value that is not an integer.
     """
     sizes: dict[str, int] = {}
     for prefix, bindings in _bindings(description.system, component):
@@ -31,7 +31,7 @@ def structural_sizes(
 
 
 def _bindings(system: System, component: str) -> Iterator[tuple[str, list[Binding]]]:
-    """Yield bindings from the inside out, each with the prefix of the component's variables there."""
+    """Yield bindings from the component outwards, each with the prefix that its names need there."""
     owner, remainder = _element(system, component)
     if owner is None:
         return
@@ -43,7 +43,7 @@ def _bindings(system: System, component: str) -> Iterator[tuple[str, list[Bindin
 
 
 def _element(system: System, name: str) -> tuple[Element | None, str]:
-    """Return the element of a system that a flat name leads through, and the rest of the name."""
+    """Return the element of a system that a flat name begins with, and the rest of the name."""
     for short, element in system.elements.items():
         if name == short or (isinstance(element, System) and name.startswith(f"{short}.")):
             return element, name[len(short) + 1 :]

@@ -1,4 +1,4 @@
-"""The terminals of an FMU of FMI 3.0: variables that are connected together, by the name of their port."""
+"""Terminals of an FMU of FMI 3.0: variables that are connected together, by the name of their port."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ TERMINALS = "terminalsAndIcons/terminalsAndIcons.xml"
 
 
 def read_terminals(content: bytes, label: str) -> dict[str, list[str]]:
-    """Read the variables of each terminal by its name, those within another with that one's
-    before it. Raises InputError."""
+    """Return the variables of each terminal by its name; a nested terminal has a dotted name. Raises InputError."""
     archive = open_zip(content, label)
     if TERMINALS not in archive.namelist():
         return {}

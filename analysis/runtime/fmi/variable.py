@@ -1,6 +1,7 @@
-"""A variable of an FMU as the runtime sees it, one number or text, whatever the version of FMI.
+"""Variable of an FMU as the runtime uses it: one number or text, in any version of FMI.
 
-An array of FMI 3.0 is many: ``x[1]``, ``x[2,1]``, row by row, as FMI 2.0 names the elements of a vector.
+An array of FMI 3.0 becomes one variable for each element, ``x[1]`` or ``x[2,1]``, row by row, as FMI 2.0 names the
+elements of a vector.
 """
 
 from __future__ import annotations
@@ -16,9 +17,10 @@ from .representations import OF_FMI2, REPRESENTATIONS, Representation
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """``type`` is Real, Integer, Boolean, Enumeration, String or Binary. Bounds and ``start`` are as declared, in text.
+    """Scalar variable, or one element of an array.
 
-    ``start`` is None where none is declared, as for elements beyond the sizes that the description declares.
+    ``type`` is Real, Integer, Boolean, Enumeration, String or Binary. Bounds and ``start`` are text, as declared.
+    ``start`` is None if none is declared, as for elements beyond the sizes that the description declares.
     """
 
     name: str
@@ -41,17 +43,17 @@ class Variable:
 
     @property
     def is_tunable(self) -> bool:
-        """True for a parameter that may be set between steps."""
+        """True if the variable is a parameter that may be set between steps."""
         return self.causality == "parameter" and self.variability == "tunable"
 
     @property
     def start_text(self) -> str:
-        """The start as a text that can be read as a number, of one without NaN."""
+        """Declared start, or "nan" if none is declared."""
         return "nan" if self.start is None else self.start
 
 
 def variables_of(description: ModelDescription) -> dict[str, Variable]:
-    """Return the variables of an FMU by name, with the sizes that it declares."""
+    """Return the variables of an FMU by name, with declared array sizes."""
     declared = description.modelVariables
     return elements_of(declared, {}) if description.fmiMajorVersion == 3 else scalars(declared)
 
@@ -62,9 +64,9 @@ def scalars(declared: Sequence[ModelVariable]) -> dict[str, Variable]:
 
 
 def elements_of(declared: Sequence[ModelVariable], sizes: Mapping[int, int]) -> dict[str, Variable]:
-    """Return the variables of an FMU of FMI 3.0 by name, those of arrays one by one.
+    """Return the variables of an FMU of FMI 3.0 by name, arrays as their elements.
 
-    ``sizes`` are the structural parameters by value reference.
+    ``sizes`` are values of structural parameters by value reference.
     """
     variables: dict[str, Variable] = {}
     for each in declared:
@@ -75,7 +77,7 @@ def elements_of(declared: Sequence[ModelVariable], sizes: Mapping[int, int]) -> 
 
 
 def shape(declared: ModelVariable, sizes: Mapping[int, int] | None = None) -> tuple[int, ...]:
-    """Return the dimensions of a variable, () of one without: as declared, or with these structural parameters."""
+    """Return the dimensions of a variable, () for a scalar, with declared sizes or those of ``sizes``."""
     return tuple(
         int(each.start) if each.start is not None else (sizes or {}).get(each.valueReference, int(each.variable.start))
         for each in declared.dimensions
@@ -93,7 +95,7 @@ def _elements(whole: Variable, declared: ModelVariable, sizes: Mapping[int, int]
 
 
 def _starts(declared: ModelVariable) -> dict[tuple[int, ...], str]:
-    """Return the declared starts by position, counted from 1; one for all elements where one is declared."""
+    """Return the declared start values by position, counted from 1. A single value applies to all elements."""
     if declared.start is None:
         return {}
     positions = list(itertools.product(*(range(1, size + 1) for size in shape(declared))))

@@ -1,1 +1,1 @@
-"""The steps of a system compiled as one C function, from the C inside its FMUs."""
+"""Steps of a system compiled as one C function, from the C inside its FMUs."""

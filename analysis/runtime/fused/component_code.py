@@ -1,4 +1,4 @@
-"""The C of a component's FMU within a larger unit: its headers included, its names with a prefix."""
+"""C of one component inside a larger translation unit: headers included, names prefixed."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ STANDARD = frozenset(
 
 @dataclass(frozen=True)
 class ComponentCode:
-    """``text`` whose names begin with ``prefix`` once it is compiled, and the standard ``headers`` that it needs."""
+    """C ``text`` whose names get a ``prefix`` when compiled, and the standard ``headers`` that it needs."""
 
     prefix: str
     text: str
@@ -61,10 +61,10 @@ class ComponentCode:
 
 
 def component_code(sources: Mapping[str, str], model: str, prefix: str, label: str) -> ComponentCode:
-    """Return the C of one of our native FMUs, whose ``sources`` are by file name, without the functions of FMI.
+    """Return the C of one of Perilune's native FMUs without the FMI functions; ``sources`` are by file name.
 
-    ``model`` is the FMU's model identifier. Raises InputError, which names ``label``, for C of another build than this
-    Perilune's.
+    ``model`` is the FMU's model identifier. Raises InputError, which names ``label``, if the C is from another version
+    of Perilune.
     """
     main = sources.get(f"{model}.c", "")
     if WRAPPER not in main:
@@ -76,7 +76,7 @@ def component_code(sources: Mapping[str, str], model: str, prefix: str, label: s
 
 
 def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str], seen: set[str]) -> str:
-    """Return the text with its headers where they are included first, without the standard ones."""
+    """Return the text with each of its headers inserted once; collect standard ones in ``headers``."""
 
     def put(include: re.Match[str]) -> str:
         file = INSTEAD.get(include[2], include[2])
@@ -94,9 +94,10 @@ def _include(text: str, sources: Mapping[str, str], label: str, headers: set[str
 
 
 def _rename(text: str, prefix: str) -> str:
-    """Return the text between lines that give all of its names a prefix and take it from them again.
+    """Return the text between lines that define a prefixed macro for each of its names, and undefine it.
 
-    The preprocessor does it, since it joins names itself (``py_##name``). Names of macros are those of the text alone.
+    The preprocessor renames, because the C also joins names (``py_##name``). Macro names of the text are undefined,
+    too.
     """
     names = {token["name"] for token in TOKEN.finditer(text) if token["name"]}
     names |= {first + second for first in JOINED.findall(text) for second in USE.findall(text)}

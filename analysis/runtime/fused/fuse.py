@@ -1,4 +1,4 @@
-"""The compiled steps of a system: the C is that inside its FMUs, and fits their binaries."""
+"""Compilation of a system's steps into one function, from the C inside its FMUs."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MOST_INSTRUCTIONS = 20_000  # a minute of compilation
 
 
 def is_compilable(program: arrays.Program) -> bool:
-    """Return True if the steps of a program compile in a minute."""
+    """Return True if the steps of a program compile within a minute."""
     return int(program.phases[-1] - program.phases[0]) <= MOST_INSTRUCTIONS
 
 
@@ -42,12 +42,12 @@ def fuse(
     recorded: Iterable[int],
     is_wanted: Callable[[], bool] = lambda: True,
 ) -> int:
-    """Return the address of the steps of a ``program`` of which these slots are recorded, compiled as one function.
+    """Return the address of a function that executes the steps of ``program`` and records these slots.
 
-    The C is that inside the native FMUs of the ``instances``; other FMUs are called as ever. The library is kept in the
-    cache folder by its content. The compiler is ended as soon as the function is not ``is_wanted`` any more. Raises
-    InputError where there is no compiler, or one that does not work or changes results, where no library can be
-    written, and for FMUs whose C is of another build, or whose periods come round together too late.
+    It contains the C of the native FMUs among ``instances``; other FMUs are called through FMI. The library is cached
+    by its content. Compilation is cancelled once ``is_wanted`` returns False. Raises InputError if there is no
+    compiler, if it fails or changes results, if no library can be written, if the C of an FMU is from another build, or
+    if the steps repeat too late.
     """
     components = _component_codes(instances)
     if not is_compilable(program):
@@ -64,7 +64,7 @@ def fuse(
 
 
 def _component_codes(instances: Mapping[str, Instance]) -> dict[int, ComponentCode]:
-    """Return the code of components by their number; once of an FMU that several have."""
+    """Return the code of components by number; components with the same FMU share it."""
     prefixes: dict[str, str] = {}
     components = {}
     for number, instance in enumerate(instances.values()):
@@ -76,7 +76,7 @@ def _component_codes(instances: Mapping[str, Instance]) -> dict[int, ComponentCo
 
 
 class _Codes:
-    """The code of FMUs, which takes some milliseconds for each, by what they contain."""
+    """Cache of the code of FMUs, by SHA-256 and prefix; each takes some milliseconds."""
 
     def __init__(self) -> None:
         self._known: dict[tuple[str, str], ComponentCode] = {}
@@ -121,7 +121,7 @@ def _load(file: Path) -> ctypes.CDLL:
 
 
 def _check_arithmetic(library: ctypes.CDLL) -> None:
-    """Refuse a compiler that changes results, as the FMUs do with their own code."""
+    """Reject a compiler that changes results, as FMUs do for their C."""
     check = getattr(library, SELF_TEST)
     check.restype = ctypes.c_char_p
     problem = check()
@@ -130,7 +130,7 @@ def _check_arithmetic(library: ctypes.CDLL) -> None:
 
 
 def _check_layout(library: ctypes.CDLL, code: ComponentCode, instance: Instance) -> None:
-    """Refuse C that lays out an instance otherwise than the FMU's binary: it is of another program."""
+    """Reject C with another memory layout than the FMU's binary, since it belongs to another program."""
     offset_of = getattr(library, f"{code.prefix}offset_of")
     offset_of.restype, offset_of.argtypes = ctypes.c_uint32, [ctypes.c_uint32]
     for variable in instance.fmu.variables.values():

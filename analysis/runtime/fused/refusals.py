@@ -1,4 +1,4 @@
-"""Conditions on systems for their steps to be compiled, and refusals before anything is simulated."""
+"""Requirements on systems whose steps are compiled, checked before any simulation."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ INSTALL = "install cc, or pip install ziglang; or fly it `native`"
 
 
 def has_code(fmu: Fmu) -> bool:
-    """Return True if the C of an FMU can join the steps."""
+    """Return True if the C of an FMU can be compiled into the steps."""
     return fmu.is_own and fmu.is_native and fmu.version == 2
 
 
 def can_fuse(prepared: PreparedSystem) -> bool:
-    """Return True if all FMUs have their C, and a compiler is available."""
+    """Return True if all FMUs contain their C, and a compiler is available."""
     return all(map(has_code, prepared.network.fmus.values())) and local_platform() in available_platforms()
 
 
 def check_fused(prepared: PreparedSystem, *, in_child: bool = False) -> None:
-    """Refuse the flavour `FUSED` for a system whose steps would not be compiled. Raises InputError.
+    """Reject the flavour `FUSED` for a system whose steps would not be compiled. Raises InputError.
 
-    ``in_child``: it is simulated in child processes.
+    ``in_child``: the system is simulated in child processes.
     """
     if prepared.options.chosen["flavour"] != FUSED:
         return

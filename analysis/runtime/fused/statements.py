@@ -1,7 +1,7 @@
-"""C statements that do what the loop's instructions say.
+"""C statements equivalent to the loop's instructions.
 
-Every code has the effect that `loop/c/loop.c` gives it, in the same order of operations, and leaves the same
-outcome where it fails: a flight has the bits of the interpreted instructions.
+Every statement has the effect that `loop/c/loop.c` gives its code, in the same order of operations, and sets the same
+outcome if it fails: results are bitwise those of the interpreted instructions.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ INSTANCE_POINTER = "c{}"  # of a component whose C is in the unit
 
 
 class Instruction(NamedTuple):
-    """One of the loop's instructions, its ``number`` among all; columns as of `codes`."""
+    """Instruction of the loop with its ``number``; columns as in `codes`."""
 
     number: int
     code: int
@@ -34,17 +34,17 @@ class Instruction(NamedTuple):
 
 @dataclass(frozen=True)
 class Statements:
-    """Writes statements for a ``program``; ``prefixes`` are those of the components whose C is in the unit."""
+    """Writer of statements for a ``program``; ``prefixes`` are those of components whose C is in the unit."""
 
     program: arrays.Program
     prefixes: Mapping[int, str]
 
     def of(self, instruction: Instruction) -> list[str]:
-        """Return the lines of one instruction; those of FMI 3.0 have none."""
+        """Return the lines for one instruction; none for instructions of FMI 3.0."""
         return WRITERS[instruction.code](self, instruction)
 
     def variable(self, row: Instruction, kind: str, index: int) -> str:
-        """Return a value in the memory of a component."""
+        """Return an expression for a value in the memory of a component."""
         offset = row.address - row.instance + index * (1 if kind == "bool" else 8)
         return f"*({kind} *)({self.memory(row.component)} + {offset})"
 
@@ -52,7 +52,7 @@ class Statements:
         return f"(char *){INSTANCE_POINTER.format(component)}"
 
     def call(self, row: Instruction, kind: str, array: str) -> str:
-        """Return the call of an FMI function on a stretch of slots."""
+        """Return the call of an FMI function on a range of slots."""
         function = _function(row, f"void *, const uint32_t *, size_t, {kind} *")
         instance = INSTANCE_POINTER.format(row.component)
         return f"status = {function}({instance}, reference + {row.first}, {row.size}, {array} + {row.first});"
@@ -61,14 +61,14 @@ class Statements:
         return f"CHECK(status, {row.component}, {row.function}, {row.number});"
 
     def check_finite(self, row: Instruction) -> list[str]:
-        """End the flight where a value is not finite: the first such slot is in the outcome."""
+        """Return statements that end the simulation at the first slot whose value is not finite."""
         slots = range(row.first, row.first + row.size)
         doubt = " + ".join(f"(values[{slot}] - values[{slot}])" for slot in slots)
         return [f"if ({doubt} != 0.0) CHECK_FINITE({row.first}, {row.size}, {row.number});"]
 
 
 def _function(row: Instruction, parameters: str) -> str:
-    """Return the FMI function of an instruction, by its address."""
+    """Return an expression for the FMI function of an instruction, by its address."""
     address = f"instructions[{row.number * codes.COLUMNS + codes.ADDRESS}]"
     return f"((int (*)({parameters}))(uintptr_t){address})"
 
@@ -96,7 +96,7 @@ def _take_boolean(to: Statements, row: Instruction) -> list[str]:
 
 
 def _take_whole(to: Statements, row: Instruction) -> list[str]:
-    """Check the range for the next instruction, which calls the FMU: it refuses numbers beyond 32 bits."""
+    """Return a check of the next instruction's integers, whose FMU rejects numbers beyond 32 bits."""
     reads = [f"values[{row.first + i}] = (double){to.variable(row, 'int64_t', i)};" for i in range(row.size)]
     fits = " && ".join(
         f"{variable} >= INT32_MIN && {variable} <= INT32_MAX"
@@ -150,7 +150,7 @@ def _add(to: Statements, row: Instruction) -> list[str]:
 
 
 def table_entries(program: arrays.Program, number: int) -> list[tuple[float, float]]:
-    """Return the mapping of a connection, from and to; an entry from NaN leaves other values as they are."""
+    """Return the mapping of a connection as (from, to); an entry from NaN means that other values stay unchanged."""
     first, count = program.table[number].tolist()
     entries = slice(first, first + count)
     return list(zip(program.table_from[entries].tolist(), program.table_to[entries].tolist(), strict=True))

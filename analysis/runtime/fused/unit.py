@@ -1,4 +1,4 @@
-"""The C of a system's steps: the code of its FMUs and, between them, a statement for each instruction of the loop."""
+"""Translation unit of a system's steps: the code of its FMUs, and a statement for each instruction of the loop."""
 
 from __future__ import annotations
 
@@ -63,8 +63,7 @@ _UNIT_EXPORT int64_t {entry}(const Run *run, int64_t point, int64_t rows, int64_
 
 
 def write_unit(program: arrays.Program, recorded: Iterable[int], components: Mapping[int, ComponentCode]) -> str:
-    """Write the unit of a ``program`` of which these slots are recorded, with the code of components by their
-    number."""
+    """Return the unit of a ``program`` that records these slots, with the code of components by number."""
     kinds = {code.prefix: code for code in components.values()}
     headers = {"<math.h>", "<stdint.h>", "<string.h>", *(header for kind in kinds.values() for header in kind.headers)}
     statements = Statements(program, {component: code.prefix for component, code in components.items()})
@@ -101,7 +100,7 @@ def write_unit(program: arrays.Program, recorded: Iterable[int], components: Map
 
 
 def _instances(program: arrays.Program, components: Mapping[int, ComponentCode]) -> list[str]:
-    """Declare the instances that instructions name: of a component whose code is present with its type."""
+    """Return declarations of the instances that instructions use, typed if the component's code is in the unit."""
     first: dict[int, int] = {}
     for number, row in enumerate(program.instructions.tolist()):
         if row[codes.INSTANCE]:

@@ -1,1 +1,1 @@
-"""The meaning of a simulation's steps, written to be read: the contract that every executor keeps to the bit."""
+"""Readable reference implementation of a simulation's steps; every executor must reproduce its results bit for bit."""

@@ -1,4 +1,4 @@
-"""A component as the reference loop sees it, and the ways in which it ends a flight."""
+"""Interface of a component to the reference loop, and the exceptions by which it ends a simulation."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ Samples = dict[str, Sample]  # by the names of variables, elements of arrays one
 
 
 class FailedError(Exception):
-    """Refusal of a component, or of a connection: the flight ends ``failed``."""
+    """Error of a component or a connection: the simulation ends with the status ``failed``."""
 
 
 class NonFiniteError(Exception):
-    """Number that is not finite, or beyond the type of the variable that is to have it: ``nonfinite``."""
+    """Number that is not finite, or out of range of its target's type: the status is ``nonfinite``."""
 
 
 class EndedError(Exception):
-    """Wish of a ``component`` to end the simulation at a ``time`` (s): ``terminated``, with one last row."""
+    """Request of a ``component`` to end the simulation at ``time`` (s): ``terminated``, with one last row."""
 
     def __init__(self, component: str, time: float) -> None:
         super().__init__(component)
@@ -31,49 +31,49 @@ REFUSALS = (FailedError, NonFiniteError, FMICallException)
 
 
 class Component(ABC):
-    """One instance of an FMU, which manages its modes: a loop calls these methods in the order of this file.
+    """Instance of an FMU, which manages its own modes; the loop calls these methods in the order of this class.
 
-    Other masters have such an interface, too: libcosim's `algorithm` calls a `slave` by it, Ecos a `model_instance`.
+    Similar interfaces in other masters: `slave`, which libcosim's `algorithm` calls, and `model_instance` of Ecos.
 
-    `initialise` once; `set` and `get` in initialisation mode; `settle` once; then `set`, `step` and `get` of every
-    step. Mappings are the caller's: a component keeps none, and returns a new one. A call that the FMU refuses raises
-    FMPy's FMICallException, after which no method is called. The creator of a component terminates and frees its
+    `initialise` is called once; `set` and `get` in initialisation mode; `settle` once; then `set`, `step` and `get` in
+    every step. A component does not keep the mappings it receives, and returns new ones. A call that the FMU rejects
+    raises FMPy's FMICallException, after which no method is called. The creator of a component terminates and frees its
     instance.
     """
 
     @abstractmethod
     def initialise(self, start: float, stop: float) -> None:
-        """Set the parameters and enter initialisation mode, for a flight between two times (s).
+        """Set the parameters and enter initialisation mode for a simulation from ``start`` to ``stop`` (s).
 
-        Called of every component before `set` of any.
+        Called for every component before `set` is called for any.
         """
 
     @abstractmethod
     def set(self, values: Mapping[str, Sample]) -> None:
-        """Give all inputs that are connected or driven, and parameters that change in flight.
+        """Set all inputs that are connected or driven, and parameters that change during simulation.
 
-        Called in initialisation mode, then once before every step: with values of the step's start of components
-        that step together, with those of its end of components behind them. Raises NonFiniteError, EndedError.
+        Called in initialisation mode, then once before every step: with values at the start of the step for components
+        that step together, at its end for those that follow. Raises NonFiniteError, EndedError.
         """
 
     @abstractmethod
     def get(self, names: Iterable[str]) -> Samples:
         """Return variables at the time that the component has reached.
 
-        Called in initialisation mode, where all inputs have been set, then behind `settle` and behind every step.
+        Called in initialisation mode once all inputs are set, then after `settle` and after every step.
         """
 
     @abstractmethod
     def settle(self) -> None:
-        """Leave initialisation mode for step mode, by way of event mode where that is used; read the parameters back.
+        """Leave initialisation mode for step mode, through event mode if it is used; check the parameters.
 
-        Called of every component when all outputs of the start have been exchanged. Raises FailedError for a parameter
-        that the FMU has not taken, EndedError.
+        Called for every component once all initial outputs have been exchanged. Raises FailedError if the FMU did not
+        take a parameter, EndedError.
         """
 
     @abstractmethod
     def step(self, begin: float, size: float, end: float) -> None:
-        """Advance by a step (s) from one time (s) to another, which carry rounding, with the inputs that it has.
+        """Advance by ``size`` (s) from ``begin`` to ``end`` (s, both subject to rounding) with the current inputs.
 
         Raises EndedError, FailedError.
         """

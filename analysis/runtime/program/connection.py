@@ -1,4 +1,4 @@
-"""The value of a connection's target from its sources."""
+"""Value of a connection's target, computed from its sources."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from .component import FailedError, Sample
 
 
 def carry(network: Network, link: Link, sample_of: Callable[[Node], Sample]) -> Sample:
-    """Return what a connection, with those that are added to it, brings its target. Raises FailedError.
+    """Return the value that a connection and the links added to it transfer to their target. Raises FailedError.
 
-    ``sample_of`` gives the values of sources.
+    ``sample_of`` returns the value of a source.
     """
     total = transform(network, link, sample_of(link.source))
     for term in link.added:
@@ -23,7 +23,7 @@ def carry(network: Network, link: Link, sample_of: Callable[[Node], Sample]) -> 
 
 
 def transform(network: Network, link: Link, sample: Sample) -> Sample:
-    """Return a value behind a connection's unit conversion and transformation. Raises FailedError."""
+    """Return a value after a connection's unit conversion and transformation. Raises FailedError."""
     change = link.transformation
     if change == IDENTITY:
         return sample  # as it is: texts, and whole numbers that no float64 is

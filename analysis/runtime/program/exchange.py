@@ -1,4 +1,4 @@
-"""Variables that a simulation exchanges and records, by the names of variables and connectors."""
+"""Variables that a simulation exchanges and records, by name."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ from ..system.schedule import origin
 
 @dataclass(frozen=True)
 class Roles:
-    """Uses of the variables of a component; arrays of FMI 3.0 have all elements in one of these.
+    """Uses of the variables of a component; all elements of an array of FMI 3.0 have the same use.
 
-    Fields: ``given`` are inputs, and parameters that change in flight; ``outputs`` also what is connected like one;
-    ``recorded`` what else is read. ``uses_events``: FMI 3.0's event mode, of an FMU that has it and a discrete input.
+    ``given`` are inputs, and parameters that change during simulation; ``outputs`` also include other variables
+    connected as sources; ``recorded`` are further variables to read. ``uses_events``: event mode of FMI 3.0 is used,
+    because the FMU supports it and has a discrete input.
     """
 
     given: Sequence[Variable]
@@ -28,9 +29,9 @@ class Roles:
 
 
 class Exchange:
-    """``roles`` by component, system ``connectors`` that have values, and the names of signals ``recorded``.
+    """Exchanged variables: ``roles`` by component, system ``connectors`` with values, and ``recorded`` signals.
 
-    These are the ``selected`` ones, or where None all that is exchanged. Outputs that nothing needs are not read.
+    These are the ``selected`` ones, or if it is None all that are exchanged. Outputs that nothing needs are not read.
     """
 
     def __init__(
@@ -88,8 +89,7 @@ class Exchange:
         return Roles(given, outputs, recorded, has_events and discrete)
 
     def _is_changing(self, component: str, variable: Variable) -> bool:
-        """Return True for a variable that changes by itself, and not as an element of an array that is set as a
-        whole."""
+        """Return True if a variable itself is driven, rather than set with other elements of its array."""
         return f"{component}.{variable.name}" in (self._tuned if variable.is_tunable else self._changing)
 
     def _is_fetched(self, variable: Variable, names: Collection[str]) -> bool:
@@ -98,7 +98,7 @@ class Exchange:
 
 
 def arrays_of(variables: Iterable[Variable]) -> list[list[Variable]]:
-    """Return variables with the elements of each array together; of FMI 2.0 each variable is one."""
+    """Return the variables grouped by array; scalars, as all variables of FMI 2.0 are, form groups of one."""
     arrays: dict[str, list[Variable]] = {}
     for each in variables:
         arrays.setdefault(each.array or each.name, []).append(each)

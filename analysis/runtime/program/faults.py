@@ -11,7 +11,7 @@ MARGIN = 1e-6  # of a step: the times of communication points, start + n step, c
 
 
 class Faults:
-    """Faults of one flight, in order; ``margin`` (s) is how much earlier than declared each begins and ends."""
+    """Faults of one simulation, in order of application; each begins and ends ``margin`` (s) earlier than declared."""
 
     def __init__(self, faults: Sequence[Fault], step: float) -> None:
         self._faults = faults
@@ -19,7 +19,7 @@ class Faults:
         self._frozen: dict[int, Sample] = {}  # by the number of a freeze, from when it began
 
     def apply(self, name: str, sample: Sample, time: float) -> Sample:
-        """Return what a connector has at a time (s) instead of its value, each fault behind those before it."""
+        """Return the value of a connector at a time (s) with its faults applied one after another."""
         for number, fault in enumerate(self._faults):
             if fault.name == name and fault.start - self._margin <= time < fault.stop - self._margin:
                 if fault.kind == "override":
@@ -32,5 +32,5 @@ class Faults:
 
 
 def add(sample: Sample, bias: float) -> Sample:
-    """Return a number with a bias; of a whole number, whose bias is whole too, exactly."""
+    """Return a number plus a bias; for integers, which have an integer bias, exactly."""
     return sample + int(bias) if isinstance(sample, int) else float(sample) + float(bias)

@@ -1,4 +1,4 @@
-"""A component of FMI 2.0, called by way of FMPy, one variable at a time."""
+"""Component of FMI 2.0, called through FMPy one variable at a time."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CALLS = {"Real": "Real", "Integer": "Integer", "Enumeration": "Integer", "Boolea
 
 
 class Fmi2Component(Component):
-    """``slave`` is an instance; ``starts`` are what it is set to before the flight."""
+    """Component of FMI 2.0; ``slave`` is its instance, ``starts`` are the values set before the simulation."""
 
     def __init__(self, name: str, fmu: Fmu, slave: FMU2Slave, starts: Sequence[Start]) -> None:
         self.name, self.fmu, self.slave, self.starts = name, fmu, slave, starts
@@ -50,7 +50,7 @@ class Fmi2Component(Component):
                 each.check(self.name, [self._get(each.variables[0])])
 
     def step(self, begin: float, size: float, end: float) -> None:
-        """See `Component.step`; an FMU that discards a step may say that it wants to end, of others' FMUs."""
+        """See `Component.step`. A foreign FMU may ask to end the simulation by discarding a step."""
         try:
             self.slave.doStep(begin, size)
         except FMICallException as error:

@@ -1,4 +1,4 @@
-"""A component of FMI 3.0, called by way of FMPy, one variable at a time: an array is one."""
+"""Component of FMI 3.0, called through FMPy one variable at a time, arrays as a whole."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ from .stepping import enter_step_mode, step_to
 
 
 class Fmi3Component(Component):
-    """``slave`` is an instance, with event mode if it ``uses_events``; ``starts`` are what it is set to at first."""
+    """Component of FMI 3.0; ``slave`` is its instance, ``starts`` are the values set before the simulation.
+
+    With ``uses_events`` the instance has event mode.
+    """
 
     def __init__(self, name: str, fmu: Fmu, slave: FMU3Slave, starts: Sequence[Start], *, uses_events: bool) -> None:
         self.name, self.fmu, self.slave, self.starts, self.uses_events = name, fmu, slave, starts, uses_events
@@ -36,7 +39,7 @@ class Fmi3Component(Component):
         self._set_starts(each for each in self.starts if each.is_repeated)
 
     def set(self, values: Mapping[str, Sample]) -> None:
-        """See `Component.set`; between steps what is not continuous is set in event mode, all of it if some changes."""
+        """See `Component.set`. Between steps discrete variables are set in event mode, all of them if one changes."""
         arrays = arrays_of(self.fmu.variables[name] for name in values)
         events = [each for each in arrays if self.uses_events and each[0].variability != "continuous"]
         self._set(arrays if not self.steps else [each for each in arrays if each not in events], values)

@@ -1,4 +1,4 @@
-"""Values as variables store them."""
+"""Conversion of values to the types of variables."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ LONGEST = {"String": 4095, "Binary": 65536}  # bytes of a text that is passed on
 
 
 def as_stored(variable: Variable, sample: Sample) -> Sample:
-    """Return a value as its variable's type has it. Raises NonFiniteError for a number that the type has not.
+    """Return a value converted to its variable's type. Raises NonFiniteError for a number out of range.
 
-    A Float64 may have any, which is its FMU's affair; a Boolean is true if it is not 0.
+    A Float64 may have any value, since its FMU checks it; a Boolean is true unless it is 0.
     """
     stored = variable.representation
     if variable.type in TEXTS:

@@ -1,4 +1,4 @@
-"""The reference loop of a prepared system: its FMUs instantiated, flown once, and freed."""
+"""Reference loop for a prepared system: instantiates its FMUs, simulates once, and frees them."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ LOOPS = {"sequential": Sequential, "jacobi": Jacobi}
 def fly_reference(
     system: PreparedSystem, faults: Sequence[Fault] = (), selected: Collection[str] | None = None
 ) -> Rows:
-    """Fly a system once, in this process; record the ``selected`` signals, or all that are exchanged where None.
+    """Simulate a system once in this process; record the ``selected`` signals, or if None all that are exchanged.
 
-    Raises InputError where an FMU cannot be instantiated.
+    Raises InputError if an FMU cannot be instantiated.
     """
     exchange = Exchange(system, faults, selected)
     instances: dict[str, Instance] = {}

@@ -1,4 +1,4 @@
-"""The values that a component starts with: which, when they are set, and whether its FMU has taken them."""
+"""Start values of a component: which are set, in which mode, and whether its FMU took them."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ LOSS = 1e-6  # of a Real: permitted loss in an FMU, by single precision or anoth
 
 @dataclass(frozen=True)
 class Start:
-    """A variable, with all elements of an array, and the values that it is set to before initialisation mode.
+    """Variable, or all elements of an array, with the values to set before initialisation mode.
 
-    ``is_structural``: in configuration mode; ``is_repeated``: in initialisation mode again, since there are FMUs that
-    lose values set before; ``is_read_back``: compared after it.
+    ``is_structural``: set in configuration mode; ``is_repeated``: set again in initialisation mode, since some FMUs
+    lose values set before; ``is_read_back``: compared afterwards.
     """
 
     variables: Sequence[Variable]
@@ -31,14 +31,14 @@ class Start:
     is_read_back: bool
 
     def check(self, component: str, actual: Sequence[Sample]) -> None:
-        """Raise FailedError if an FMU has other values than it was set to."""
+        """Raise FailedError if a value of the FMU differs from the one set."""
         for (name, requested), stored in zip(self.values.items(), actual, strict=True):
             if not agrees(requested, stored):
                 raise FailedError(f"{component}.{name} was set to {requested!r}, and its FMU has {stored!r}")
 
 
 def agrees(requested: Sample, stored: Sample) -> bool:
-    """Return True for equal values, and for Reals that differ by `LOSS` at most or are NaN both."""
+    """Return True for equal values, Reals within a relative difference of `LOSS`, and two NaNs."""
     if not isinstance(requested, float) or not isinstance(stored, float):
         return stored == requested
     both_nan = math.isnan(requested) and math.isnan(stored)
@@ -46,7 +46,7 @@ def agrees(requested: Sample, stored: Sample) -> bool:
 
 
 def start_of(settings: Settings, component: str, variable: Variable) -> Sample:
-    """Return what a variable is set to, else its FMU's start; whole numbers and texts as they are."""
+    """Return the value set for a variable, else its FMU's start; integers and texts exactly."""
     start = settings.variables.get((component, variable.name), variable.start)
     if variable.type == "Binary":
         return bytes.fromhex(str(start or ""))
@@ -57,10 +57,10 @@ def start_of(settings: Settings, component: str, variable: Variable) -> Sample:
 
 
 def find_starts(network: Network, settings: Settings, component: str, tuned: Collection[str]) -> list[Start]:
-    """Return the values that a component is set to before a flight; ``tuned`` names parameters that change in it.
+    """Return the values to set before a simulation; parameters named in ``tuned`` change during it.
 
     FMI permits setting inputs and variables with initial="exact" in initialisation mode; the FMU computes others from
-    then on, and a connected input is set again.
+    then on, and a connected input is set by its connection.
     """
     fmu = network.fmus[component]
     starts = []

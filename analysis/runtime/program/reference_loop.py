@@ -1,6 +1,7 @@
-"""A flight step by step, written to be read: every other executor has its rows, to the bit, and its status.
+"""Simulation step by step, written for readability: every executor must produce its rows and status, bit for bit.
 
-Components ``ahead`` step together, with inputs of the step's start, those ``behind`` in turn, with inputs of its end.
+Components ``ahead`` step together, with inputs from the start of the step; those ``behind`` step in turn, with inputs
+from its end.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from .signals import Signals
 
 
 class ReferenceLoop:
-    """One flight of ``components``, by name; ``signals`` carries their values and has the rows."""
+    """Simulation of ``components``, by name; ``signals`` transfers their values and collects the rows."""
 
     ahead: Sequence[str]
     behind: Sequence[str] = ()
@@ -23,7 +24,7 @@ class ReferenceLoop:
         self.system, self.components, self.signals = system, components, signals
 
     def fly(self) -> str:
-        """Fly from the start to the stop time, or to what ends the flight before it; return the status."""
+        """Simulate from the start to the stop time, or to an earlier end; return the status."""
         try:
             self.initialise()
             for point in range(self.system.steps + 1):
@@ -46,7 +47,7 @@ class ReferenceLoop:
             return "nonfinite" if isinstance(error, NonFiniteError) else "failed"
 
     def initialise(self) -> None:
-        """Settle the start: each component behind those that it reads; inputs not ``known`` yet have start values."""
+        """Initialise the components, each after those that it reads; inputs from later ones have start values."""
         for component in self.components.values():
             component.initialise(self.system.start, self.system.start + self.system.steps * self.system.step)
         order = self.system.schedule.initial_order
@@ -59,7 +60,7 @@ class ReferenceLoop:
             self.get(name)  # again: there are FMUs that compute outputs only when they leave initialisation mode
 
     def advance(self, point: int) -> None:
-        """Step to a communication point."""
+        """Step to communication point number ``point``."""
         for name in self.due(self.ahead, point):
             self.step(name, point)
         for name in self.due(self.ahead, point):
@@ -70,7 +71,7 @@ class ReferenceLoop:
             self.get(name)
 
     def due(self, names: Sequence[str], point: int) -> list[str]:
-        """Return the components whose step, of one or more communication steps, ends at a point."""
+        """Return the components whose step, of one or more communication steps, ends at ``point``."""
         return [name for name in names if point % self.system.periods.get(name, 1) == 0]
 
     def step(self, name: str, point: int) -> None:
@@ -85,7 +86,7 @@ class ReferenceLoop:
 
 
 class Sequential(ReferenceLoop):
-    """FMUs without direct feedthrough are ahead; the others follow, each behind those that it reads."""
+    """Sequential algorithm: FMUs without direct feedthrough are ahead; the others follow those that they read."""
 
     def __init__(self, system: PreparedSystem, components: Mapping[str, Component], signals: Signals) -> None:
         super().__init__(system, components, signals)
@@ -93,7 +94,7 @@ class Sequential(ReferenceLoop):
 
 
 class Jacobi(ReferenceLoop):
-    """All FMUs are ahead: each reads the others' outputs of the step's start."""
+    """Jacobi's algorithm: all FMUs are ahead, and read the others' outputs from the start of the step."""
 
     def __init__(self, system: PreparedSystem, components: Mapping[str, Component], signals: Signals) -> None:
         super().__init__(system, components, signals)

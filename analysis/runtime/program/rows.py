@@ -1,4 +1,4 @@
-"""The rows of a reference flight."""
+"""Rows recorded by the reference loop."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Rows(NamedTuple):
-    """Signals by name, a number for each ``time`` (s), and the status, one of the words of `flight.results.Flight`."""
+    """Signals by name, with one number for each ``time`` (s), and the status, as in `flight.results.Flight`."""
 
     time: list[float]
     signals: dict[str, list[float]]

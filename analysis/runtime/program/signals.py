@@ -1,4 +1,4 @@
-"""Values between components, by name: inputs and outputs of each, and recorded ones."""
+"""Values exchanged between components and recorded, by name."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from .parameters import start_of
 
 
 class Signals:
-    """``values`` of connectors and variables, with faults; ``rows`` of those recorded, with their ``times`` (s).
+    """``values`` of connectors and variables after faults; ``rows`` of the recorded ones at ``times`` (s).
 
-    ``time`` (s) is what faults go by. Inputs over time have one value for the initialisation, then one for every
+    Faults are evaluated at ``time`` (s). Inputs over time have one value for the initialisation, then one for every
     communication point.
     """
 
@@ -40,27 +40,27 @@ class Signals:
 
     @property
     def is_finished(self) -> bool:
-        """True as soon as the system's output ``finished`` says so."""
+        """True once the system's output ``finished`` is not 0."""
         node = self._network.nodes.get("finished")
         is_there = node is not None and node.kind == "output" and node.name in self._exchange.connectors
         return is_there and self.values["finished"] != 0.0
 
     def move_to(self, point: int) -> None:
-        """Set the time of faults, and the row of inputs over time, to a communication point."""
+        """Set the time for faults, and the row of inputs over time, to communication point number ``point``."""
         self.time = self._system.start + point * self._system.step
         self._drive_row = point + 1
 
     def inputs(self, component: str, known: Collection[str] | None = None) -> Samples:
-        """Return the inputs of a component; where only some are ``known``, others have their start values."""
+        """Return the inputs of a component; if ``known`` is passed, inputs from other components have start values."""
         return {each.name: self._input(component, each, known) for each in self._exchange.roles[component].given}
 
     def outputs(self, component: str, *, settled: bool) -> list[str]:
-        """Return the names of a component's outputs and, where it has settled, of what else of it is recorded."""
+        """Return the names of a component's outputs and, once it is ``settled``, of its other recorded variables."""
         roles = self._exchange.roles[component]
         return [each.name for each in (*roles.outputs, *(roles.recorded if settled else ()))]
 
     def take(self, component: str, values: Mapping[str, Sample]) -> None:
-        """Keep what was taken of a component. Raises NonFiniteError, FailedError for what cannot be passed on."""
+        """Store values read from a component. Raises NonFiniteError, FailedError for invalid outputs."""
         for each in self._exchange.roles[component].outputs:
             check_output(each, values[each.name])
         for variable, sample in values.items():
@@ -68,7 +68,7 @@ class Signals:
             self.values[name] = self._faults.apply(name, sample, self.time)
 
     def record(self, *, carries: bool = False) -> None:
-        """Add a row; one that ``carries`` has connected inputs of this time, which are not set."""
+        """Add a row; with ``carries``, connected inputs are updated to this time although they are not set."""
         for component, roles in self._exchange.roles.items() if carries else ():
             for each in roles.given:
                 if f"{component}.{each.name}" in self._network.driver:
@@ -92,14 +92,14 @@ class Signals:
         return self.values[name]
 
     def _all_known(self, links: Iterable[Link], known: Collection[str] | None) -> bool:
-        """Return True if the values of connections come from known components, or from outside."""
+        """Return True if the values of all links originate in known components or outside the system."""
         if known is None:
             return True
         origins = [origin(self._network, link).component for link in links]
         return all(each is None or each in known for each in origins)
 
     def _source(self, node: Node) -> Sample:
-        """Return the value of a connection's source: an output, or what brings a system connector its value."""
+        """Return the value of a connection's source: an output, or a system connector's value from its own source."""
         link = self._network.driver.get(node.name)
         if node.component is not None:
             return self.values[node.name]

@@ -1,4 +1,4 @@
-"""Event mode of FMI 3.0, and steps that end early."""
+"""Event mode of FMI 3.0, and steps that return early."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ MOST_ROUNDS = 1000  # of event iterations, and of steps in a row that return whe
 
 
 def enter_step_mode(name: str, slave: FMU3Slave, time: float) -> None:
-    """Bring a component from event mode to step mode as soon as its discrete states at a time (s) have settled.
+    """Bring a component from event mode to step mode once its discrete states at a time (s) have settled.
 
-    Raises EndedError where it ends the simulation, FailedError where they never settle.
+    Raises EndedError if it ends the simulation, FailedError if its states do not settle.
     """
     for _ in range(MOST_ROUNDS):
         needs_update, wants_end, *_ = slave.updateDiscreteStates()
@@ -26,9 +26,10 @@ def enter_step_mode(name: str, slave: FMU3Slave, time: float) -> None:
 
 
 def step_to(name: str, slave: FMU3Slave, begin: float, size: float, end: float, *, uses_events: bool) -> None:
-    """Step to the end (s), again from where the FMU returns early; events are handled where they occur.
+    """Step to the end (s), continuing from each time at which the FMU returns early; handle events when they occur.
 
-    Raises EndedError where it ends the simulation, FailedError where it does not advance or returns from outside.
+    Raises EndedError if the FMU ends the simulation, FailedError if it does not advance or returns a time outside the
+    step.
     """
     time, rounds = begin, 0
     while rounds <= MOST_ROUNDS:

@@ -1,4 +1,4 @@
-"""Times that FMUs say, which add them up in their own ways."""
+"""Comparison of times returned by FMUs, which accumulate rounding errors differently."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ OF_A_TIME = 2.0**-50
 
 
 def tolerance_of(begin: float, end: float) -> float:
-    """Return by how much (s) a time may lie outside of a step, or before its end, and count as in it, or as its end."""
+    """Return the tolerance (s) within which a time counts as inside a step, or as its end."""
     return OF_A_STEP * (end - begin) + OF_A_TIME * max(abs(begin), abs(end))
 
 
 def is_within(time: float, begin: float, end: float) -> bool:
-    """Return True for a time (s) in a step, up to rounding; not for NaN."""
+    """Return True if a time (s) is in a step, up to rounding; False for NaN."""
     return begin - tolerance_of(begin, end) <= time <= end + tolerance_of(begin, end)
