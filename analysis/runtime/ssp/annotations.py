@@ -1,4 +1,4 @@
-"""Our own annotations of an SSD: which are ours, attributes and numbers of their elements, direct feedthrough."""
+"""Perilune's annotations in an SSD: types, attributes and numbers of their elements, and direct feedthrough."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .documents import NAMESPACES, child, children, tag
 
 
 class AnnotationReader:
-    """Base of the readers of all annotations; ``file`` is the SSD that refusals name."""
+    """Base class of the readers of annotations; ``file`` is the SSD that error messages name."""
 
     def __init__(self, file: str) -> None:
         self.file = file
@@ -22,14 +22,14 @@ class AnnotationReader:
         return InputError(self.file, f"{tag(element)} (line {element.sourceline})", problem, remedy)
 
     def content(self, annotation: etree._Element, name: str) -> etree._Element:
-        """Return the one element, ``name``, of an annotation."""
+        """Return the single element, ``name``, of an annotation."""
         elements = self.parts(annotation, (name,))[name]
         if len(elements) != 1:
             raise self.refuse(annotation, f"{len(elements)} elements {name}", "write one")
         return elements[0]
 
     def parts(self, element: etree._Element, known: Collection[str]) -> dict[str, list[etree._Element]]:
-        """Return the children by tag; refuse unknown ones."""
+        """Return the child elements by tag; reject unknown ones."""
         by_name: dict[str, list[etree._Element]] = {name: [] for name in known}
         for item in element:
             if not isinstance(item.tag, str):
@@ -40,7 +40,7 @@ class AnnotationReader:
         return by_name
 
     def attributes(self, element: etree._Element, needed: Collection[str], more: Collection[str] = ()) -> dict:
-        """Return the attributes of an element; refuse missing and unknown ones."""
+        """Return the attributes of an element; reject missing and unknown ones."""
         for name in needed:
             if not element.get(name, "").strip():
                 raise self.refuse(element, f"no {name}", f'write {name}="..."')
@@ -50,12 +50,12 @@ class AnnotationReader:
         return {str(name): str(value).strip() for name, value in element.attrib.items()}
 
     def number(self, element: etree._Element, name: str, positive: bool = False) -> float | None:
-        """Return the number of an attribute; None where it is missing."""
+        """Return the value of a numeric attribute, or None if it is missing."""
         text = element.get(name)
         return None if text is None else self._number(element, name, text, positive)
 
     def numbers(self, element: etree._Element, name: str) -> tuple[float, ...]:
-        """Return the numbers of an attribute, with spaces between; none where it is missing."""
+        """Return the space-separated numbers of an attribute; an empty list if it is missing."""
         return tuple(self._number(element, name, text) for text in element.get(name, "").split())
 
     def _number(self, element: etree._Element, name: str, text: str, positive: bool = False) -> float:
@@ -73,8 +73,10 @@ DIRECT = {"true": True, "false": False}
 
 
 def feedthrough_of_component(component: etree._Element, file: str) -> bool | None:
-    """Return True: all its outputs depend on all its inputs, False: none on any, None: not stated. Raises
-    InputError."""
+    """Return True if all outputs depend on all inputs, False if none depends on any, None if not stated.
+
+    Raises InputError.
+    """
     reader = AnnotationReader(file)
     annotations = children(child(component, "ssd:Annotations"), "ssc:Annotation")
     matches = [annotation for annotation in annotations if annotation.get("type") == FEEDTHROUGH]
@@ -96,7 +98,7 @@ NEARLY = 0.9  # of difflib's ratio
 
 
 def check_annotations(root: etree._Element, file: str) -> None:
-    """Raise InputError for an annotation that would be ignored though it is meant for Perilune."""
+    """Raise InputError for an annotation that is meant for Perilune but would be ignored."""
     for annotation in root.iter(f"{{{NAMESPACES['ssc']}}}Annotation"):
         kind = annotation.get("type", "")
         place = f"Annotation (line {annotation.sourceline})"

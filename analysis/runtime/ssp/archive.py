@@ -1,4 +1,4 @@
-"""A system's files: an .ssp archive or a folder, read-only."""
+"""Files of a system, read-only: an .ssp archive or a folder."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
 
 @dataclass(frozen=True)
 class SystemArchive:
-    """Files of a system by archive name; ``label`` names it in messages, ``description`` is read without a variant.
+    """Files of a system by archive name; ``label`` names it in messages, ``description`` is the default SSD.
 
-    ``elsewhere`` are files that stand for those outside of it, by `fmu_asked`, `use_asked` and `parameters_asked`; a
-    system that has any takes none from other places. ``besides`` collects what is read of its folder that ``files``
-    lack.
+    ``elsewhere`` maps keys (`fmu_asked`, `use_asked`, `parameters_asked`) to the files that replace those outside the
+    system; if it is not empty, no others are read. ``besides`` collects names of files read from the folder that are
+    not in ``files``.
     """
 
     name: str
@@ -52,40 +52,39 @@ class SystemArchive:
 
     @property
     def is_fmu(self) -> bool:
-        """True if it is an FMU alone, which no SSD describes."""
+        """True if this is a single FMU without an SSD."""
         return names_fmu(self.path) and self.path.is_file()
 
     def label_of(self, name: str) -> str:
-        """Return what messages call a file of it; campaigns have no folder of the standard's for additional files."""
+        """Return the name of a file in messages, without the standard's folder for additional files."""
         return f"{self.label}!{name.removeprefix(EXTRA)}"
 
     def name_of(self, label: str) -> str | None:
-        """Return the archive name of a file by its `label_of`; None of another file."""
+        """Return the archive name of a file from its `label_of`, or None if it is not a file of this system."""
         name = label.removeprefix(f"{self.label}!")
         if name == label:
             return None
         return f"{EXTRA}{name}" if f"{EXTRA}{name}" in self.files else name
 
     def read(self, name: str, element: str) -> bytes:
-        """Read a file the description refers to, at ``element``."""
+        """Return the content of a file that ``element`` of the description refers to."""
         return self._content(self._place(name), element)
 
     def _place(self, source: str) -> str:
-        """Return the archive name of a source: a URI, so that %20 is a space unless a file has it in its name."""
+        """Return the archive name of a source URI; %20 is decoded unless a file has it in its name."""
         name = posixpath.normpath(source)
         return name if self.has(name) else posixpath.normpath(unquote(source))
 
     def has(self, name: str) -> bool:
-        """Return True if there is a file of this archive name."""
+        """Return True if there is a file with this archive name."""
         return name in self.files or (self._inside(name) and names_file(self.path / name))
 
     def _inside(self, name: str) -> bool:
-        """Return True if a name may be that of a file in the system's folder, or near it,
-        beyond those of `system_files`."""
+        """Return True if a name not in `system_files` may be that of a file in the system's folder or near it."""
         return self.path.is_dir() and (not _leaves(name) or (self.known_digest is None and _goes_up(name)))
 
     def note(self) -> str | None:
-        """Return what is said of files that were read from outside the system's folder; None where none was."""
+        """Return a note on files that were read from outside the system's folder, or None."""
         paths = [Path(os.path.normpath(self.path / name)) for name in self.besides if _goes_up(name)]
         outside = [str(path) for path in paths if not path.is_relative_to(self.path)]
         if not outside:
@@ -106,10 +105,10 @@ class SystemArchive:
         return content if isinstance(content, bytes) else read_input(content, OTHER, bound_of(name))
 
     def fmu(self, source: str, element: str, flavour: str | None) -> tuple[Callable[[], bytes], str]:
-        """Return a reader of an FMU's content, and its name in messages.
+        """Return a function that reads an FMU, and the name of the FMU in messages.
 
-        A folder that lacks the FMU takes one of this repository, of the working folder, or of its parent folder, in the
-        order of `find_fmu`; without a ``flavour`` one of either.
+        If a folder lacks the FMU, it is looked up in the working folder, its parent folder and this repository, in the
+        order of `find_fmu`; without a ``flavour``, one of any flavour.
         """
         if self.is_fmu:
             return read_fmu(self.path), self.label
@@ -134,21 +133,21 @@ class SystemArchive:
         return read_fmu(path), str(path)
 
     def refuse_elsewhere(self, name: str, element: str) -> None:
-        """Raise InputError where the system is one of a campaign's folder, which takes no files from other places."""
+        """Raise InputError if the system is in a campaign's folder, which must contain all of its files."""
         if self.known_digest is not None:
             problem = f"{name} is not among the files that the campaign's folder holds"
             raise InputError(self.label, element, problem, "prepare the campaign again, with all of its files")
 
     def is_own_file(self, source: str) -> bool:
-        """Return True if a source is a file of the system, not one of those that `fmu` finds elsewhere."""
+        """Return True if a source is a file of the system, rather than one that `fmu` finds elsewhere."""
         return self.is_fmu or self.has(self._place(source))
 
     def variants(self) -> list[str]:
-        """Return names of the archive's SSDs, the default one included."""
+        """Return the names of the archive's SSDs, including the default one."""
         return sorted(name.removesuffix(".ssd") for name in self.files if name.endswith(".ssd") and "/" not in name)
 
     def description_name(self, variant: str | None) -> str:
-        """Return archive name of the SSD: the default one or a variant's."""
+        """Return the archive name of the SSD: the default one or a variant's."""
         if self.is_fmu:
             raise InputError(self.label, DESCRIPTION, "an FMU alone has none", "give a system here")
         name = self.description if variant is None else f"{variant.removesuffix('.ssd')}.ssd"
@@ -160,21 +159,21 @@ class SystemArchive:
         return name
 
     def parameter_set(self, name: str) -> tuple[bytes, str]:
-        """Return a parameter set by name: the system's own, else a path."""
+        """Return content and label of a parameter set, by its name in the system or by its path."""
         return self._find_named(name, (f"resources/{name}", name, f"resources/{name}.ssv"), "`parameters`", ".ssv")
 
     def campaign(self, name: str) -> tuple[bytes, str]:
-        """Return a campaign by name: the system's own, else a path."""
+        """Return content and label of a campaign, by its name in the system or by its path."""
         places = (self.campaign_path(name), self.campaign_path(f"{name}.toml"))
         return self._find_named(name, places, "`campaign`", ".toml")
 
     @staticmethod
     def campaign_path(name: str) -> str:
-        """Return the path inside an archive of a campaign's file."""
+        """Return the path of a campaign's file inside an archive."""
         return f"{CAMPAIGN_FOLDER}/{name}"
 
     def campaign_names(self) -> list[str]:
-        """Return the system's own campaigns; files in folders below theirs are fragments that campaigns extend."""
+        """Return the names of the system's campaigns; files in subfolders are fragments that campaigns extend."""
         files = (PurePosixPath(name) for name in self.files)
         return [file.stem for file in files if file.suffix == ".toml" and str(file.parent) == CAMPAIGN_FOLDER]
 
@@ -196,7 +195,7 @@ class SystemArchive:
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 over names and contents, or the one that was computed before."""
+        """SHA-256 of names and contents, or the one computed before."""
         if self.known_digest is not None:
             return self.known_digest
         total = hashlib.sha256()
@@ -206,7 +205,7 @@ class SystemArchive:
 
 
 def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix: str) -> None:
-    """Say, once, that a file of the working folder has the name of a system's own one, which is read instead of it."""
+    """Warn that a different file of the same name in the working folder is not read."""
     if parent_process() is not None:
         return  # a worker: its parent process has reported it
     for path in dict.fromkeys((Path(name), Path(f"{name}{suffix}"))):
@@ -221,27 +220,27 @@ def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix:
 
 
 def read_fmu(path: Path) -> Callable[[], bytes]:
-    """Return a reader of an FMU's file. It raises InputError."""
+    """Return a function that reads an FMU's file, and raises InputError."""
     return partial(read_input, path, OTHER, ARCHIVE_BYTES)
 
 
 def fmu_asked(source: str) -> str:
-    """Return the key of `SystemArchive.elsewhere` for the FMU of a component's source."""
+    """Return the key in `SystemArchive.elsewhere` for the FMU of a component's source."""
     return f"source:{source}"
 
 
 def use_asked(name: str) -> str:
-    """Return its key for an FMU that options put into a slot."""
+    """Return the key in `SystemArchive.elsewhere` for an FMU that the option `use` names."""
     return f"use:{name}"
 
 
 def parameters_asked(name: str) -> str:
-    """Return its key for a parameter set."""
+    """Return the key in `SystemArchive.elsewhere` for a parameter set."""
     return f"parameters:{name}"
 
 
 def open_system(system: str | Path) -> SystemArchive:
-    """Open a system by name under ssp_systems, by folder or by .ssp file; an .fmu is one of a single component."""
+    """Open a system by name under ssp_systems, by folder or by .ssp file; an .fmu is a system of one component."""
     text = str(system)
     if (SYSTEMS / text).is_dir() and "/" not in text and text not in ("", ".", ".."):
         return _folder(SYSTEMS / text)
@@ -269,17 +268,17 @@ def open_system(system: str | Path) -> SystemArchive:
 
 
 def system_names() -> list[str]:
-    """Return names of the systems under ssp_systems."""
+    """Return the names of the systems under ssp_systems."""
     return sorted(entry.parent.name for entry in SYSTEMS.glob(f"*/{SYSTEM_FILE}"))
 
 
 def _leaves(name: str) -> bool:
-    """Return True if a normalised name leads out of the folder that it starts from."""
+    """Return True if a normalised name leads out of its starting folder."""
     return name.startswith(("/", "..")) or ":" in name.partition("/")[0]
 
 
 def _goes_up(name: str) -> bool:
-    """Return True if a normalised name leads by .. to a file of another folder, from the folder that it starts from."""
+    """Return True if a normalised name leads through .. to a file outside its starting folder."""
     inside = list(itertools.dropwhile("..".__eq__, name.split("/")))
     return name.startswith("../") and bool(inside) and ":" not in inside[0]
 

@@ -1,4 +1,4 @@
-"""Changes of a value on its way: conversion between units, as FMI and SSP define them; SSP's transformations."""
+"""Conversions of values: between units, as FMI and SSP define them, and by SSP's transformations."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ from .documents import child, children, tag
 
 @dataclass(frozen=True)
 class Unit:
-    """value in base units = factor * value + offset. One that nobody defines has no ``exponents``: it is its name.
+    """Unit: value in base units = factor * value + offset.
 
-    ``is_relative``: of a difference of such values, to which offsets do not apply (FMI's relativeQuantity).
+    ``exponents`` are those of the base units, None for an undefined unit, which is only a name. ``is_relative``: the
+    unit of a difference, to which offsets do not apply (FMI's relativeQuantity).
     """
 
     name: str
@@ -28,7 +29,7 @@ class Unit:
     is_relative: bool = False
 
     def differs_from(self, other: Unit) -> str:
-        """Return the name, with the base units where the other has the same name: ``N.m (kg m2 s-2)``."""
+        """Return the name, with base units if the other unit has the same name: ``N.m (kg m2 s-2)``."""
         if self.name != other.name:
             return self.name
         if self.exponents is None:
@@ -40,19 +41,19 @@ class Unit:
         return f"{self.name} ({' '.join([*factor, *parts])}{offset})"
 
     def fits(self, other: Unit) -> bool:
-        """Return True if values can be converted; rad counts as dimensionless where the other has none (FMI 2.0)."""
+        """Return True if values can be converted; rad counts as dimensionless (FMI 2.0)."""
         if self.exponents is None or other.exponents is None:
             return self.name == other.name
         return self.exponents[:-1] == other.exponents[:-1]
 
     def is_same(self, other: Unit) -> bool:
-        """Return True if both are one unit, by their base units; by their names where these are unknown."""
+        """Return True if both are the same unit, by base units or, if these are unknown, by name."""
         if self.exponents is None or other.exponents is None:
             return self.name == other.name
         return self.exponents == other.exponents and self.conversion_to(other) == (1.0, 0.0)
 
     def conversion_to(self, other: Unit) -> tuple[float, float]:
-        """Return factor and offset from this unit into the other: of values, or of differences if one has those."""
+        """Return factor and offset of the conversion to another unit; the offset is 0 if either unit is relative."""
         factor = 1.0 if self.factor == other.factor else self.factor / other.factor
         if self.is_relative or other.is_relative or self.offset == other.offset:
             return factor, 0.0
@@ -60,7 +61,7 @@ class Unit:
 
 
 def unit_by_name(name: str) -> Unit:
-    """Return the unit that a name usually means; without base units where it means none."""
+    """Return the unit with a well-known name; for other names a unit without base units."""
     definition = unit_definition(name)
     if definition is None:
         return Unit(name, None)
@@ -69,7 +70,7 @@ def unit_by_name(name: str) -> Unit:
 
 
 def units_of_fmu(description: ModelDescription, label: str) -> dict[str, Unit]:
-    """Return the units that an FMU of this ``label`` defines, by name (fmpy ModelDescription). Raises InputError."""
+    """Return the units that an FMU defines, by name, from FMPy's description. Raises InputError with the ``label``."""
     units = {}
     for definition in description.unitDefinitions:
         name, base = definition.name, definition.baseUnit
@@ -79,9 +80,9 @@ def units_of_fmu(description: ModelDescription, label: str) -> dict[str, Unit]:
 
 
 def units_of_document(root: etree._Element, prefix: str, file: str) -> dict[str, Unit]:
-    """Return the units that an SSP document defines; ``prefix`` is that of its namespace: ssd, ssv, ssb.
+    """Return the units that an SSP document defines; ``prefix`` is that of its namespace: ssd, ssv or ssb.
 
-    Raises InputError, with the ``file``.
+    Raises InputError with the ``file``.
     """
     units = {}
     for element in children(child(root, f"{prefix}:Units"), "ssc:Unit"):
@@ -93,7 +94,7 @@ def units_of_document(root: etree._Element, prefix: str, file: str) -> dict[str,
 
 
 def _unit(name: str, base: Mapping[str, object], file: str) -> Unit:
-    """Return a unit by the attributes of its BaseUnit, which schema or FMPy have checked to be numbers."""
+    """Return a unit from the attributes of its BaseUnit, already validated as numbers by the schema or FMPy."""
     exponents = tuple(int(str(base.get(each, 0))) for each in BASE_UNITS)
     factor, offset = float(str(base.get("factor", 1.0))), float(str(base.get("offset", 0.0)))
     if not factor or not math.isfinite(factor) or not math.isfinite(offset):
@@ -104,9 +105,9 @@ def _unit(name: str, base: Mapping[str, object], file: str) -> Unit:
 
 @dataclass(frozen=True)
 class Transformation:
-    """factor * value + offset, or a table from source to target values.
+    """Linear transformation, factor * value + offset, or a table from source to target values.
 
-    ``is_partial``: values that the table does not have stay as they are, as in SSP 2.0.
+    ``is_partial``: values that the table does not contain stay unchanged, as in SSP 2.0.
     """
 
     factor: float = 1.0
@@ -116,7 +117,7 @@ class Transformation:
     is_partial: bool = False
 
     def after_units(self, conversion: tuple[float, float]) -> Transformation:
-        """Return the same with a unit conversion before it, as SSP orders them."""
+        """Return the transformation preceded by a unit conversion, in SSP's order."""
         factor, offset = conversion
         return replace(self, factor=self.factor * factor, offset=self.factor * offset + self.offset)
 
@@ -131,7 +132,7 @@ VALUE_TYPES = {
 
 
 def read_transformation(element: etree._Element) -> Transformation:
-    """Read the transformation inside a Connection or MappingEntry; the identity if there is none."""
+    """Return the transformation in a Connection or MappingEntry, or the identity."""
     for item in element:
         name = tag(item)
         if name == "LinearTransformation":
@@ -144,7 +145,7 @@ def read_transformation(element: etree._Element) -> Transformation:
 
 
 def check_type(transformation: Transformation, type_name: str, file: str, element: str) -> None:
-    """Refuse a transformation that does not apply to values of the type."""
+    """Reject a transformation that does not apply to values of the type."""
     if transformation != IDENTITY and type_name not in VALUE_TYPES[transformation.kind]:
         wanted = VALUE_TYPES[transformation.kind][0]
         raise InputError(

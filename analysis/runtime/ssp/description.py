@@ -1,4 +1,4 @@
-"""Content of a SystemStructureDescription, as plain values: elements, connectors, connections, bindings."""
+"""Content of a SystemStructureDescription as plain values: elements, connectors, connections, bindings."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from .dimensions import Dimension, Shape
 
 @dataclass(slots=True)
 class Connector:
-    """A declared connector; type and unit are None where the document does not state them, the kind is empty.
+    """Declared connector; type and unit are None and the kind is empty if the document does not state them.
 
-    ``exact_type`` is the type's name as the document has it, such as Float32; ``dimensions`` are those of an array,
-    ``array`` is the name of the one that it is an element of.
+    ``exact_type`` is the type's name in the document, such as Float32; ``dimensions`` are those of an array; ``array``
+    is the name of the array that contains this element.
     """
 
     name: str
@@ -30,7 +30,7 @@ class Connector:
     array: str = ""
 
     def at(self, name: str) -> str:
-        """Return its name in the flat network, with the line of its declaration."""
+        """Return the connector's flat ``name`` with the line of its declaration."""
         return f"{name} (line {self.line})" if self.line else name
 
 
@@ -39,10 +39,11 @@ Point = tuple[str | None, str]  # element, None for the system itself, and conne
 
 @dataclass(slots=True)
 class Connection:
-    """``added`` are further sources, whose values are added to that of ``start``: outputs of components, as that is.
+    """Connection of two connectors.
 
-    ``start_indices`` and ``end_indices`` name one element of an array, or the sub-array that they begin; without any
-    the whole is meant.
+    ``added`` are further sources, outputs of components like ``start``, whose values are added to it. ``start_indices``
+    and ``end_indices`` are the indices of an array's element, or of the first one of a sub-array; if empty, the whole
+    array is connected.
     """
 
     start: Point
@@ -65,7 +66,7 @@ class Connection:
 
 @dataclass
 class Binding:
-    """A parameter binding: a source file, or the inline element; with mapping likewise."""
+    """Parameter binding, with its set and its mapping each in a source file or inline."""
 
     prefix: str
     source: str | None
@@ -87,9 +88,10 @@ class Element:
 
 @dataclass
 class Component(Element):
-    """``step`` (s) is that of the component where it is another than the system's.
+    """Component of a system.
 
-    ``feedthrough``: whether its outputs depend directly on all inputs or on none; None: as its FMU declares it.
+    ``step`` (s) is the component's if it differs from the system's. ``feedthrough``: True if its outputs depend
+    directly on all inputs, False if on none, None if its FMU decides.
     """
 
     source: str
@@ -104,8 +106,10 @@ class DictionaryReference(Element):
 
 @dataclass
 class System(Element):
-    """``step`` (s) is that of an inner system whose components exchange values more or less often; ``about`` is what it
-    says of itself."""
+    """System or inner system; an inner one may exchange values with another ``step`` (s).
+
+    ``about`` is the system's own description.
+    """
 
     step: float | None = None
     about: str = ""
@@ -116,7 +120,7 @@ class System(Element):
 
 @dataclass
 class Description:
-    """One document. ``varies`` is the line of a master that varies its step."""
+    """Content of one document. ``varies`` is the line of a master algorithm with variable step."""
 
     file: str
     name: str
@@ -139,8 +143,8 @@ HERE = ("localhost", "127.0.0.1")
 def source_file(source: str) -> str:
     """Return the file that a component's source names.
 
-    libcosim, Ecos and Vico simulate ``proxyfmu://localhost?file=x.fmu`` in another process, which is x.fmu with the
-    same values; on another machine it is none of the system's files, and stays as it is.
+    libcosim, Ecos and Vico simulate ``proxyfmu://localhost?file=x.fmu`` in another process, with the same results as
+    x.fmu. A source on another machine is not a file of the system, and is returned unchanged.
     """
     if source.startswith(PROXY):
         _, _, file = source.partition("?file=")
@@ -150,5 +154,5 @@ def source_file(source: str) -> str:
 
 
 def is_elsewhere(source: str) -> bool:
-    """Return True if a source is none of the system's files but an address, as of fmu-proxy://."""
+    """Return True if a source is an address, such as fmu-proxy://, instead of a file of the system."""
     return "://" in source and not source.startswith("file://")

@@ -1,4 +1,4 @@
-"""Arrays of SSP 2.0: dimensions as documents state them, and the names of elements, ``x[2,1]``, row by row from 1."""
+"""Arrays of SSP 2.0: their dimensions in documents, and names of elements, ``x[2,1]``, row by row from 1."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ELEMENT = re.compile(r"(?P<array>.+)\[(?P<index>[1-9]\d*(?:,[1-9]\d*)*)\]")
 
 @dataclass(frozen=True, slots=True)
 class Dimension:
-    """One dimension of an array: its ``size``, or the connector of the same element that gives it, or neither."""
+    """Dimension of an array: its ``size``, or the connector of the same element that determines it, or neither."""
 
     size: int | None
     connector: str | None
@@ -28,8 +28,10 @@ class Dimension:
 
 
 def read_dimensions(element: etree._Element, file: str, name: str, *, fixed: bool = False) -> tuple[Dimension, ...]:
-    """Read the dimensions of a connector or parameter, none of a scalar; ``fixed``: each needs
-    a size. Raises InputError."""
+    """Return the dimensions of a connector or parameter, none for a scalar. Raises InputError.
+
+    If ``fixed``, each dimension must state its size.
+    """
     dimensions = []
     for dimension in children(element, "ssc:Dimension"):
         size, connector = dimension.get("size"), dimension.get("sizeConnector")
@@ -45,12 +47,12 @@ def read_dimensions(element: etree._Element, file: str, name: str, *, fixed: boo
 
 
 def indices(shape: Shape) -> list[Shape]:
-    """Return the indices of all elements, row by row; of a scalar the empty one."""
+    """Return the indices of all elements, row by row; for a scalar one empty index."""
     return list(itertools.product(*(range(1, size + 1) for size in shape)))
 
 
 def element_name(array: str, index: Shape) -> str:
-    """Return the name of an element; of a scalar its own name."""
+    """Return the name of an element; for a scalar its own name."""
     return f"{array}[{','.join(map(str, index))}]" if index else array
 
 
@@ -60,8 +62,7 @@ def element_names(array: str, shape: Shape) -> list[str]:
 
 
 def array_shapes(names: Iterable[str]) -> dict[str, Shape]:
-    """Return the arrays among names of elements: those of which every element is there, in the
-    order of their first ones."""
+    """Return the shapes of the complete arrays among names of elements, in order of first appearance."""
     known = dict.fromkeys(names)
     arrays: dict[str, list[Shape]] = {}
     for name in known:
@@ -78,7 +79,7 @@ def array_shapes(names: Iterable[str]) -> dict[str, Shape]:
 
 
 def text_of(shape: Shape) -> str:
-    """Return a shape as messages have it: `a scalar`, `3 elements`, `2 x 3 elements`."""
+    """Return a shape as text: `a scalar`, `3 elements`, `2 x 3 elements`."""
     if not shape:
         return "a scalar"
     return f"{' x '.join(map(str, shape))} element{'' if shape == (1,) else 's'}"

@@ -1,7 +1,7 @@
-"""XML documents from outside, read with care: no DOCTYPE, valid against the schema of their version, lines kept.
+"""XML documents from untrusted sources: no DOCTYPE, validated against the schema of their version, with lines.
 
-Namespaces are the same in SSP 1.0 and 2.0: a document's attribute ``version`` says which schema it is checked against.
-The files of version 2.0 are those that pyssp_standard ships, of which nothing is imported.
+SSP 1.0 and 2.0 have the same namespaces; the attribute ``version`` selects the schema. The schemas of version 2.0 are
+those distributed with pyssp_standard, whose code is not imported.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ STANDARD = "http://ssp-standard.org/"
 
 @cache
 def schema_folder(version: str) -> Path:
-    """Return the folder of the schemas of an SSP version."""
+    """Return the folder with the schemas of an SSP version."""
     if version == "1.0":
         return Path(fmpy.__file__).parent / "ssp" / "schema"
     package = importlib.util.find_spec("pyssp_standard")
@@ -32,7 +32,7 @@ def schema_folder(version: str) -> Path:
 
 
 def version_of(root: etree._Element, file: str) -> str:
-    """Return the SSP version of a document, or of one inside another; raises InputError for one that is not read."""
+    """Return the SSP version of a document or a nested one. Raises InputError for unsupported versions."""
     version = root.get("version", "")
     if not root.tag.startswith(f"{{{STANDARD}"):
         return VERSIONS[0]  # what is no SSP at all is the schema's to say
@@ -63,7 +63,7 @@ def _schema(kind: str, version: str) -> etree.XMLSchema:
 
 
 def parse_xml(data: bytes, file: str) -> etree._Element:
-    """Parse an XML document to its root element; a DOCTYPE is refused before anything else."""
+    """Return the root element of an XML document; a DOCTYPE is rejected before anything is parsed."""
     refusal = InputError(file, "DOCTYPE", "a document type declaration is not accepted", "remove the <!DOCTYPE ...>")
     XML_BYTES.check(len(data), file, "")
     XML_TAGS.check(data.count(b"<"), file, "")
@@ -87,8 +87,7 @@ MOST_VIOLATIONS = 100  # of which lxml looks for the place, each time among all 
 
 
 def check_violations(schema: etree.XMLSchema, document: bytes, file: str) -> bool:
-    """Return True if a document, which is well-formed, violates a schema; raises InputError for very many
-    violations."""
+    """Return True if a well-formed document violates a schema. Raises InputError for too many violations."""
     parser = _parser(schema)
     try:
         etree.fromstring(document, parser)
@@ -119,14 +118,14 @@ def check_schema(element: etree._Element, kind: str, file: str) -> None:
 
 
 def read_document(data: bytes, kind: str, file: str) -> etree._Element:
-    """Return the root element of a valid SSP document of a kind."""
+    """Return the root element of a valid SSP document of the ``kind``."""
     root = parse_xml(data, file)
     check_schema(root, kind, file)
     return root
 
 
 def signatures(root: etree._Element) -> list[str]:
-    """Return a note on each signature in a document (SSP 2.0): no signature is verified."""
+    """Return a note on each signature in a document (SSP 2.0). Signatures are not verified."""
     return [
         f"Signature (line {element.sourceline}): {element.get('role')}, {element.get('type')}: not verified"
         for element in root.iter(f"{{{NAMESPACES['ssc']}}}Signature")
@@ -139,10 +138,10 @@ def child(element: etree._Element, name: str) -> etree._Element | None:
 
 
 def children(element: etree._Element | None, name: str) -> list[etree._Element]:
-    """Return all children with a prefixed name; none of an absent element."""
+    """Return all children with a prefixed name; none for a missing element."""
     return [] if element is None else element.findall(name, NAMESPACES)
 
 
 def tag(element: etree._Element) -> str:
-    """Return local name of an element, empty for comments and processing instructions."""
+    """Return the local name of an element, "" for comments and processing instructions."""
     return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""

@@ -1,7 +1,7 @@
-"""Communication steps and algorithms, which SSP has no place for: our annotation and those of other tools.
+"""Communication steps and algorithms, which SSP does not define, from annotations of Perilune and other tools.
 
-OMSimulator writes a master into each system, the Open Simulation Platform (libcosim, Vico) an algorithm into the
-default experiment and hints into components. The masters of both are of Jacobi's kind.
+OMSimulator writes a master into each system; the Open Simulation Platform (libcosim, Vico) writes an algorithm into the
+default experiment and hints into components. The masters of both use Jacobi's algorithm.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ OSP = ("com.opensimulationplatform", "org.open-simulation-platform", "com.github
 
 @dataclass(frozen=True)
 class Pace:
-    """A communication step (s) and the algorithm it is meant for; ``varies``: the line of one whose step varies."""
+    """Communication step (s) and algorithm; ``varies`` is the line of an algorithm with variable step."""
 
     step: float | None = None
     algorithm: str | None = None
@@ -30,7 +30,7 @@ class Pace:
 
 
 def pace_of_experiment(experiment: etree._Element | None, file: str) -> Pace:
-    """Read the pace of the default experiment; raises InputError."""
+    """Return the pace of the default experiment. Raises InputError."""
     for kind, item in _read_annotation(experiment):
         if kind == OURS and tag(item) == "CommunicationStep":
             return Pace(_seconds(item, ("size",), file))
@@ -40,7 +40,7 @@ def pace_of_experiment(experiment: etree._Element | None, file: str) -> Pace:
 
 
 def pace_of_system(system: etree._Element, file: str) -> Pace:
-    """Read the pace of a system, inner systems apart; raises InputError."""
+    """Return the pace of a system, without its inner systems. Raises InputError."""
     for kind, item in _read_annotation(system):
         if kind == OMSIMULATOR or kind in OSP:
             if tag(item) == "FixedStepMaster":
@@ -51,7 +51,7 @@ def pace_of_system(system: etree._Element, file: str) -> Pace:
 
 
 def step_of_component(component: etree._Element, file: str) -> float | None:
-    """Return the step (s) that a component requests, where it is not the system's; raises InputError."""
+    """Return the step (s) that a component requests, or None. Raises InputError."""
     for kind, item in _read_annotation(component):
         if kind in OSP and tag(item) == "StepSizeHint":
             return step_hint(item, "value", f"{tag(item)} (line {item.sourceline})", file)
@@ -59,7 +59,7 @@ def step_of_component(component: etree._Element, file: str) -> float | None:
 
 
 def _read_annotation(element: etree._Element | None) -> Iterator[tuple[str, etree._Element]]:
-    """Yield everything in the annotations of an element, with the annotations' types."""
+    """Yield every element in the annotations of an element, after the annotation's type."""
     if element is not None:
         for annotation in children(child(element, "ssd:Annotations"), "ssc:Annotation"):
             for item in annotation.iterdescendants(etree.Element):
@@ -72,7 +72,7 @@ def _seconds(element: etree._Element, names: tuple[str, ...], file: str) -> floa
 
 
 def step_hint(element: etree._Element, name: str, where: str, file: str) -> float | None:
-    """Return the step (s) of an attribute that libcosim takes as a hint; None without it, and for 0, which is none.
+    """Return the step (s) in a hint for libcosim, or None if it is missing or 0.
 
     Raises InputError, at ``where``.
     """
@@ -88,7 +88,7 @@ def _positive_attribute(element: etree._Element, name: str, where: str, file: st
 
 
 def positive_seconds(text: str, name: str, where: str, file: str, remedy: str) -> float:
-    """Return the text of an attribute or content ``name`` at ``where`` as a step (s); raises InputError."""
+    """Return a step (s) from the text of an attribute or element ``name`` at ``where``. Raises InputError."""
     try:
         value = float(text)
     except ValueError:

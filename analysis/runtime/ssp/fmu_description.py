@@ -1,4 +1,4 @@
-"""Conditions on a modelDescription.xml for its FMU to be simulated; other violations of FMI are flaws."""
+"""Requirements on the modelDescription.xml of a simulated FMU; other violations of FMI are reported as flaws."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ INDICES = {"ModelStructure/*/Unknown": ("index", "dependencies"), f"{VARIABLE}/R
 
 
 def check_description(root: etree._Element, label: str) -> None:
-    """Refuse another version than 2.0, missing and duplicate names, malformed numbers.
+    """Reject versions other than 2.0, missing and duplicate names, and malformed numbers.
 
     Raises InputError, with the FMU's ``label``.
     """
@@ -68,7 +68,7 @@ def check_description(root: etree._Element, label: str) -> None:
 
 
 def require_attributes(element: etree._Element, names: Sequence[str], label: str, where: str) -> None:
-    """Refuse an element, at ``where``, without these attributes, or with an empty one that may not be; InputError."""
+    """Raise InputError, at ``where``, if an attribute of an element is missing, or empty without being allowed to."""
     for name in names:
         text = element.get(name)
         if text is None:
@@ -78,7 +78,7 @@ def require_attributes(element: etree._Element, names: Sequence[str], label: str
 
 
 def check_rules(xml: bytes, version: int, label: str) -> None:
-    """Refuse a long description with many violations of the schema of an FMI version, 2 or 3: each takes FMPy long."""
+    """Reject a long description with many violations of the schema of FMI 2 or 3, since FMPy is slow to list them."""
     if len(xml) > MANY_BYTES:
         schema = SCHEMAS / f"fmi{version}" / f"fmi{version}ModelDescription.xsd"
         check_violations(etree.XMLSchema(etree.parse(schema)), xml, f"{label}!{DESCRIPTION}")
@@ -93,14 +93,14 @@ def external_state_of(xml: bytes) -> tuple[str, ...]:
 
 
 def find_annotation(root: etree._Element, name: str) -> etree._Element | None:
-    """Return an element of our annotation on an FMU's memory, as FMI 2.0 and FMI 3.0 have them; None without it."""
+    """Return an element of Perilune's annotation on an FMU's memory, in FMI 2.0 or 3.0, or None."""
     if root.get("fmiVersion") == "2.0":
         return root.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/{name}")
     return root.find(f"Annotations/Annotation[@type='{STATE_ANNOTATION}']/{{*}}{name}")
 
 
 def _check_indices(root: etree._Element, label: str) -> None:
-    """Refuse numbers of variables, counted from 1, of which there are none."""
+    """Reject references to undefined variables by number, counted from 1."""
     count = len(root.findall(VARIABLE))
     for path, attributes in INDICES.items():
         for element in root.iterfind(path):

@@ -1,4 +1,4 @@
-"""Values of a Parameter of a parameter set: one value, or in SSP 2.0 those of an array, row by row."""
+"""Values of a Parameter in a parameter set: one value, or in SSP 2.0 those of an array, row by row."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 
 def parse_value(text: str, type_name: str, file: str, element: str) -> ParameterValue:
-    """Parse a value's text by its type, one of SSP 1.0 or 2.0; raises InputError."""
+    """Return a value parsed from text according to its type in SSP 1.0 or 2.0. Raises InputError."""
     kind = runtime_type(type_name)
     try:
         if kind == "Real":
@@ -37,10 +37,10 @@ def parse_value(text: str, type_name: str, file: str, element: str) -> Parameter
 
 
 def read_values(parameter: etree._Element, typed: etree._Element, file: str) -> tuple[Shape, list[ParameterValue]]:
-    """Read the shape of a Parameter, empty for a scalar, and its values; ``typed`` is the element of its type.
+    """Return the shape of a Parameter, () for a scalar, and its values; ``typed`` is the element of its type.
 
-    Lists stand in the attribute ``value`` with spaces between, those of Strings and Enumerations in elements Value.
-    Raises InputError.
+    Lists of numbers are space-separated in the attribute ``value``; those of Strings and Enumerations are in elements
+    Value. Raises InputError.
     """
     where = f"{parameter.get('name', '')} (line {parameter.sourceline})"
     type_name = tag(typed)

@@ -1,6 +1,6 @@
-"""Kinds of connectors, and which may be connected with which: the table of allowed connections of SSP 2.0.
+"""Kinds of connectors, and which may be connected: the table of allowed connections of SSP 2.0.
 
-It contains that of SSP 1.0. The system is the one in which a connection stands, elements are what is inside it.
+It includes that of SSP 1.0. The system is the one that contains the connection; elements are inside it.
 """
 
 from __future__ import annotations
@@ -24,6 +24,5 @@ ALLOWED: dict[tuple[bool, str], dict[bool, tuple[str, ...]]] = {
 
 
 def leads(kind: str, is_system: bool, target: str, is_target_system: bool) -> bool:
-    """Return True if values pass from a connector of one kind to one of another, each of the
-    system itself or of an element."""
+    """Return True if values can flow between connectors of these kinds, each of the system or of an element."""
     return target in ALLOWED.get((is_system, kind), {}).get(is_target_system, ())

@@ -1,7 +1,7 @@
-"""Names of signals and parameters, ``component.variable``, taken apart by the components that there are.
+"""Names of signals and parameters, ``component.variable``, split with the known components.
 
-A component's name holds dots where systems are nested, and a variable's where its tool names it so
-(``motor.speed``): only the components tell where one ends and the other begins.
+Component names contain dots if systems are nested, and some tools put dots into variable names (``motor.speed``): only
+the list of components tells where one ends and the other begins.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ MOST_DIMENSIONS = 6  # of an array that is named as a whole
 
 
 def split_name(name: str, components: Mapping[str, object] | Set[str]) -> tuple[str, str]:
-    """Return component and variable of a name, the longest component that fits; empty for the system's own
-    connectors."""
+    """Return component and variable of a name, with the longest matching component; "" for the system itself."""
     owner, dot, _ = name.rpartition(".")
     while dot and owner not in components:
         owner, dot, _ = owner.rpartition(".")
@@ -22,18 +21,20 @@ def split_name(name: str, components: Mapping[str, object] | Set[str]) -> tuple[
 
 
 def vectors(names: Iterable[str]) -> list[str]:
-    """Return the names of vectors among those of elements: ``plant.position`` for ``plant.position[1]``."""
+    """Return the names of vectors from those of their elements: ``plant.position`` for ``plant.position[1]``."""
     return list(dict.fromkeys(name.removesuffix("[1]") for name in names if name.endswith("[1]")))
 
 
 def elements(name: str, known: Container[str]) -> list[str]:
-    """Return the known names that one stands for: its own, or name[1], name[2] ... of a vector, name[1,1], name[1,2]
-    ... of a matrix, row by row; none where it is unknown."""
+    """Return the known names that a name stands for; an empty list if it is unknown.
+
+    These are the name itself, or name[1], name[2] ... of a vector, or name[1,1], name[1,2] ... of a matrix, row by row.
+    """
     return [name] if name in known else _list_indexed(f"{name}[", known, MOST_DIMENSIONS)
 
 
 def _list_indexed(start: str, known: Container[str], dimensions: int) -> list[str]:
-    """Return the known names that begin so and continue with as many indices, counted from 1, the last one first."""
+    """Return the known names that begin with ``start`` and have this many indices, counted from 1, row by row."""
     names: list[str] = []
     for index in itertools.count(1):
         if f"{start}{index}]" in known:

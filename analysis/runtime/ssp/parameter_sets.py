@@ -19,10 +19,10 @@ from .types import RUNTIME_TYPES, runtime_type
 
 @dataclass(frozen=True)
 class Assignment:
-    """A value on its way to a parameter, with where it came from.
+    """Value for a parameter, with its origin.
 
-    ``type_name`` is Real, Integer, Boolean, Enumeration or String; a value from the command line
-    is ``Text`` and takes the type of its target. One of an array has its ``index`` there, and the ``shape`` of all.
+    ``type_name`` is Real, Integer, Boolean, Enumeration or String; a value from the command line is ``Text`` and takes
+    the type of its target. An element of an array has its ``index`` in it and the ``shape`` of the array.
     """
 
     name: str
@@ -38,7 +38,7 @@ class Assignment:
 
     @property
     def array(self) -> str:
-        """The name of the array that it is an element of, or its own."""
+        """Name of the array that contains the element, or the assignment's own name."""
         return self.name.removesuffix(element_name("", self.index)) if self.index else self.name
 
     @property
@@ -47,7 +47,7 @@ class Assignment:
 
     @property
     def origin(self) -> str:
-        """The file that gives the value, without its folders, and the line; or the option."""
+        """File name and line of the value, or the option that sets it."""
         name = self.file.rpartition("!")[2].rpartition("/")[2]
         return f"{name} line {self.line}" if self.line else name
 
@@ -56,7 +56,7 @@ Notes = list[str] | None  # collects flaws that others' files may have; None: th
 
 
 def _flaw(notes: Notes, file: str, where: str, problem: str, effect: str, remedy: str) -> None:
-    """Note a flaw and what becomes of the value, or raise InputError."""
+    """Note a flaw and its effect on the value, or raise InputError."""
     if notes is None:
         raise InputError(file, where, problem, f"{remedy}, or allow it with `allow_unmatched`")
     notes.append(f"{file}: {where}: {problem}: {effect}")
@@ -65,7 +65,7 @@ def _flaw(notes: Notes, file: str, where: str, problem: str, effect: str, remedy
 def read_parameter_set(
     root: etree._Element, file: str, notes: Notes = None, units: Mapping[str, Unit] | None = None
 ) -> list[Assignment]:
-    """Read the values of a ParameterSet element, valid already or not; ``units`` are those of a document around it.
+    """Return the values of a ParameterSet element; ``units`` are those of a surrounding document.
 
     Raises InputError.
     """
@@ -97,7 +97,7 @@ def read_parameter_set(
 def apply_mapping(
     assignments: list[Assignment], root: etree._Element, file: str, notes: Notes = None
 ) -> list[Assignment]:
-    """Return the assignments that a ParameterMapping passes on, under their target names. Raises InputError."""
+    """Return the assignments selected by a ParameterMapping, under their target names. Raises InputError."""
     check_schema(root, "ssm", file)
     by_name: dict[str, list[Assignment]] = {}
     for assignment in assignments:
@@ -129,7 +129,7 @@ def apply_mapping(
 def read_parameter_file(
     data: bytes, file: str, notes: Notes = None, remarks: list[str] | None = None
 ) -> list[Assignment]:
-    """Read the values of an .ssv document; ``remarks`` gets a line for each signature in it. Raises InputError."""
+    """Return the values of an .ssv document; add a line for each signature in it to ``remarks``. Raises InputError."""
     root = read_document(data, "ssv", file)
     _remark(remarks, root, file)
     return read_parameter_set(root, file, notes)
@@ -148,11 +148,10 @@ def read_binding(
     notes: Notes = None,
     remarks: list[str] | None = None,
 ) -> tuple[list[Assignment], Sequence[Assignment]]:
-    """Read the values of a binding of the document ``file`` with ``units``, the prefix put before their names, then
-    mapped.
+    """Return the mapped and prefixed values of a binding in the document ``file``, and the unmapped ones.
 
-    Return them with those that its mapping has no entry for, which are not applied (SSP 1.0, ParameterBindings).
-    ``remarks`` gets a line for each signature in its files. Raises InputError.
+    Values without an entry in the mapping are not applied (SSP 1.0, ParameterBindings). ``units`` are those of the
+    document; ``remarks`` receives a line for each signature in the binding's files. Raises InputError.
     """
     element = f"ParameterBinding (line {binding.line})"
     if binding.source is not None:

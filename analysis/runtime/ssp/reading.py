@@ -1,4 +1,4 @@
-"""A SystemStructureDescription read: from the XML of an SSD to a `Description`."""
+"""Reads a SystemStructureDescription: from the XML of an SSD to a `Description`."""
 
 from __future__ import annotations
 
@@ -33,19 +33,19 @@ FMU_TYPE = "application/x-fmu-sharedlibrary"
 
 
 def read_description(archive: SystemArchive, variant: str | None = None) -> Description:
-    """Read the SSD of an archive, the default one or a variant's; raises InputError."""
+    """Return the content of an archive's SSD, the default one or a variant's. Raises InputError."""
     name = archive.description_name(variant)
     data, file = archive.read(name, "SSD"), f"{archive.label}/{name}"
     return read_osp(data, file, archive) if name.endswith(OSP_SUFFIX) else read_ssd(data, file, archive.read)
 
 
 def read_ssd(data: bytes, file: str, load: Load) -> Description:
-    """Read an SSD; ``load(name, element)`` returns the bytes of a file that it refers to. Raises InputError."""
+    """Return the content of an SSD; ``load(name, element)`` returns a file to which it refers. Raises InputError."""
     return Reader(file, load).read(data)
 
 
 class Reader:
-    """Reads one SSD, see `read_ssd`."""
+    """Reader of one SSD, see `read_ssd`."""
 
     def __init__(self, file: str, load: Load) -> None:
         self.file = file
@@ -57,7 +57,7 @@ class Reader:
         return InputError(self.file, f"{what} (line {element.sourceline})", problem, remedy)
 
     def read(self, data: bytes) -> Description:
-        """Read the whole document; raises InputError."""
+        """Return the content of the whole document. Raises InputError."""
         root = read_document(data, "ssd", self.file)
         check_annotations(root, self.file)
         self.notes += signatures(root)
@@ -155,8 +155,10 @@ class Reader:
         return DictionaryReference(**self.common(element, signals=True), dictionary=element.get("dictionary", ""))
 
     def common(self, element: etree._Element, *, signals: bool = False) -> dict:
-        """Read the fields of all elements; ``signals``: the connectors are a dictionary's, which have both
-        directions."""
+        """Return the fields common to all elements.
+
+        ``signals``: the connectors are those of a dictionary, which have both directions.
+        """
         connectors: dict[str, Connector] = {}
         for item in children(child(element, "ssd:Connectors"), "ssd:Connector"):
             connector = self.connector(item, signals)

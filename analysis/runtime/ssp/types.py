@@ -18,21 +18,21 @@ GENERAL = ("Real", "Integer")  # the only ones of SSP 1.0, whatever an FMU of FM
 
 
 def runtime_type(name: str) -> str:
-    """Return the type that the runtime computes with, by the name that a document or an FMU has for it."""
+    """Return the runtime's type for a type's name in a document or an FMU."""
     return RUNTIME_TYPES.get(name, name)
 
 
 def is_of_type(stored: str, declared: str) -> bool:
-    """Return True if a variable's type is the declared one: Real and Integer stand for all of their kind.
+    """Return True if a variable's type fits the declared one: Real and Integer include all types of their kind.
 
-    An Enumeration may be declared as Integer, too: its items are numbers, as older FMUs have them.
+    An Enumeration may be declared as an Integer, as in older FMUs, since its items are numbers.
     """
     kinds = WHOLE if declared == "Integer" else (declared,)
     return stored == declared or (declared in GENERAL and runtime_type(stored) in kinds)
 
 
 def integer_range(name: str) -> tuple[int, int]:
-    """Return the smallest and the largest value of an integer type."""
+    """Return the smallest and largest value of an integer type."""
     exact = "Int32" if name == "Integer" else name
     bits = int(exact.removeprefix("U").removeprefix("Int"))
     return (0, 2**bits - 1) if exact.startswith("U") else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)

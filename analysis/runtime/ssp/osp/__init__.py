@@ -1,1 +1,1 @@
-"""Systems as the Open Simulation Platform writes them."""
+"""Systems in the format of the Open Simulation Platform."""

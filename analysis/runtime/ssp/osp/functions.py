@@ -1,6 +1,6 @@
-"""The functions of an OspSystemStructure.xml, all of them linear: what comes into one, what goes out of it.
+"""Functions of an OspSystemStructure.xml, all of them linear, with their inputs and outputs.
 
-libcosim evaluates them at every communication point, between what is read and what is set.
+libcosim evaluates them at every communication point, after outputs are read and before inputs are set.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ MOST_INPUTS = 10_000
 
 
 class FunctionError(Exception):
-    """Error of a function, with its remedy."""
+    """Error in a function, with its remedy."""
 
     def __init__(self, problem: str, remedy: str) -> None:
         super().__init__(problem, remedy)
@@ -27,7 +27,7 @@ class FunctionError(Exception):
 
 @dataclass
 class Function:
-    """The sum of its inputs, transformed; each signal has ``dimension`` variables, an input None until connected."""
+    """Transformed sum of inputs. Each signal has ``dimension`` variables; an input is None until it is connected."""
 
     name: str
     dimension: int
@@ -35,7 +35,7 @@ class Function:
     inputs: dict[str, list[Point] | None]
 
     def connect_input(self, signal: str, points: list[Point]) -> None:
-        """Take the variables that an input is connected to. Raises FunctionError."""
+        """Connect an input to variables. Raises FunctionError."""
         if signal not in self.inputs:
             raise FunctionError(f"{self.name} has no signal {signal}", f"use {', '.join(self.inputs)} or {OUT}")
         if self.inputs[signal] is not None:
@@ -43,8 +43,7 @@ class Function:
         self.inputs[signal] = self._check(points)
 
     def connect_output(self, points: list[Point]) -> list[tuple[Point, list[Point]]]:
-        """Return the variables that the output is connected to, each with the summands of its
-        value. Raises FunctionError."""
+        """Return the variables that the output is connected to, each with its summands. Raises FunctionError."""
         sources = []
         for signal, connected in self.inputs.items():
             if connected is None:
@@ -60,7 +59,10 @@ class Function:
 
 
 def read_function(element: etree._Element) -> Function:
-    """Read a function of any kind that libcosim has: LinearTransformation, Sum or VectorSum. Raises FunctionError."""
+    """Return a function of a kind that libcosim supports: LinearTransformation, Sum or VectorSum.
+
+    Raises FunctionError.
+    """
     name, kind = element.get("name", ""), tag(element)
     if kind == "LinearTransformation":
         gain = Transformation(_number(element, "factor", "1"), _number(element, "offset", "0"))

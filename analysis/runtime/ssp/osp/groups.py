@@ -1,4 +1,4 @@
-"""OspModelDescription.xml: the groups of variables that connections name together."""
+"""OspModelDescription.xml: groups of variables that one connection joins."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ SUFFIX = "_OspModelDescription.xml"
 
 
 def read_groups(archive: SystemArchive, source: str, element: str) -> dict[str, list[str]]:
-    """Return the names of variables by group, of the FMU ``source`` that ``element`` names.
+    """Return the names of variables by group, for the FMU ``source`` that ``element`` names.
 
-    The file is searched where libcosim does: under the name of the FMU's model, in the folder of the system's
-    description, then in that of the FMU; and under the FMU's own file name. Raises InputError.
+    The file is searched as libcosim does: under the name of the FMU's model, in the folder of the system's description,
+    then in that of the FMU; and under the FMU's file name. Raises InputError.
     """
     candidates = list(dict.fromkeys(_candidates(archive, source, element)))
     file = next((file for file in candidates if archive.has(file)), candidates[0])
@@ -30,7 +30,7 @@ def read_groups(archive: SystemArchive, source: str, element: str) -> dict[str, 
 
 
 def _variable(element: etree._Element, file: str) -> str:
-    """Return the variable of the FMU that a Variable of a group refers to."""
+    """Return the FMU's variable to which a Variable of a group refers."""
     ref = element.get("ref")
     if ref is None:
         where = f"Variable (line {element.sourceline})"

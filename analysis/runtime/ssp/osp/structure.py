@@ -1,7 +1,7 @@
-"""OspSystemStructure.xml, the Open Simulation Platform's own way of writing a system, read as a `Description`.
+"""OspSystemStructure.xml, the system format of the Open Simulation Platform, read as a `Description`.
 
-The ECCO algorithm is refused by name. Kinds and types of variables are those of the FMUs, which the file does
-not repeat. Sources: libcosim's schemas OspSystemStructure 0.1 and OspModelDescription 1.0.
+The ECCO algorithm is rejected by name. Kinds and types of variables are taken from the FMUs, since the file does not
+repeat them. Sources: libcosim's schemas OspSystemStructure 0.1 and OspModelDescription 1.0.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ VARIABLES, SIGNALS = ("Variable", "VariableGroup"), ("Signal", "SignalGroup")
 
 
 def read_osp(data: bytes, file: str, archive: SystemArchive) -> Description:
-    """Read the document, one of an archive's files. Raises InputError."""
+    """Return the description in the document, one of an archive's files. Raises InputError."""
     return _Reader(file, archive).read(parse_xml(data, file))
 
 
@@ -105,7 +105,7 @@ class _Reader:
         )
 
     def binding(self, values: list[etree._Element], line: int) -> Binding:
-        """Return initial values as the parameter set that an SSD would hold."""
+        """Return initial values as a parameter set, as an SSD would contain it."""
         ssv = f"{{{NAMESPACES['ssv']}}}"
         parameters = etree.Element(f"{ssv}ParameterSet", version="1.0", name="InitialValues")
         inside = etree.SubElement(parameters, f"{ssv}Parameters")
@@ -180,7 +180,7 @@ class _Reader:
         self.system.connections.append(Connection(start, end, False, transformation, line, tuple(added)))
 
     def connect_variables(self, ends: list[etree._Element], connection: etree._Element) -> None:
-        """Connect two variables, or those of two groups pair by pair in the order of their model descriptions."""
+        """Connect two variables, or those of two groups pairwise in the order of their model descriptions."""
         sides = [self.points(end) for end in ends]
         if len(sides[0]) != len(sides[1]):
             problem = f"groups of {len(sides[0])} and {len(sides[1])} variables"

@@ -1,4 +1,4 @@
-"""One connection for an array instead of one for each of its elements."""
+"""Merges connections of an array's elements into connections of the array."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ SIDES = ("start", "end")
 
 
 def merge_connections(system: etree._Element, arrays: Arrays) -> None:
-    """Write connections of the elements of ``arrays`` as connections of the arrays, in place.
+    """Replace connections of elements of ``arrays`` by connections of the arrays, in place.
 
-    Where all elements of one are connected with those of another of the same shape in the same order, alike, that is
-    one connection. Others name the elements by their indices.
+    One connection is enough if all elements are connected with those of an array of the same shape, in order and with
+    equal attributes. Others refer to elements by index.
     """
     groups: dict[tuple[bytes, Shape, Shape], list[tuple[etree._Element, Shape, Shape]]] = {}
     for connection in children(child(system, "ssd:Connections"), "ssd:Connection"):
@@ -42,8 +42,7 @@ def merge_connections(system: etree._Element, arrays: Arrays) -> None:
 
 
 def _end(connection: etree._Element, side: str, arrays: Arrays) -> tuple[str, str, Shape]:
-    """Return element, connector and index of an end of a connection; without an index where it
-    is no element of an array."""
+    """Return element, connector and index of an end of a connection; the index is () for a scalar."""
     element, name = connection.get(f"{side}Element", ""), connection.get(f"{side}Connector", "")
     match = ELEMENT.fullmatch(name)
     if match and (element, match["array"]) in arrays:

@@ -1,4 +1,4 @@
-"""One connector for an array instead of one for each of its elements."""
+"""Merges connectors of an array's elements into one connector of the array."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from .trees import add_dimensions, group_elements, is_whole, remove
 
 
 def merge_connectors(owner: etree._Element, arrays: Mapping[str, Shape] | None) -> dict[str, Shape]:
-    """Write the arrays of a component or a system as one connector each, in place; the shapes of those that are.
+    """Replace connectors of elements by one connector for each array, in place; return the shapes of these arrays.
 
-    ``arrays`` are those of a component's FMU: of them one element is enough, since the FMU has no variable of an
-    element's name. None: a system, whose arrays are those of which all elements are there and alike.
+    ``arrays`` are those of a component's FMU: one element is enough, since the FMU has no variable named like an
+    element. None stands for a system, whose arrays must have all elements with equal attributes.
     """
     connectors = children(child(owner, "ssd:Connectors"), "ssd:Connector")
     shapes = array_shapes(connector.get("name", "") for connector in connectors) if arrays is None else arrays

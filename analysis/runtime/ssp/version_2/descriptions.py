@@ -1,4 +1,4 @@
-"""A System Structure Description of SSP 1.0 as one of SSP 2.0."""
+"""Converts a System Structure Description of SSP 1.0 to SSP 2.0."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ EnumerationsOf = Callable[[str], Collection[str]]
 
 @dataclass(frozen=True)
 class BoundSet:
-    """A parameter set file that a description binds, and the arrays that its names may mean; none behind a mapping."""
+    """Parameter set file bound by a description, with the arrays that its names may mean; none if it is mapped."""
 
     source: str
     arrays: Mapping[str, Shape]
@@ -30,10 +30,10 @@ class BoundSet:
 def convert_description(
     description: etree._Element, arrays_of: ArraysOf, enumerations_of: EnumerationsOf = lambda source: ()
 ) -> tuple[etree._Element, list[BoundSet]]:
-    """Convert the system to SSP 2.0; return it and the files that it binds, that of the whole system first.
+    """Convert a system to SSP 2.0; return it and the bound files, that of the whole system first.
 
-    ``arrays_of`` gives the arrays that the FMU of a source has as such (FMI 3.0); one of FMI 2.0 has a variable for
-    each element, and SSP wants a connector for each variable. ``enumerations_of`` gives its enumerations.
+    ``arrays_of`` returns the arrays of the FMU of a source (FMI 3.0); an FMU of FMI 2.0 has a variable for each
+    element, and SSP requires a connector for each variable. ``enumerations_of`` returns the FMU's enumerations.
     """
     root = deepcopy(description)
     to_version_2(root)
@@ -45,7 +45,7 @@ def convert_description(
 
 
 def _leave_types_to_fmus(root: etree._Element, enumerations_of: EnumerationsOf) -> None:
-    """Take away the Integer of connectors that are enumerations of their FMU, in place."""
+    """Remove the type Integer from connectors that are enumerations in their FMU, in place."""
     for component in root.iter(f"{{{NAMESPACES['ssd']}}}Component"):
         names = enumerations_of(component.get("source", ""))
         for connector in children(child(component, "ssd:Connectors"), "ssd:Connector"):
@@ -55,7 +55,7 @@ def _leave_types_to_fmus(root: etree._Element, enumerations_of: EnumerationsOf) 
 
 
 def _convert_system(system: etree._Element, arrays_of: ArraysOf, bound: list[BoundSet]) -> dict[str, Shape]:
-    """Convert a system and those inside it, in place; its arrays by hierarchical name."""
+    """Convert a system and its inner systems in place; collect its arrays by hierarchical name."""
     outer = merge_connectors(system, None)
     connected: dict[tuple[str, str], Shape] = {("", name): shape for name, shape in outer.items()}
     known = dict(outer)
@@ -90,7 +90,7 @@ def _declares(element: etree._Element, name: str) -> bool:
 
 
 def _convert_bindings(owner: etree._Element, known: Mapping[str, Shape]) -> Iterator[BoundSet]:
-    """Convert the files that an element binds; parameter sets inside the description are converted in place."""
+    """Yield the files that an element binds; convert parameter sets inside the description in place."""
     for binding in children(child(owner, "ssd:ParameterBindings"), "ssd:ParameterBinding"):
         prefix = binding.get("prefix", "")
         arrays = {name.removeprefix(prefix): shape for name, shape in known.items() if name.startswith(prefix)}

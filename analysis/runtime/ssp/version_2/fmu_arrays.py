@@ -1,4 +1,4 @@
-"""The arrays and enumerations among the variables of an FMU, by its modelDescription.xml."""
+"""Arrays and enumerations among the variables of an FMU, from its modelDescription.xml."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ SCALAR = "ModelVariables/ScalarVariable"
 
 
 def arrays_of_fmu(description: etree._Element) -> dict[str, Shape]:
-    """Return the shapes of the arrays of an FMI 3.0 FMU at their start sizes; none of FMI 2.0, which has scalars
-    only."""
+    """Return the shapes of the arrays of an FMU of FMI 3.0 at their start sizes; none for FMI 2.0."""
     if not description.get("fmiVersion", "").startswith("3."):
         return {}
     variables = description.findall("ModelVariables/*")
@@ -29,6 +28,6 @@ def arrays_of_fmu(description: etree._Element) -> dict[str, Shape]:
 
 
 def enumerations_of_fmu(description: etree._Element) -> set[str]:
-    """Return the enumerations of an FMU: elements of this name in FMI 3.0, in FMI 2.0 variables that hold one."""
+    """Return the names of an FMU's variables of type Enumeration."""
     declared = [*description.iterfind("ModelVariables/Enumeration"), *description.iterfind(f"{SCALAR}[Enumeration]")]
     return {variable.get("name", "") for variable in declared}

@@ -1,4 +1,4 @@
-"""The files of an .ssp of SSP 1.0 as those of one of SSP 2.0."""
+"""Converts the files of an .ssp from SSP 1.0 to SSP 2.0."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ OTHERS = (".ssm", ".ssb")
 
 
 def convert_package(files: Mapping[str, bytes], label: str) -> dict[str, bytes]:
-    """Convert the files of a package by name, documents to SSP 2.0, others unchanged; ``label`` names it in errors.
+    """Return the files of a package by name, documents converted to SSP 2.0; ``label`` names it in errors.
 
-    Raises InputError for a document that is no XML.
+    Raises InputError for a document that is not XML.
     """
 
     @cache
@@ -65,13 +65,13 @@ def convert_package(files: Mapping[str, bytes], label: str) -> dict[str, bytes]:
 
 
 def _name(source: str, files: Mapping[str, bytes]) -> str | None:
-    """Return the file of a package that a source names."""
+    """Return the name of the package's file to which a source refers, or None."""
     names = (posixpath.normpath(source), posixpath.normpath(unquote(source)))
     return next((name for name in names if name in files), None)
 
 
 def _in_all(meanings: list[Mapping[str, Shape]]) -> dict[str, Shape]:
-    """Return the arrays that are the same by all of several meanings."""
+    """Return the arrays on which all bindings of a parameter set agree."""
     first, *others = meanings or [{}]
     return {name: shape for name, shape in first.items() if all(other.get(name) == shape for other in others)}
 

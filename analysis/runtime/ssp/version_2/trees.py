@@ -1,4 +1,4 @@
-"""Operations on a tree of XML for the conversion: compare elements, remove some, add dimensions."""
+"""Operations on XML trees for the conversion: comparison and removal of elements, addition of dimensions."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ RENAMED = {"Real": "Float64", "Integer": "Int32"}
 
 
 def content(element: etree._Element, without: Collection[str]) -> bytes:
-    """Return the content of an element, some of its attributes apart, for comparison."""
+    """Return the canonical content of an element for comparison, ``without`` some attributes."""
     copy = deepcopy(element)
     copy.tail = None
     for name in without:
@@ -26,7 +26,7 @@ def content(element: etree._Element, without: Collection[str]) -> bytes:
 
 
 def remove(element: etree._Element) -> None:
-    """Take an element away, with the white space in front of it."""
+    """Remove an element and the white space before it."""
     parent, before = element.getparent(), element.getprevious()
     if element.getnext() is None:  # what is in front of the parent's end stays there
         if before is not None:
@@ -37,7 +37,7 @@ def remove(element: etree._Element) -> None:
 
 
 def group_elements(elements: Iterable[etree._Element], shapes: Mapping[str, Shape]) -> Groups:
-    """Return elements of arrays among connectors or parameters, by their names, of those arrays that ``shapes`` has."""
+    """Return connectors or parameters that are elements of the arrays in ``shapes``, grouped by array."""
     groups: Groups = {}
     for element in elements:
         match = ELEMENT.fullmatch(element.get("name", ""))
@@ -49,13 +49,13 @@ def group_elements(elements: Iterable[etree._Element], shapes: Mapping[str, Shap
 
 
 def is_whole(elements: Mapping[Shape, etree._Element], shape: Shape, without: Collection[str]) -> bool:
-    """Return True if all elements of an array are present, and alike but for some attributes."""
+    """Return True if all elements of an array are present, and equal ``without`` some attributes."""
     alike = len({content(element, without) for element in elements.values()}) == 1
     return alike and set(elements) == set(indices(shape))
 
 
 def add_dimensions(element: etree._Element, shape: Shape, types: Collection[str]) -> None:
-    """Write an array's dimensions into a connector or a parameter, behind its type, one of ``types``."""
+    """Insert an array's dimensions into a connector or a parameter, after its type, one of ``types``."""
     position = next((number + 1 for number, inner in enumerate(element) if tag(inner) in types), 0)
     for offset, size in enumerate(shape):
         dimension = etree.Element(f"{{{NAMESPACES['ssc']}}}Dimension", size=str(size))
@@ -63,7 +63,7 @@ def add_dimensions(element: etree._Element, shape: Shape, types: Collection[str]
 
 
 def to_version_2(root: etree._Element) -> None:
-    """Give a document, and those inside it, version 2.0 and its names of types, in place."""
+    """Set version 2.0 and its type names in a document and nested ones, in place."""
     spaces = set(NAMESPACES.values())
     for element in root.iter(etree.Element):
         name = etree.QName(element)

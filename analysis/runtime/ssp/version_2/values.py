@@ -1,4 +1,4 @@
-"""One list of values for an array instead of a value for each of its elements."""
+"""Merges the values of an array's elements into one list of values."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .trees import add_dimensions, content, group_elements, remove
 
 
 def merge_values(parameter_set: etree._Element, arrays: Mapping[str, Shape]) -> None:
-    """Write the values of ``arrays`` that a parameter set has as lists, in place; those of some elements stay."""
+    """Replace values of ``arrays`` in a parameter set by lists, in place; incomplete arrays stay unchanged."""
     parameters = children(child(parameter_set, "ssv:Parameters"), "ssv:Parameter")
     for array, elements in group_elements(parameters, arrays).items():
         shape = arrays[array]
@@ -38,6 +38,6 @@ def merge_values(parameter_set: etree._Element, arrays: Mapping[str, Shape]) -> 
 
 
 def _but_number(parameter: etree._Element) -> bytes:
-    """Return the content of a Parameter, its name and number apart."""
+    """Return the content of a Parameter without its name and number, for comparison."""
     said = [content(inner, ("value",)) for inner in parameter]
     return b"".join([repr(sorted(each for each in parameter.attrib.items() if each[0] != "name")).encode(), *said])
