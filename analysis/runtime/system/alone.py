@@ -1,4 +1,4 @@
-"""A stand-alone FMU: the description of a system of one component, which no SSD holds."""
+"""Stand-alone FMU, described as a system of one component without an SSD."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ DURATION = 1.0  # s, where the FMU proposes no end; FMPy's, too
 
 
 def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[str]]:
-    """Describe a system of one FMU; return the description and remarks on defaults where the FMU proposes nothing.
+    """Return the description of a system of one FMU, and remarks on defaults where the FMU proposes nothing.
 
-    Its inputs, outputs and parameters are the component's connectors, start, end and step those of its default
-    experiment. Without them the start is 0, the end 1 s later, the step the FMU's internal one or FMPy's
-    `auto_interval` of the duration; an end that is not asked for is the last whole step before the FMU's. Raises
+    Inputs, outputs and parameters are the component's connectors; start, end and step are those of its default
+    experiment. By default the start is 0, the end 1 s later, and the step the FMU's internal one or FMPy's
+    `auto_interval` of the duration; unless it is requested, the end is the last whole step before the FMU's. Raises
     InputError for a variant, which an FMU does not have.
     """
     if options.chosen["variant"] is not None:
@@ -47,7 +47,7 @@ def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[
 
 
 def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[str]]:
-    """Start, end and step (s), and what is to be said of them."""
+    """Return start, end and step (s), and remarks on them."""
     experiment = fmu.description.defaultExperiment
     start, stop = (
         None if value is None else float(value)

@@ -36,7 +36,7 @@ INDEX = re.compile(r"\[[\d,]+\]$")
 def collect_settings(
     network: Network, archive: SystemArchive, assignments: Sequence[Assignment], options: SystemOptions
 ) -> Settings:
-    """Collect all values of a system: its bindings from the inside out, then ``assignments``; later ones win.
+    """Return all values of a system: its bindings from the inside out, then ``assignments``; later ones win.
 
     Raises InputError for a name that matches nothing (unless allowed), a value that does not fit its variable, and
     declared inputs that have neither connection nor value (unless they keep their starts).
@@ -61,14 +61,13 @@ def collect_settings(
 
 
 def single_value(name: str, value: SetValue, place: tuple[str, int] | None = None) -> Assignment:
-    """Return a value that is set by itself, by the command line or at a ``place`` (file, line);
-    of a vector all elements."""
+    """Return the assignment of a single value or of a vector's elements; ``place`` is file and line, if any."""
     file, line = place or (SINGLE, 0)
     return Assignment(name.strip(), ELEMENTS.join(_texts(value)), TEXT, None, file, line)
 
 
 def _texts(value: object) -> list[str]:
-    """Return the elements of a value as text: of [1, 2, 3], of 1,2,3 as a text, of one number."""
+    """Return the elements of a value as text; the value may be a list, "1,2,3", or one number."""
     if isinstance(value, str):
         return [part.strip() for part in value.strip().removeprefix("[").removesuffix("]").split(ELEMENTS)]
     if isinstance(value, Iterable):
@@ -77,7 +76,7 @@ def _texts(value: object) -> list[str]:
 
 
 def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
-    """Return a value for a whole vector as one for each of its elements; others as they are. Raises InputError."""
+    """Return one assignment for each element of a vector, others unchanged. Raises InputError."""
     if assignment.type_name != TEXT:
         return [assignment]
     names = _element_names(network, "", assignment.name)
@@ -92,7 +91,7 @@ def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
 
 
 def _element_names(network: Network, path: str, name: str) -> list[str]:
-    """Return the elements of an array of a component or system, by names in the flat network; none of a scalar."""
+    """Return the flat names of an array's elements; none for a scalar."""
     system = network.systems[path]
     owner, remainder = split_name(name, system.elements)
     element = system.elements.get(owner)
@@ -106,7 +105,7 @@ def _element_names(network: Network, path: str, name: str) -> list[str]:
 
 
 def _check_shape(network: Network, path: str, prefix: str, assignment: Assignment) -> None:
-    """Refuse values for another number of elements than the array has that they are for."""
+    """Reject values whose number differs from that of their array's elements."""
     if set(assignment.index) == {1}:  # the first element, for all of them
         name = prefix + assignment.array
         known = _element_names(network, path, name)
@@ -118,7 +117,7 @@ def _check_shape(network: Network, path: str, prefix: str, assignment: Assignmen
 def _bound(
     network: Network, settings: Settings, archive: SystemArchive, bindings: list[Binding], place: str, notes: Notes
 ) -> list[Assignment]:
-    """Return assignments of parameter bindings in order; ``place`` stands before their names in the flat network."""
+    """Return the assignments of parameter bindings in order, their names prefixed with ``place``."""
     assignments: list[Assignment] = []
     for binding in bindings:
         values, without = read_binding(archive, network.file, binding, network.description.units, notes, network.notes)
@@ -189,7 +188,7 @@ def _apply(
 
 
 def _check_driven(network: Network, assignment: Assignment) -> None:
-    """Refuse a single value for a connected input, which would be lost before the first step."""
+    """Reject a single value for a connected input, which would be lost before the first step."""
     link = network.driver.get(assignment.name)
     if assignment.type_name == TEXT and assignment.name in network.driven:
         problem = f"is driven by column {network.driven[assignment.name]} of the inputs over time"
@@ -201,7 +200,7 @@ def _check_driven(network: Network, assignment: Assignment) -> None:
 
 
 def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
-    """Convert the assignment's value as its target needs it: type, unit, transformation."""
+    """Return the assignment's value converted to its target's type and unit, and transformed."""
     value, given = assignment.value, assignment.type_name
     if type_name == "Binary":
         raise InputError(assignment.file, assignment.where, "a Binary is not set", "connect it with a Binary output")
@@ -245,8 +244,7 @@ def _fit(network: Network, assignment: Assignment, type_name: str, node: Node) -
 
 
 def _map_value(assignment: Assignment, transformation: Transformation, type_name: str, node: Node) -> ParameterValue:
-    """Return the assignment's value after a mapping; of an enumeration by its items' numbers
-    where the mapping has these."""
+    """Return the assignment's value after its mapping, which for an enumeration may use the items' numbers."""
     given, where = assignment.value, (assignment.file, assignment.where)
     if transformation.kind == "IntegerMappingTransformation" and type_name == "Enumeration":
         type_name, given = "Integer", node.enumeration.get(str(given), given)
@@ -258,7 +256,7 @@ def _map_value(assignment: Assignment, transformation: Transformation, type_name
 
 
 def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
-    """Parse a single value, which is a bare number in the variable's unit."""
+    """Return a single value parsed from text; a bare number is in the variable's unit."""
     if type_name in ("Real", "Boolean", *WHOLE) and RANGE in str(assignment.value):
         unit = f", in {node.unit.name}" if node.unit is not None else ""
         remedy = f"give one{unit}; low:high:step, a sweep, is for perilune batch"
@@ -272,7 +270,7 @@ def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue
 
 
 def _check_bounds(assignment: Assignment, variable: Variable | None, value: ParameterValue) -> None:
-    """Refuse a number outside the FMU's declared minimum and maximum, or its type's, or not finite."""
+    """Reject a number that is not finite, or outside the bounds of the FMU or of the type."""
     if isinstance(value, str | bool):
         return
     low, high = (None, None) if variable is None else (variable.minimum, variable.maximum)

@@ -1,4 +1,4 @@
-"""Checks before a system flies: FMUs that do not fit their slots, shared parameters, samples too close, faults."""
+"""Checks before a simulation: FMUs that do not fit their slots, shared parameters, short sample periods, faults."""
 
 from __future__ import annotations
 
@@ -22,8 +22,7 @@ MOST = 6  # FMUs that are named
 
 
 def unfit(slot: str, fmu: str, component: Component, error: InputError) -> InputError:
-    """Return the error of an FMU that does not fit the slot that the user puts it in; ``error`` is the
-    description's."""
+    """Return the error for an FMU that does not fit its slot; ``error`` is the description's."""
     fits = list(_fitting(component))
     more = f" and {len(fits) - MOST} more" if len(fits) > MOST else ""
     remedy = f"these do: {', '.join(fits[:MOST])}{more}" if fits else "no FMU here does; build one with its connectors"
@@ -32,13 +31,13 @@ def unfit(slot: str, fmu: str, component: Component, error: InputError) -> Input
 
 
 def missing_fmu(slot: str, fmu: str, component: Component) -> InputError:
-    """Return the error of a missing FMU for a slot, with the nearest of those that fit it."""
+    """Return the error for a missing FMU in a slot; it suggests the most similar name that fits."""
     remedy = f"of those that fit {slot} {suggestion(fmu, _fitting(component))}; or build your own"
     return InputError("`use`", f"{slot}={fmu}", "no such FMU is built", remedy)
 
 
 def _fitting(component: Component) -> Iterator[str]:
-    """Yield the FMUs that have all connectors of a component, by name."""
+    """Yield the names of the FMUs that have all connectors of a component."""
     wanted = {(connector.name, connector.kind) for connector in component.connectors.values()}
     for name, flavours in fmu_flavours().items():
         path = next((path for path in flavours.values() if path is not None), None)
@@ -49,10 +48,10 @@ def _fitting(component: Component) -> Iterator[str]:
 
 
 def check_shared(network: Network, settings: Settings) -> None:
-    """Refuse a chosen value that a parameter of the system replaces by another one.
+    """Reject a chosen value that a parameter of the system replaces.
 
-    What several components must agree on is such a parameter, so that none of them can be set apart from the others.
-    Raises InputError.
+    Values on which several components must agree are parameters of the system, so that no component can deviate. Raises
+    InputError.
     """
     last = {assignment.name: assignment for assignment in settings.chosen}
     for (component, variable), (shared, value) in settings.replaced.items():
@@ -65,7 +64,7 @@ def check_shared(network: Network, settings: Settings) -> None:
 
 
 def check_aliases(network: Network) -> None:
-    """Refuse an input of FMI 3.0 that is set by two of its names. Raises InputError."""
+    """Reject an input of FMI 3.0 that is set under two of its names. Raises InputError."""
     for component, fmu in network.fmus.items():
         given: dict[tuple[int, int], str] = {}
         for name, variable in fmu.variables.items() if fmu.version == 3 else ():
@@ -78,9 +77,9 @@ def check_aliases(network: Network) -> None:
 
 
 def check_samples(network: Network, settings: Settings, step: float, periods: dict[str, int]) -> None:
-    """Refuse a sample period shorter than what its component steps by.
+    """Reject a sample period shorter than the step of its component.
 
-    The FMU would take several samples in a step, of which others see the last one. Raises InputError.
+    The FMU would take several samples in one step, and others would read only the last. Raises InputError.
     """
     for component, fmu in network.fmus.items():
         variable = fmu.variables.get(SAMPLE_PERIOD)
@@ -96,7 +95,7 @@ def check_samples(network: Network, settings: Settings, step: float, periods: di
 
 
 def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:
-    """Refuse the name of a parameter that cannot be changed in flight. Raises InputError."""
+    """Reject the name of a parameter that cannot be changed during simulation. Raises InputError."""
     component, short = split_name(name, network.fmus)
     variable = network.fmus[component].variables.get(short) if component else None
     if variable is not None and variable.causality == "parameter" and not variable.is_tunable:
@@ -105,10 +104,10 @@ def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:
 
 
 def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: bool = False) -> Variable:
-    """Return the variable of a component's connector, ``component.connector``, that can be changed in flight.
+    """Return the variable of a connector, ``component.connector``, that can be changed during simulation.
 
-    These are outputs, and inputs that something is connected to or a series drives; with ``tunable`` such parameters,
-    too. ``where`` (file, element) is what errors point to. Raises InputError.
+    These are outputs, inputs that are connected or driven, and with ``tunable`` also tunable parameters. ``where``
+    (file, element) is named in errors. Raises InputError.
     """
     known: dict[str, Variable] = {}
     for component, fmu in network.fmus.items():
@@ -130,7 +129,7 @@ def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: 
 
 
 def check_value(variable: Variable, kind: str, value: float | bool, where: tuple[str, str]) -> None:
-    """Refuse a value that a connector cannot have. ``where`` as in `changeable`. Raises InputError."""
+    """Reject a value that a connector cannot have. ``where`` as in `changeable`. Raises InputError."""
     if kind == "freeze":
         return
     type_name, stored = variable.type, variable.representation
@@ -148,7 +147,7 @@ def check_value(variable: Variable, kind: str, value: float | bool, where: tuple
 
 
 def check_bounds(variable: Variable, number: float, where: tuple[str, str]) -> None:
-    """Refuse a value of a tunable parameter outside the bounds that its FMU declares. Raises InputError."""
+    """Reject a value of a tunable parameter outside its declared bounds. Raises InputError."""
     low, high = (None if text is None else float(text) for text in (variable.minimum, variable.maximum))
     if low is not None and number < low:
         raise InputError(*where, f"{number:.12g} is below its minimum {low:.12g}", "give a larger value")
@@ -157,6 +156,6 @@ def check_bounds(variable: Variable, number: float, where: tuple[str, str]) -> N
 
 
 def check_fault(network: Network, fault: Fault) -> None:
-    """Refuse a fault that the system cannot have. Raises InputError."""
+    """Reject a fault that the system cannot have. Raises InputError."""
     where = ("fault", fault.name)
     check_value(changeable(network, fault.name, where, tunable=True), fault.kind, fault.value, where)

@@ -1,4 +1,4 @@
-"""FMUs of a system's components: those that options name, those of its description, and their array sizes."""
+"""FMUs of a system's components, from options or from its description, with their array sizes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Read = Callable[[], bytes]
 class ComponentFmus:
     """Loader of the FMUs of one system. All methods raise InputError.
 
-    ``loaded`` keeps FMUs by label; ``description`` is the system's, in its present state: sizes of arrays depend on it.
+    ``loaded`` caches FMUs by label; ``description`` is the system's current one, which determines array sizes.
     """
 
     description: Description
@@ -74,7 +74,7 @@ class ComponentFmus:
         return read, label
 
     def _current_name(self, component: str, name: str) -> str:
-        """Return the name of the FMU that replaces a retired one, which is noted, or the name itself."""
+        """Return the name of the FMU that replaces a retired one, and note it; otherwise return the name."""
         retired = find_retired(name, self.archive.path)
         if retired is None:
             return name
@@ -82,13 +82,13 @@ class ComponentFmus:
         return retired.block
 
     def open(self, read: Read, label: str) -> Fmu:
-        """Return an FMU by its label, which is read at the first use."""
+        """Return an FMU by its label, reading it at first use."""
         if label not in self._loaded:
             self._loaded[label] = load_fmu(read(), label, strict=self.options.chosen["strict"])
         return self._loaded[label]
 
     def with_sizes(self, fmu: Fmu, name: str) -> Fmu:
-        """Return the FMU of a component with the sizes of its arrays."""
+        """Return the FMU of a component with its array sizes."""
         if not fmu.structural_parameters:
             return fmu
         names = fmu.structural_parameters
@@ -97,14 +97,14 @@ class ComponentFmus:
 
     @cached_property
     def sizes(self) -> Sizes:
-        """Sizes of dimensions of the description at its first use."""
+        """Sizes of dimensions, for the description at first use."""
         return Sizes(
             self.description, lambda: given_values(self.description, self.archive, self.assignments), self.load
         )
 
     @cached_property
     def assignments(self) -> list[Assignment]:
-        """Parameter values of files and options, later ones over earlier."""
+        """Parameter values of files and options; later ones override earlier ones."""
         options, assignments = self.options, list[Assignment]()
         for name in options.parameters:
             data, label = self.archive.parameter_set(name)
@@ -118,14 +118,14 @@ class ComponentFmus:
         ]
 
     def refuse_unfit(self, error: InputError) -> None:
-        """Raise another error in place of one in the connections of a component whose FMU an option names."""
+        """Replace an error in the connections of a component whose FMU an option names by a clearer one."""
         slot = next((slot for slot in self._used if error.element.startswith(f"{slot}.")), None)
         if slot is not None and error.file == self.description.file:
             raise unfit(slot, self.options.use[slot], self._used[slot], error) from error
 
 
 def _is_missing(name: str, flavour: str | None, system: Path | None) -> bool:
-    """Return True for a name by which no FMU is built, and not for paths."""
+    """Return True if no FMU is built under a name; False for paths."""
     return Path(name).name == name and not names_fmu(name) and find_fmu(name, _flavours(flavour), system) is None
 
 
@@ -134,7 +134,7 @@ def _flavours(flavour: str | None) -> tuple[str, ...]:
 
 
 def locate_fmu(name: str, flavour: str | None, option: str = "`use`", system: Path | None = None) -> tuple[Read, str]:
-    """Return a reader and the label of an FMU by name or path; a ``system`` may have FMUs of that name.
+    """Return a function that reads an FMU, and its label, by name or path; names include FMUs of the ``system``.
 
     Raises InputError.
     """

@@ -28,11 +28,11 @@ class Origin(StrEnum):
 class Feedthrough:
     """Direct dependencies by component and output: ``stepping`` orders the steps, ``initial`` the initialisation.
 
-    ``undeclared`` are the components whose FMU leaves dependencies of an output open while nobody has settled them,
-    in the order of the SSD. Such a component is stepped with the inputs of t_n, and initialised as if its outputs
-    depended on all inputs. One without a driven input is not among them: its order changes nothing.
-    ``cuts`` are connections into them that close a loop, which no initialisation can settle: there it is cut.
-    ``origins`` say by component where its dependencies come from.
+    ``undeclared`` are components for which nobody states an output's dependencies, in the order of the SSD. Such a
+    component is stepped with inputs of t_n, and initialised as if its outputs depended on all inputs. Components
+    without a driven input are not included, since their order has no effect. ``cuts`` are connections to them that
+    close a loop, and are cut because the initialisation cannot solve it. ``origins`` is the source of each component's
+    dependencies.
     """
 
     stepping: Dependencies
@@ -42,7 +42,7 @@ class Feedthrough:
     cuts: tuple[str, ...] = ()
 
     def notes(self, network: Network, algorithm: str) -> list[str]:
-        """Return the assumptions, a line for each component, and where loops through them are cut."""
+        """Return the assumptions, one line for each component, and the connections at which loops are cut."""
         assumed = self.undeclared if algorithm == "sequential" else ()
         return [
             *(f"{name}: FMU {network.fmus[name].name}{ASSUMED}" for name in assumed),
@@ -57,13 +57,13 @@ ASSUMED = (
 
 
 def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *, is_alone: bool) -> Feedthrough:
-    """Find the direct dependencies of every component, and which of them are assumed.
+    """Return the direct dependencies of every component, with those that are assumed.
 
-    A user's option overrides the SSD's annotation, which applies to the FMU that the SSD names and not to one that
-    replaces it (``use``); both override the FMU. An FMU alone (``is_alone``) is given the inputs of t_n for the step to
-    t_(n+1), as FMPy does it, whatever its outputs depend on. Jacobi's algorithm gives them to every FMU, so there is
-    nothing to assume but at the start. Raises InputError for an unknown component, one in both options, and for
-    ``feedthrough`` of an FMU alone.
+    A user's option overrides the SSD's annotation, which applies only to the FMU that the SSD names, not to one that
+    replaces it (``use``); both override the FMU. A stand-alone FMU (``is_alone``) steps to t_(n+1) with inputs of t_n,
+    whatever its dependencies, as in FMPy. So does every FMU in Jacobi's algorithm, which needs assumptions only for the
+    initialisation. Raises InputError for an unknown component, one in both options, and ``feedthrough`` of a
+    stand-alone FMU.
     """
     _check(network.fmus, options, is_alone=is_alone)
     stated = {
@@ -93,7 +93,7 @@ def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *
 
 
 def _read_locals(network: Network, component: str) -> set[str]:
-    """Return local variables of a component that are connected like outputs, whose dependencies no FMU declares."""
+    """Return local variables connected as sources, whose dependencies no FMU declares."""
     return {
         link.source.variable
         for link in network.links()
@@ -102,7 +102,7 @@ def _read_locals(network: Network, component: str) -> set[str]:
 
 
 def _is_driven(network: Network, component: str) -> bool:
-    """Return True if an input of a component is driven during the flight."""
+    """Return True if an input of a component is connected or driven during simulation."""
     prefix = f"{component}."
     return any(link.target.component == component and not link.is_parameter for link in network.driver.values()) or any(
         name.startswith(prefix) and not network.fmus[component].variables[name.removeprefix(prefix)].is_tunable
@@ -124,10 +124,10 @@ def _check(components: Collection[str], options: SystemOptions, *, is_alone: boo
 
 
 def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, set[str]]:
-    """Cut the loops through undeclared dependencies at the start; return the inputs that lost theirs, too.
+    """Cut the initial loops through undeclared dependencies; also return the inputs without their connections.
 
     A loop is cut at the first of its undeclared components in the order of the SSD: the input there keeps its start
-    value, and what it drives directly is settled without it.
+    value, and the outputs that depend on it directly are computed with that value.
     """
     initial = {name: dict(outputs) for name, outputs in feedthrough.initial.items()}
     driven = {link.target.name: link for link in network.driver.values() if not link.is_parameter}
@@ -146,7 +146,7 @@ def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, 
 
 
 def _reaches_itself(network: Network, name: str, direct: Dependencies, readers: dict[str, list[str]]) -> bool:
-    """Return True if the value of an input returns to it in the same communication point."""
+    """Return True if an input affects itself at the same communication point."""
     seen: set[str] = set()
     queue = [name]
     while queue:

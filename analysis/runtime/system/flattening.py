@@ -1,4 +1,4 @@
-"""A description flattened, its connectors and connections checked."""
+"""Flattens a description and checks its connectors and connections."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"), ("Enumeration", "Int
 
 
 def build_network(description: Description, load: Callable[[str, Component], Fmu]) -> Network:
-    """Flatten a description and check every connector and connection.
+    """Return the flat network of a description, with every connector and connection checked.
 
-    ``load(name, component)`` gives the FMU of a component by its flat name. Raises InputError.
+    ``load(name, component)`` returns the FMU of a component by its flat name. Raises InputError.
     """
     network = Network(description)
     _walk(network, description.system, "")
@@ -70,7 +70,7 @@ def _add(network: Network, node: Node) -> None:
 
 
 def _unit(network: Network, name: str, fmu: Fmu | None, connector: Connector) -> Unit | None:
-    """Return the unit that a connector, by its flat name, declares: one of the SSD, or of its FMU."""
+    """Return the unit declared by a connector, by its flat name: one of the SSD, or of its FMU."""
     unit = connector.unit
     if unit is None:
         return None
@@ -87,7 +87,7 @@ def _plain_node(network: Network, name: str, connector: Connector) -> Node:
 
 
 def _component_node(network: Network, component: str, connector: Connector) -> Node:
-    """Return the node of a component's connector, checked against the variable of its FMU."""
+    """Return the node of a component's connector, checked against its FMU's variable."""
     fmu = network.fmus[component]
     name = f"{component}.{connector.name}"
     variable = fmu.variables.get(connector.name)
@@ -127,7 +127,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
 
 
 def _end(network: Network, path: str, system: System, point: Point, connection: Connection) -> Node:
-    """Return the node that one end of a connection names."""
+    """Return the node at one end of a connection."""
     element_name, connector_name = point
     owner: Element = system
     prefix = path
@@ -150,7 +150,7 @@ def _end(network: Network, path: str, system: System, point: Point, connection: 
 
 
 def _signal(network: Network, path: str, reference: DictionaryReference, signal: str, where: str) -> Node:
-    """Return the node of a dictionary's signal; the dictionary is the nearest of its name above the reference."""
+    """Return the node of a dictionary's signal; the dictionary is the nearest of that name, going outwards."""
     level = path
     while True:
         system = network.systems[level]
@@ -188,9 +188,9 @@ def _connect(network: Network, path: str, system: System, connection: Connection
 def orient(
     network: Network, path: str, system: System, connection: Connection
 ) -> tuple[tuple[Point, Node], tuple[Point, Node]]:
-    """Return source and target of a connection with their nodes: the standard gives its ends no direction.
+    """Return source and target of a connection with their nodes, since SSP does not define its direction.
 
-    ``path`` is that of the ``system`` in which the connection stands. Raises InputError.
+    ``path`` is that of the ``system`` that contains the connection. Raises InputError.
     """
     start = _end(network, path, system, connection.start, connection)
     end = _end(network, path, system, connection.end, connection)
@@ -209,7 +209,7 @@ def orient(
 
 
 def _link(network: Network, path: str, system: System, connection: Connection) -> Link:
-    """Return the link from the start of a connection, or from its end, if that is where values come from."""
+    """Return the link of a connection, from its start or, if values flow backwards, from its end."""
     (_, start), (_, end) = orient(network, path, system, connection)
     if start.kind == "calculatedParameter" and end.kind == "parameter":
         raise network.refuse(
@@ -221,7 +221,7 @@ def _link(network: Network, path: str, system: System, connection: Connection) -
 
 
 def _settle_types(network: Network) -> None:
-    """Give system connectors without a declared type that of their source or readers."""
+    """Set undeclared types of system connectors to those of their source or readers."""
     changed = True
     while changed:
         changed = False

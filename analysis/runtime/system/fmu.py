@@ -1,4 +1,4 @@
-"""An FMU as a file: checked, unpacked, its variables, units and dependencies."""
+"""FMU as a file: checked and unpacked, with its variables, units and dependencies."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ NOT_VARIED = ("a structural parameter, which sizes arrays, does not vary from tr
 
 @dataclass
 class Fmu:
-    """A co-simulation FMU of FMI 2.0 or 3.0 that can run here."""
+    """Co-simulation FMU of FMI 2.0 or 3.0 for this platform."""
 
     label: str
     digest: str
@@ -59,7 +59,7 @@ class Fmu:
 
     @property
     def printers(self) -> list[str]:
-        """Its name, as `PreparedSystem.printers`."""
+        """Name of the FMU, see `PreparedSystem.printers`."""
         return [self.name]
 
     @property
@@ -69,12 +69,12 @@ class Fmu:
 
     @property
     def binary(self) -> str:
-        """The path of its library for this platform, in the FMU."""
+        """Path of the library for this platform inside the FMU."""
         return _binary(self.description)
 
     @property
     def is_alone(self) -> bool:
-        """True if a process can hold one instance of it only."""
+        """True if a process can have only one instance of the FMU."""
         return bool(self.description.coSimulation.canBeInstantiatedOnlyOncePerProcess)
 
     @property
@@ -89,16 +89,16 @@ class Fmu:
 
     @property
     def structural_parameters(self) -> list[str]:
-        """The parameters of FMI 3.0 that size arrays, or others that are set before an instance has its structure."""
+        """Parameters of FMI 3.0 that size arrays, or that are set before an instance is structured."""
         return [name for name, variable in self.variables.items() if variable.causality == STRUCTURAL]
 
     def unit_of(self, variable: Variable) -> Unit | None:
-        """Return the unit of a variable; None where it has none, or one that the FMU does not define."""
+        """Return the unit of a variable, or None if it has none or the FMU does not define it."""
         unit = self.units.get(variable.unit or "")
         return unit if unit is None else replace(unit, is_relative=variable.is_relative)
 
     def with_sizes(self, sizes: Mapping[str, int]) -> Fmu:
-        """Return the FMU with other structural parameters, by name: arrays have the elements that follow from them."""
+        """Return the FMU with other structural parameters, by name; its arrays have the resulting sizes."""
         loaded = self.origin or self
         if sizes == self.sizes:
             return self
@@ -108,14 +108,16 @@ class Fmu:
         return replace(loaded, variables=variables, sizes=dict(sizes), origin=loaded)
 
     def read_sources(self) -> dict[str, str]:
-        """Return the C of an FMU built by Perilune, by file name. Raises InputError where it is damaged."""
+        """Return the C of an FMU built by Perilune, by file name. Raises InputError if the FMU is damaged."""
         archive = open_zip(self.content, self.label)
         files = [name for name in archive.namelist() if name.startswith(SOURCES) and name.endswith((".c", ".h"))]
         return {name.removeprefix(SOURCES): read_entry(archive, name, self.label).decode() for name in files}
 
     def read_dependencies(self) -> dict[str, set[str] | None]:
-        """Return output -> inputs that it depends on directly, as ModelStructure declares it; None where it does
-        not."""
+        """Return, for each output, the inputs on which it depends directly according to ModelStructure.
+
+        An output without a declaration has None.
+        """
         inputs = {name for name, variable in self.variables.items() if variable.causality == "input"}
         outputs: dict[str, set[str] | None] = {
             name: None for name, variable in self.variables.items() if variable.causality == "output"
@@ -136,7 +138,7 @@ class Fmu:
 
 
 def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
-    """Check and unpack an FMU, ``strict``: refuse one with flaws. Raises InputError naming file and element."""
+    """Check and unpack an FMU; if ``strict``, reject one with flaws. Raises InputError with file and element."""
     archive = open_zip(data, label)
     if DESCRIPTION not in archive.namelist():
         raise InputError(label, DESCRIPTION, "not found", "give an FMU")
@@ -188,9 +190,10 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
 
 @lru_cache(maxsize=MOST_DESCRIPTIONS)
 def _read_description(xml: bytes) -> tuple[ModelDescription | None, tuple[str, ...]]:
-    """Read an FMU's modelDescription.xml, None if unreadable, and the rules that it breaks.
+    """Return an FMU's modelDescription.xml, or None if it is unreadable, and the rules that it violates.
 
-    It is the most of loading an FMU, and nobody changes what it gives: a system that is prepared again shares it.
+    This takes most of the time of loading an FMU. The result is never modified, and is shared when a system is prepared
+    again.
     """
     try:
         return _complete(read_model_description(_open_zip(xml), validate=True), xml), ()
@@ -215,22 +218,22 @@ def _complete(description: ModelDescription, xml: bytes) -> ModelDescription:
 
 @lru_cache(maxsize=MOST_DESCRIPTIONS)
 def _read_variables(xml: bytes) -> Mapping[str, Variable]:
-    """Return the variables of a readable description by name, with the sizes that it declares."""
+    """Return the variables of a description by name, with declared array sizes."""
     description, _ = _read_description(xml)
     assert description is not None
     return variables_of(description)
 
 
 def _binary(description: ModelDescription) -> str:
-    """Return the path of its library for this platform, in the FMU."""
+    """Return the path of the library for this platform inside the FMU."""
     platform = fmpy.platform_tuple if description.fmiMajorVersion == 3 else fmpy.platform
     return f"binaries/{platform}/{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
 
 
 def _with_fixed_parameters(xml: bytes) -> bytes:
-    """Return the description with parameters that vary, as stock pythonfmu writes them, declared fixed.
+    """Return the description with varying parameters, as pythonfmu writes them, declared as fixed.
 
-    fmpy does not read them otherwise, and they are set before a flight begins only.
+    FMPy rejects them otherwise, and they are only set before a simulation.
     """
     root = parse_xml(xml, DESCRIPTION)
     for variable in root.iterfind("ModelVariables/ScalarVariable[@causality='parameter']"):
@@ -240,7 +243,7 @@ def _with_fixed_parameters(xml: bytes) -> bytes:
 
 
 def _open_zip(xml: bytes) -> io.BytesIO:
-    """Return a description as fmpy reads it: in an FMU."""
+    """Return an archive in memory that contains only the description, for FMPy to read."""
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
         archive.writestr(DESCRIPTION, xml)

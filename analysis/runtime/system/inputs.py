@@ -1,6 +1,6 @@
-"""Inputs of a system: those that nothing is connected to, and those that a series of samples drives over time.
+"""Inputs of a system that are not connected: open ones, and those that a series of samples drives over time.
 
-A series drives tunable parameters likewise.
+A series drives tunable parameters in the same way.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from .series import InputSeries
 
 
 def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: bool) -> None:
-    """Leave inputs that have neither a source nor a value at their FMUs' starts, or refuse all of them in one line.
+    """Keep inputs without a source or value at their FMUs' start values, or reject all of them in one message.
 
     Raises InputError.
     """
@@ -70,9 +70,9 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
 
 
 def _whole(network: Network, inputs: Sequence[Node], open_inputs: Sequence[Node]) -> list[Node]:
-    """Return open inputs without those of array connectors of which another element is connected or has a value.
+    """Return open inputs without those of arrays in which another element is connected or has a value.
 
-    SSP 2.0 cannot declare part of an array: what is left of it keeps the start of its FMU, which is noted.
+    SSP 2.0 cannot declare single elements of an array: the others keep the FMU's start values, which is noted.
     """
     names = {node.name for node in open_inputs}
     in_part = {(node.component, node.array) for node in inputs if node.array and node.name not in names}
@@ -84,14 +84,17 @@ def _whole(network: Network, inputs: Sequence[Node], open_inputs: Sequence[Node]
 
 
 def missing_outputs(network: Network) -> list[str]:
-    """Return a note on a system whose FMUs have no output, so that nothing is recorded unless it is named."""
+    """Return a note if the system's FMUs have no outputs, so that only named variables are recorded."""
     if any(variable.causality == "output" for fmu in network.fmus.values() for variable in fmu.variables.values()):
         return []
     return [f"{network.file}: no FMU has an output: name what `run` is to record with `record`"]
 
 
 def check_signals(network: Network, settings: Settings) -> None:
-    """Refuse a signal that is read and never driven, and note what is declared in vain. Raises InputError."""
+    """Reject a signal that is read but never driven; note outputs without a source and undeclared inputs.
+
+    Raises InputError.
+    """
     for link in network.links():
         source = link.source
         is_signal = source.component is None and source.kind in ("inout", *LED_OUT)
@@ -117,7 +120,7 @@ CLOSE = 1e-9  # of the greater of two times that are one: FMPy's, which is that 
 
 
 class DrivenInput(TypedDict):
-    """The series that drives inputs, and which."""
+    """Series that drives inputs, and the names of these inputs."""
 
     file: str
     sha256: str
@@ -132,9 +135,9 @@ class InputFacts(TypedDict, total=False):
 
 @dataclass(frozen=True, eq=False)
 class Drive:
-    """The inputs that a series drives, by name, and their values: ``table`` [points + 1, inputs].
+    """Inputs driven by a series, by name, with their values ``table`` [points + 1, inputs].
 
-    Row 0 is for initialisation, row n + 1 for communication point n.
+    Row 0 is for the initialisation, row n + 1 for communication point n.
     """
 
     series: InputSeries
@@ -142,15 +145,16 @@ class Drive:
     table: np.ndarray
 
     def facts(self) -> InputFacts:
-        """Return the inputs that a result depends on, for its provenance."""
+        """Return the driven inputs for the provenance of a result."""
         return {"input": {"file": self.series.file, "sha256": self.series.sha256, "signals": list(self.names)}}
 
 
 def find_driven(network: Network, series: InputSeries, alone: str | None) -> dict[str, str]:
-    """Return the columns of a series by the inputs that they drive: connectors of the root, ``component.variable``.
+    """Return the columns of a series by the names of the inputs that they drive.
 
-    These are inputs that nothing is connected to, and tunable parameters; those of a component that flies ``alone`` go
-    by their own names, too. Raises InputError for any other column, and for numbers that its type cannot have.
+    Inputs are unconnected connectors of the system or of a component, ``component.variable``, and tunable parameters;
+    those of an FMU simulated ``alone`` may omit the component. Raises InputError for other columns, and for numbers
+    that the type cannot represent.
     """
     types = {
         node.name: (node.type_name or "Real", REPRESENTATIONS[OF_FMI2[node.type_name or "Real"]])
@@ -199,7 +203,7 @@ def _check_type(series: InputSeries, column: str, type_name: str, stored: Repres
 
 
 def _check_bounds(network: Network, series: InputSeries, column: str, name: str) -> None:
-    """Refuse values of a tunable parameter outside its bounds; inputs may leave theirs."""
+    """Reject values of a tunable parameter outside its bounds; inputs may exceed theirs."""
     component, short = split_name(name, network.fmus)
     variable = network.fmus[component].variables[short] if component else None
     if variable is not None and variable.is_tunable:
@@ -211,9 +215,9 @@ def _check_bounds(network: Network, series: InputSeries, column: str, name: str)
 def drive_inputs(
     network: Network, series: InputSeries, driven: dict[str, str], start: float, step: float, steps: int
 ) -> Drive:
-    """Return the values of ``driven`` inputs, as `find_driven` returns them, at all communication points.
+    """Return the values of ``driven`` inputs, as from `find_driven`, at all communication points.
 
-    Raises ExcessError where the free memory does not do for them.
+    Raises ExcessError if free memory does not suffice.
     """
     check_room(len(driven), steps + 2, step, "inputs")
     table = np.empty((steps + 2, len(driven)))
@@ -229,8 +233,7 @@ def drive_inputs(
 
 
 def _is_continuous(network: Network, name: str) -> bool:
-    """Return True if an input is interpolated: a Real, of an FMU a continuous one; of a system
-    if all are that it leads to."""
+    """Return True if an input is interpolated: a continuous Real of an FMU, or a system's input to only such."""
     for component, fmu in network.fmus.items():
         if name.startswith(f"{component}."):
             variable = fmu.variables.get(name.removeprefix(f"{component}."))
@@ -241,11 +244,11 @@ def _is_continuous(network: Network, name: str) -> bool:
 
 
 def interpolate(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
-    """Interpolate a continuous input at ``points`` (s), from ``values`` at ``time``, as FMPy's `Input.interpolate`
-    does.
+    """Return a continuous input at ``points`` (s), interpolated as FMPy's `Input.interpolate` does.
 
-    Linear in between, the first and the last value outside. Times given twice are an event: ``after_event`` says which
-    of its values counts at that time, the last or the first; an event at the first time of all has its first.
+    ``values`` at ``time`` (s) are interpolated linearly, and held before the first and after the last. A repeated time
+    is an event: its last value counts if ``after_event``, else its first. An event at the first time of all has its
+    first value.
     """
     last = time.size - 1
     right = np.searchsorted(time, points)
@@ -267,9 +270,9 @@ def interpolate(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, aft
 
 
 def hold(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
-    """Hold a discrete input at ``points`` (s), each value from its time on, as FMPy's `Input.interpolate` does.
+    """Return a discrete input at ``points`` (s), each value held from its time on, as in FMPy's `Input.interpolate`.
 
-    ``after_event``: a value counts at its own time already. At the first time of all the first value does.
+    If ``after_event``, a value already counts at its own time. The first value counts at the first time in any case.
     """
     last = time.size - 1
     right = np.searchsorted(time, points)

@@ -1,4 +1,4 @@
-"""The flat system: components with their FMUs, connectors as nodes, connections as links; `flattening` makes it."""
+"""Flat system: components with their FMUs, connectors as nodes, connections as links; built by `flattening`."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from .fmu import Fmu
 
 @dataclass(slots=True)
 class Node:
-    """A connector of the flat network: of a component, of a system, or a dictionary's signal.
+    """Connector of the flat network: of a component or a system, or a dictionary's signal.
 
-    ``kind`` is the connector's (inout for dictionary signals); ``component`` is None where no FMU stands behind it.
-    ``array`` is the array connector that it is an element of.
+    ``kind`` is the connector's (inout for dictionary signals); ``component`` is None for connectors without an FMU.
+    ``array`` is the array connector that contains it.
     """
 
     name: str
@@ -38,10 +38,10 @@ class Node:
 
 @dataclass(slots=True)
 class Link:
-    """A connection between nodes, with unit conversion and transformation in one.
+    """Connection between nodes, with unit conversion and transformation combined.
 
-    ``keeps_number``: units are not converted (SSP's suppressUnitConversion).
-    ``added`` are links with the same target, from components to a component, whose values are added to its own.
+    ``keeps_number``: units are not converted (SSP's suppressUnitConversion). ``added`` are links from components to the
+    same target, a component's, whose values are added.
     """
 
     source: Node
@@ -57,16 +57,16 @@ class Link:
 
     @property
     def is_parameter(self) -> bool:
-        """True if its value is passed on before the flight."""
+        """True if the value is passed on before the simulation."""
         return self.target.kind in PARAMETERS
 
 
 @dataclass
 class Network:
-    """The flat system. ``notes`` are remarks for `perilune validate`.
+    """Flat system. ``notes`` are remarks for `perilune validate`.
 
-    ``mixed`` are connectors without an FMU that values and differences of values (relativeQuantity) are connected with.
-    ``frames`` are the names of the axes of frames that the SSD declares, ``axes`` those of the signals along them.
+    ``mixed`` are connectors without an FMU that are connected to both values and differences of values
+    (relativeQuantity). ``frames`` are the axis names of the frames declared by the SSD, ``axes`` those of signals.
     """
 
     description: Description
@@ -85,7 +85,7 @@ class Network:
         return self.description.file
 
     def refuse(self, where: str, problem: str, remedy: str) -> InputError:
-        """Return the error of an element of the description."""
+        """Return an error in an element of the description."""
         return InputError(self.file, where, problem, remedy)
 
     def unit_of(self, signal: str) -> Unit | None:
@@ -96,7 +96,7 @@ class Network:
         return self.fmus[component].unit_of(self.fmus[component].variables[variable])
 
     def links(self) -> Iterator[Link]:
-        """Yield all links, those that are added to others after them."""
+        """Yield all links, each followed by the links added to it."""
         for link in self.driver.values():
             yield link
             yield from link.added

@@ -1,4 +1,4 @@
-"""System options with their defaults, whatever simulates; the layers of FMUs, parameter sets and values."""
+"""System options with their defaults, common to all verbs that simulate; layers of FMUs, parameter sets and values."""
 
 from __future__ import annotations
 
@@ -25,10 +25,12 @@ LAYERS = ("operating_point", "campaign", "draws", "command_line", "study")
 
 @dataclass(frozen=True)
 class Layer:
-    """Options of one source: ``use`` maps a component to the FMU that takes its place, by block name or path;
-    ``parameters`` lists parameter sets; ``set`` maps ``component.variable`` to a value, in SI units, or
-    ``component.vector`` to as many as it has elements. ``places`` maps a name of ``set`` to file and line where it is
-    written, if it is."""
+    """Options of one source.
+
+    ``use`` maps a component to the FMU that replaces its own, by block name or path; ``parameters`` lists parameter
+    sets; ``set`` maps ``component.variable`` to a value in SI units, or ``component.vector`` to one value for each
+    element. ``places`` maps a name in ``set`` to its file and line, if it has one.
+    """
 
     use: Mapping[str, str] = field(default_factory=dict)
     parameters: tuple[str, ...] = ()
@@ -46,9 +48,9 @@ NETWORK, WRITE = "network", "write="
 
 @dataclass(frozen=True, init=False)
 class Trust:
-    """Permissions of foreign FMUs, `TrustOptions`: stated by whoever simulates, never read from a campaign's folder.
+    """Permissions of foreign FMUs, `TrustOptions`: set by the user, never read from a campaign's folder.
 
-    Unless trusted they run in a process of their own, where they may neither use the network nor write but as allowed.
+    Untrusted FMUs run in a separate process, without network access, and may only write where they are allowed to.
     Raises InputError.
     """
 
@@ -68,7 +70,7 @@ class Trust:
 
     @property
     def writable(self) -> tuple[str, ...]:
-        """The folders that foreign FMUs may write to."""
+        """Folders to which foreign FMUs may write."""
         return tuple(text.removeprefix(WRITE) for text in self.trust["allow"] if text != NETWORK)
 
 
@@ -77,7 +79,7 @@ STATED = options_of(declared.SystemOptions)
 
 
 class _Keywords(declared.SystemOptions, total=False):
-    """Keywords of `SystemOptions`"""
+    """Keyword arguments of `SystemOptions`."""
 
     folder: str
     trust: declared.TrustOptions
@@ -87,13 +89,13 @@ class _Keywords(declared.SystemOptions, total=False):
 
 @dataclass(frozen=True, init=False)
 class SystemOptions(Trust, Layer):
-    """System options, all of them, by the groups of their declaration in `options/system.py`.
+    """All system options, in the groups of their declaration in `options/system.py`.
 
-    Of ``chosen``, an ``algorithm`` None is what the system's description says, else sequential; a ``flavour`` None
-    takes native FMUs where they are built; ``open_inputs`` None is ``refuse`` in a system and ``start`` of an FMU
-    alone. ``limits`` are those of processes with foreign FMUs. ``folder`` is what relative paths are meant from: an FMU
-    may change the process's working folder once it is loaded. Options are equal where they ask the same of a system:
-    without trust, limits and folder. Raises InputError.
+    In ``chosen``, an ``algorithm`` of None means the one in the system's description, else sequential; a ``flavour`` of
+    None means native FMUs if they are built; ``open_inputs`` of None means ``refuse`` for a system and ``start`` for a
+    stand-alone FMU. ``limits`` apply to processes with foreign FMUs. Relative paths are relative to ``folder``, since
+    an FMU may change the process's working folder. Options are equal if they are the same without trust, limits and
+    folder. Raises InputError.
     """
 
     chosen: declared.ChosenOptions = field(default_factory=declared.ChosenOptions)
@@ -114,7 +116,7 @@ class SystemOptions(Trust, Layer):
 
     @property
     def build(self) -> Build | None:
-        """The build of Perilune's FMUs; None: native where built."""
+        """Build of Perilune's FMUs; None: native if built."""
         flavour = self.chosen["flavour"]
         return None if flavour == FUSED else cast(Build | None, flavour)
 
@@ -125,11 +127,11 @@ class SystemOptions(Trust, Layer):
         return layer | {name: each for group in GROUPS for name, each in getattr(self, group).items()}
 
     def but(self, **changes: Unpack[_Keywords]) -> SystemOptions:
-        """Return these options but for some changes."""
+        """Return these options with some changes."""
         return SystemOptions(**cast(_Keywords, {**vars(self), **changes}))
 
     def among(self, **layers: Layer) -> SystemOptions:
-        """Merge these options, the command line's, with those of other sources, by the names of `LAYERS`."""
+        """Return these options, the command line's, merged with those of other sources, by the names of `LAYERS`."""
         remaining: dict[str, Layer] = {"command_line": self, **layers}
         ordered = [remaining.pop(name) for name in LAYERS if name in remaining]
         if remaining:
@@ -151,19 +153,19 @@ GROUPS: Mapping[str, type] = {  # attribute of `SystemOptions` -> its options
 
 
 def system_options(options: Mapping[str, Any]) -> SystemOptions:
-    """Return the system options among the options of a verb, by name."""
+    """Return the system options contained in the options of a verb, by name."""
     keywords = {name: options[name] for name in options_of(declared.SystemOptions) if name in options}
     return SystemOptions(**cast(_Keywords, keywords))
 
 
 def trust_of(options: Mapping[str, Any]) -> Trust:
-    """Return what foreign FMUs may do, among the options of a verb."""
+    """Return the permissions of foreign FMUs contained in the options of a verb."""
     keywords = {name: options[name] for name in options_of(declared.TrustOptions) if name in options}
     return Trust(**cast(declared.TrustOptions, keywords))
 
 
 def _places(layers: Sequence[Layer]) -> dict[str, tuple[str, int]]:
-    """Return the origin of each value that is set last, as far as its layer says."""
+    """Return the file and line of each value that takes effect, if its layer has them."""
     last = {name: layer for layer in layers for name in layer.set}
     return {name: layer.places[name] for name, layer in last.items() if name in layer.places}
 
@@ -175,9 +177,9 @@ SAID_FROM = dict(zip(LOG_LEVELS, (2, 1, 0, 0), strict=True))
 
 @dataclass(frozen=True)
 class Watch:
-    """``timeout`` (s of the wall clock) ends a flight, ``log`` is the least level of messages that are written.
+    """Supervision of a simulation: ``timeout`` (s of wall time) ends it, ``log`` is the least level of messages.
 
-    Raises InputError for a time that is not positive, and a level that is none.
+    Raises InputError for a time that is not positive, and an unknown level.
     """
 
     timeout: float | None = None

@@ -35,10 +35,10 @@ from .times import component_periods, flight_times
 
 @dataclass
 class PreparedSystem:
-    """A checked system; pass it to `Simulation`. Times in s; ``remarks`` say what an FMU alone left open.
+    """Checked system, ready for `Simulation`. Times in s; ``remarks`` are defaults taken for a stand-alone FMU.
 
-    ``drive`` are its inputs over time, if it has them; ``elsewhere`` reads the files that are not the system's own, by
-    the names of `SystemArchive.elsewhere`. ``retired`` are notes on FMUs whose names are no longer to be used.
+    ``drive`` are its inputs over time, if any; ``elsewhere`` reads the files that do not belong to the system, by the
+    keys of `SystemArchive.elsewhere`. ``retired`` are notes on FMUs with retired names.
     """
 
     archive: SystemArchive
@@ -58,7 +58,7 @@ class PreparedSystem:
 
     @property
     def assumptions(self) -> list[str]:
-        """Assumptions where an FMU declares nothing, each in a line that names the component and its FMU."""
+        """Assumptions about undeclared dependencies, one line for each component with its FMU."""
         return self.schedule.feedthrough.notes(self.network, self.algorithm)
 
     @property
@@ -68,12 +68,12 @@ class PreparedSystem:
 
     @property
     def printers(self) -> list[str]:
-        """The components that may print where they simulate apart: those of others, of external state, else all."""
+        """Components that may print in a child process: foreign FMUs and those with external state, else all."""
         fmus = self.network.fmus
         return [name for name, fmu in fmus.items() if not fmu.is_self_contained] or list(fmus)
 
     def of_flights(self) -> PreparedSystem:
-        """Return its data for flights, which another process can be sent: without documents, and readers of files."""
+        """Return the data that simulations need, which can be sent to another process: no documents, no functions."""
         description = self.network.description
         root = System(description.system.name, {}, [], description.system.line)
         network = replace(self.network, description=replace(description, system=root, annotations={}), systems={})
@@ -90,12 +90,12 @@ class PreparedSystem:
 
     @property
     def is_alone(self) -> bool:
-        """True if a process can simulate it once at a time only, since an FMU of it allows no second instance."""
+        """True if a process can simulate it only once at a time, since one of its FMUs allows no second instance."""
         return any(fmu.is_alone for fmu in self.network.fmus.values())
 
     @property
     def flies_in_threads(self) -> bool:
-        """True if several threads of a process can simulate it in parallel, and gain by it."""
+        """True if several threads of a process can simulate it in parallel, and are faster."""
         return self.is_native and not self.is_alone
 
 
@@ -105,9 +105,9 @@ def prepare_system(
     loaded: dict[str, Fmu] | None = None,
     series: InputSeries | None = None,
 ) -> PreparedSystem:
-    """Read and check a system with its options, and with inputs over time if it is to have them. Raises InputError.
+    """Read and check a system with its options, and with inputs over time if there are any. Raises InputError.
 
-    ``loaded`` keeps FMUs by their place, for a system that is prepared again and again: those in it are not read again.
+    ``loaded`` caches FMUs by place, so that a system prepared repeatedly reads them only once.
     """
     options = options or SystemOptions()
     with no_collection(), chdir(options.folder):
@@ -149,7 +149,7 @@ def _prepare(
 
 
 def _read_network(fmus: ComponentFmus) -> tuple[Network, list[str]]:
-    """Return the network of a system with its FMUs loaded, and remarks on an FMU alone. Raises InputError."""
+    """Return the network of a system with its FMUs loaded, and remarks on a stand-alone FMU. Raises InputError."""
     archive, options = fmus.archive, fmus.options
     remarks: list[str] = []
     if archive.is_fmu:
@@ -176,7 +176,7 @@ def _read_network(fmus: ComponentFmus) -> tuple[Network, list[str]]:
 
 
 def _settle(network: Network, fmus: ComponentFmus) -> Settings:
-    """Return the settings of a network, and check it with them. Raises InputError."""
+    """Return the settings of a network, after checking it with them. Raises InputError."""
     archive, options = fmus.archive, fmus.options
     assignments = [each for name, (_, retired) in fmus.retired.items() for each in retired.assignments(name)]
     assignments += fmus.assignments
@@ -194,7 +194,7 @@ def _settle(network: Network, fmus: ComponentFmus) -> Settings:
 
 
 def _refuse_seconds(network: Network) -> None:
-    """Refuse an FMU in two components where a process can hold one instance of it only."""
+    """Reject an FMU in two components if a process can have only one instance of it."""
     first: dict[str, str] = {}
     for name, fmu in network.fmus.items():
         if fmu.is_alone and fmu.digest in first:

@@ -1,4 +1,4 @@
-"""In which order FMUs are stepped, from the direct dependencies of their outputs."""
+"""Order in which FMUs are stepped, from the direct dependencies of their outputs."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ Edge = tuple[Node, Node]  # an output, and the input of another component that i
 
 @dataclass
 class Schedule:
-    """Components by class: ``sources_first`` (S) have no direct output, ``followers`` (F) have.
+    """Order of components: ``sources_first`` (S) have no direct feedthrough, ``followers`` (F) have.
 
-    ``initial_order`` settles initialisation, followers again where need be. ``late`` lists
-    connections that are read one step late because two FMUs, though no two variables, wait for
-    each other. ``feedthrough`` is what the order follows from, with the loops that are cut at the start.
+    ``initial_order`` settles the initialisation, with followers repeated if necessary. ``late`` lists connections read
+    one step late because two FMUs wait for each other, although no two of their variables do. ``feedthrough`` are the
+    dependencies that determine the order, with the initial loops that are cut.
     """
 
     sources_first: list[str]
@@ -32,7 +32,10 @@ class Schedule:
 
 @dataclass
 class _Order:
-    """Components without a direct output, the others each behind those it reads, and connections against that order."""
+    """Order of components without direct feedthrough, then of the others, each after those that it reads.
+
+    ``late`` are the connections against this order.
+    """
 
     sources: list[str]
     followers: list[str]
@@ -40,16 +43,15 @@ class _Order:
 
     @property
     def initial(self) -> list[str]:
-        """Once more for every late connection: at the start all outputs settle, which the variables' order allows."""
+        """Order with followers repeated once for every late connection, so that all initial outputs settle."""
         return [*self.sources, *self.followers * (len(self.late) + 1)]
 
 
 def make_schedule(network: Network, feedthrough: Feedthrough, algorithm: str = "sequential") -> Schedule:
-    """Order the components; raises InputError for an algebraic loop, printing the cycle.
+    """Return the order of the components. Raises InputError for an algebraic loop, with its cycle.
 
-    Jacobi's algorithm reads every connection a step late anyway: there a loop is cut at the start, too, where its
-    values are passed on along it once and not solved for. So are loops through undeclared dependencies, whatever the
-    algorithm.
+    Jacobi's algorithm reads every connection a step late: its initial loops are cut as well, with values passed along
+    them once and not solved for. Loops through undeclared dependencies are cut in any algorithm.
     """
     if algorithm == "sequential":
         _check_loops(network, feedthrough.stepping)
@@ -62,9 +64,10 @@ def make_schedule(network: Network, feedthrough: Feedthrough, algorithm: str = "
 
 
 def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettled: Collection[str] = ()) -> _Order:
-    """Return the order that dependencies require; inputs in ``unsettled`` wait for nothing.
+    """Return the order that dependencies require; inputs in ``unsettled`` need not wait for their sources.
 
-    ``cuts_any``: where FMUs wait for each other and no connection can be late without a loss, one is late all the same.
+    ``cuts_any``: if FMUs wait for each other and every late connection would affect an output, one is late
+    nevertheless.
     """
     followers = [name for name in network.fmus if any(direct[name].values())]
     follows = set(followers)
@@ -103,7 +106,7 @@ def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettle
 
 
 def _order(followers: Collection[str], edges: Collection[Edge]) -> list[str]:
-    """Return the followers, each after those it reads; raises CycleError."""
+    """Return the followers, each after those that it reads. Raises CycleError."""
     graph: dict[str, set[str]] = {name: set() for name in followers}
     for start, end in edges:
         graph[end.component or ""].add(start.component or "")
@@ -111,7 +114,7 @@ def _order(followers: Collection[str], edges: Collection[Edge]) -> list[str]:
 
 
 def origin(network: Network, link: Link) -> Node:
-    """Return the component's output, or the undriven connector, that a link's value comes from."""
+    """Return the component's output, or the undriven connector, at which a link's value originates."""
     start = link.source
     while start.component is None and start.name in network.driver:
         start = network.driver[start.name].source
@@ -144,7 +147,7 @@ def _check_loops(network: Network, direct: Dependencies) -> None:
 
 
 def _breakable(cycle: list[str], edges: Collection[Edge], direct: Dependencies) -> Edge | None:
-    """Return a connection into a component of the cycle on which none of its outputs along the cycle depends."""
+    """Return a connection into a component of the cycle none of whose outputs along the cycle depends on it."""
     for position in range(len(cycle) - 1):
         before, here = cycle[position], cycle[position + 1]
         after = cycle[position + 2] if position + 2 < len(cycle) else cycle[1]

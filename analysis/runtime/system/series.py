@@ -1,4 +1,4 @@
-"""Inputs over time: a CSV file, a structured array, columns by name."""
+"""Inputs over time, from a CSV file, a structured array, or columns by name."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ TRUTHS = {"true": 1.0, "false": 0.0}
 
 @dataclass(frozen=True, eq=False)
 class InputSeries:
-    """Samples of inputs: ``time`` [n] (s, never falling) and ``columns`` by input's name, float64 [n] each.
+    """Samples of inputs: ``time`` [n] (s, never decreasing) and ``columns`` by input name, float64 [n] each.
 
-    ``file`` is where they come from, in messages; ``lines`` are the samples' lines in it, none of arrays; ``sha256``
-    is the file's, or that of names and numbers.
+    ``file`` names their source in messages; ``lines`` are the line numbers of samples, empty for arrays; ``sha256`` is
+    that of the file, or of names and numbers.
     """
 
     file: str
@@ -41,7 +41,7 @@ class InputSeries:
     lines: Sequence[int] = ()
 
     def place(self, row: int, name: str) -> str:
-        """Return a number's position, as messages name it."""
+        """Return the position of a number for messages."""
         return f"{f'line {self.lines[row]}' if self.lines else f'sample {row}'}, column {name}"
 
 
@@ -49,9 +49,9 @@ Given = str | os.PathLike[str] | npt.NDArray[Any] | Mapping[str, npt.ArrayLike] 
 
 
 def read_series(given: Given) -> InputSeries:
-    """Read inputs over time from a CSV file by its path, or from a structured array or columns by name with ``time``.
+    """Read inputs over time from a CSV file, a structured array, or columns by name that include ``time``.
 
-    Raises InputError, naming line and column, for what is no table of numbers with a time that never falls.
+    Raises InputError, with line and column, unless it is a table of numbers with a time that never decreases.
     """
     series = _of_file(os.fspath(given)) if isinstance(given, str | os.PathLike) else _of_arrays(given)
     if not series.time.size:
@@ -110,7 +110,7 @@ def _check_names(file: str, place: str, names: Sequence[str]) -> None:
 
 
 def _number(file: str, line: int, name: str, text: str) -> float:
-    """Return a cell's number, or what FMPy writes for a Boolean: True is 1, False 0."""
+    """Return a cell's number; True and False, as FMPy writes Booleans, are 1 and 0."""
     try:
         return TRUTHS.get(text.strip().lower(), math.nan) if text.strip().lower() in TRUTHS else float(text)
     except ValueError as error:

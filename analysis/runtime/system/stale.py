@@ -1,4 +1,4 @@
-"""Names of FMUs that are retired, and FMUs that are older than their sources: what is said before a simulation."""
+"""Notes before a simulation on FMUs with retired names, and on FMUs older than their sources."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ GAINS = SYSTEMS / "entry_attitude"  # its parameter sets write the component as 
 
 @dataclass(frozen=True)
 class Retired:
-    """``block`` takes the FMU's place with ``values`` of its parameters or with those of ``parameter_set``."""
+    """Replacement of a retired FMU: ``block`` with ``values`` of its parameters or those of ``parameter_set``."""
 
     block: str
     values: Mapping[str, SetValue] = field(default_factory=dict)
@@ -39,7 +39,7 @@ class Retired:
                 yield replace(each, name=f"{component}.{each.name.partition('.')[2]}")
 
     def note(self, component: str, name: str) -> str:
-        """Return the replacement to write."""
+        """Return a note that a component uses a retired name, with the replacement."""
         values = [f"{component}.{each} = {str(value).lower()}" for each, value in self.values.items()]
         instead = " and ".join([self.block, *values, *filter(None, [self.parameter_set])])
         return f"{component}: {name} is retired and accepted in this release only: use {instead}"
@@ -57,8 +57,7 @@ RETIRED = {
 
 
 def find_retired(name: str, system: Path) -> Retired | None:
-    """Return the replacement of an FMU by its block's name; None where it is not retired, or
-    the user has one so called."""
+    """Return the replacement of a retired FMU by its block's name, or None; FMUs of users may have such names."""
     retired = RETIRED.get(name)
     if retired is None or find_fmu(name, system=system) is not None:
         return None
@@ -66,10 +65,9 @@ def find_retired(name: str, system: Path) -> Retired | None:
 
 
 def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str, Iterable[str]]) -> list[str]:
-    """Return a line for each source file that is newer than the FMUs built of it, and for each retired name.
+    """Return a line for each source file newer than the FMUs built from it, and for each retired name.
 
-    ``compare`` has for some components the FMUs that take their place in turn. Raises InputError as reading the system
-    does.
+    ``compare`` lists further FMUs for some components. Raises InputError as reading the system does.
     """
     archive = open_system(system)
     if archive.is_fmu:
@@ -91,7 +89,7 @@ def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str
 
 
 def _file(name: str, flavour: str | None, system: Path) -> Path | None:
-    """Return the FMU file that a name means in a simulation."""
+    """Return the FMU file that a name denotes in a simulation, or None."""
     if names_fmu(name) or Path(name).name != name:
         return Path(name) if Path(name).is_file() else None
     return find_fmu(name, FLAVOURS if flavour is None else (flavour,), system)

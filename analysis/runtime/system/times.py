@@ -1,4 +1,4 @@
-"""When a system starts and ends, and how often its components step."""
+"""Start, end and step of a system, and the steps of its components."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LONGEST_PERIOD = 10_000  # communication steps of a component's step
 
 
 class MissingStopTimeError(InputError):
-    """A system that does not say when its simulations end, and options that do not either.
+    """Missing stop time: neither the system nor the options state one.
 
     ``earliest`` (s) is the end of the first communication step.
     """
@@ -23,7 +23,7 @@ class MissingStopTimeError(InputError):
 
 
 def flight_times(network: Network, options: SystemOptions) -> tuple[float, float, int]:
-    """Start (s), communication step (s) and number of steps; raises InputError."""
+    """Return start (s), communication step (s) and number of steps. Raises InputError."""
     description, chosen = network.description, options.chosen
     if chosen["step"] is None and description.varies is not None:
         line = f"step (line {description.varies})"
@@ -69,10 +69,10 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
 
 
 def component_periods(network: Network, options: SystemOptions, step: float) -> dict[str, int]:
-    """Return the communication steps of one step of a component, for those that step less often than ``step`` (s).
+    """Return the number of communication steps in each component's own step, if more than one.
 
-    A component whose own step is none of ``step`` takes as many whole ones as fit into it, as libcosim does; a remark
-    says so. Raises InputError.
+    A step that is not a multiple of the communication step ``step`` (s) is rounded down, as in libcosim, with a remark.
+    Raises InputError.
     """
     periods = {}
     for name, component in network.components():
@@ -96,13 +96,13 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
 
 
 def _read_step(network: Network) -> float | None:
-    """Return the step (s) of the description: the shortest where inner systems have steps."""
+    """Return the step (s) of the description, the shortest one if inner systems have steps."""
     inner = [system.step for path, system in network.systems.items() if path and system.step is not None]
     return None if network.description.step is None else min([network.description.step, *inner])
 
 
 def _shortest_proposal(network: Network) -> float | None:
-    """Return the shortest step (s) of the default experiments of FMUs. Raises InputError."""
+    """Return the shortest step (s) of the default experiments of FMUs, or None. Raises InputError."""
     fmus = {fmu.label: fmu.description for fmu in network.fmus.values()}
     steps = [step_of_experiment(description, label, network.notes) for label, description in fmus.items()]
     return min((step for step in steps if step is not None), default=None)

@@ -1,1 +1,1 @@
-"""Array connectors of SSP 2.0 as connectors of their elements: what the runtime knows has one value."""
+"""Array connectors of SSP 2.0, replaced by connectors of their elements, since the runtime only has scalars."""

@@ -1,4 +1,4 @@
-"""The names of axes and of vectors' elements: the annotation `org.perilune.frames` of an SSD, against the network."""
+"""Names of axes and of vector elements, from the annotation `org.perilune.frames` of an SSD."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ DIMENSIONS = (2, 3)
 def read_frames(network: Network, substituted: Collection[str]) -> None:
     """Read the names of axes by frame, and of elements by signal, into a network. Raises InputError with the line.
 
-    A vector is of the frame with whose name its FMU's description ends, ``(landing site frame)``, if it has as many
-    elements as the frame has axes, or of the one that lists it. ``substituted`` components may lack vectors.
+    A vector belongs to the frame that lists it, or to the frame whose name ends its FMU's description, as in ``(landing
+    site frame)``, if it has one element for each axis. ``substituted`` components may lack listed vectors.
     """
     annotation = network.description.annotations.get(ANNOTATION)
     if annotation is None:
@@ -38,7 +38,7 @@ def read_frames(network: Network, substituted: Collection[str]) -> None:
 
 
 class FrameReader(AnnotationReader):
-    """The annotation's reader; ``described`` are the elements of vectors, by the frame of their description."""
+    """Reader of the annotation; ``described`` are the elements of vectors, by the frame in their descriptions."""
 
     def __init__(self, network: Network, substituted: Collection[str]) -> None:
         super().__init__(network.file)
@@ -51,7 +51,7 @@ class FrameReader(AnnotationReader):
         self.listed: set[str] = set()
 
     def read_frame(self, element: etree._Element) -> None:
-        """Read a frame, and name the elements of the vectors that descriptions put into it."""
+        """Read a frame, and name the elements of the vectors whose descriptions refer to it."""
         name = self.attributes(element, ("name", "axes"), ("signals",))["name"]
         axes = self.names(element, "axes")
         if name in self.network.frames:
@@ -86,7 +86,7 @@ class FrameReader(AnnotationReader):
             self.network.axes.update(zip(members, names, strict=True))
 
     def names(self, element: etree._Element, attribute: str) -> tuple[str, ...]:
-        """Return the names of an attribute, separated by spaces, all of them different."""
+        """Return the distinct, space-separated names in an attribute."""
         names = tuple(element.get(attribute, "").split())
         twice = [name for name in names if names.count(name) > 1]
         if twice:
@@ -103,13 +103,13 @@ class FrameReader(AnnotationReader):
 
 
 def one_dimensional(name: str, known: Collection[str]) -> list[str]:
-    """Return the known elements ``name[1]``, ``name[2]`` ... of a vector; none of a matrix and of a scalar."""
+    """Return the known elements ``name[1]``, ``name[2]`` ... of a vector; none for a matrix or a scalar."""
     members = elements(name, known)
     return [] if members in ([], [name]) or "," in members[0][len(name) :] else members
 
 
 def described_vectors(network: Network, known: Collection[str]) -> dict[str, list[list[str]]]:
-    """Return the elements of vectors by the frame with whose name the description of their variables ends."""
+    """Return the elements of vectors, grouped by the frame whose name ends the description of their variables."""
     by_frame: dict[str, list[list[str]]] = {}
     for component, fmu in network.fmus.items():
         for name, variable in fmu.variables.items():
@@ -121,5 +121,5 @@ def described_vectors(network: Network, known: Collection[str]) -> dict[str, lis
 
 
 def names_of_axes(network: Network, signals: Iterable[str]) -> dict[str, str]:
-    """Return the names of those signals that are elements with one."""
+    """Return the axis names of those signals that have one."""
     return {name: network.axes[name] for name in signals if name in network.axes}

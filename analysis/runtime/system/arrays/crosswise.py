@@ -1,4 +1,4 @@
-"""Elements of vectors that are connected crosswise, though others of the same two vectors go straight."""
+"""Elements of two vectors that are connected in another order, although others are connected index by index."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ Index = tuple[int, ...]
 
 
 def crosswise_notes(network: Network) -> list[str]:
-    """Return a note for each connection x[2] -> y[1] where other elements of x and y of one index are connected.
+    """Return a note for each connection x[2] -> y[1] if other elements of x and y are connected with equal indices.
 
-    Elements that are picked in their order (x[1] -> y[1], x[3] -> y[2]) and one that all of y have are meant so.
+    Elements connected in increasing order (x[1] -> y[1], x[3] -> y[2]) and one element connected to all of y are
+    considered intended.
     """
     by_vectors: dict[tuple[str, str], list[tuple[Index, Index, Link]]] = {}
     for link in network.driver.values():

@@ -1,4 +1,4 @@
-"""A description in which every array connector, and every connection of one, is replaced by those of its elements."""
+"""Expansion of array connectors and their connections into those of the elements."""
 
 from __future__ import annotations
 
@@ -13,10 +13,9 @@ from .sizes import Sizes, walk
 
 
 def expand_arrays(description: Description, sizes: Sizes) -> Description:
-    """Return the description with scalar connectors ``x[1]``, ``x[2]`` or ``x[2,1]`` for an array x, and their
-    connections.
+    """Return the description with scalar connectors ``x[1]`` or ``x[2,1]`` for an array x, and their connections.
 
-    ``sizes`` are those that structural parameters give. A description without arrays is returned as it is. Raises
+    ``sizes`` are those determined by structural parameters. A description without arrays is returned unchanged. Raises
     InputError.
     """
     if not any(_has_arrays(system) for _, system in walk(description.system)):
@@ -26,7 +25,7 @@ def expand_arrays(description: Description, sizes: Sizes) -> Description:
 
 
 def _has_arrays(system: System) -> bool:
-    """Return True if a system, inner ones apart, has an array, or a connection that names an element of one."""
+    """Return True if a system, without inner ones, has an array or a connection to an array's element."""
     return (
         any(each.dimensions for owner in (system, *system.elements.values()) for each in owner.connectors.values())
         or any(each.dimensions for signals in system.dictionaries.values() for each in signals.values())
@@ -69,7 +68,7 @@ def _connectors(shapes: Shapes, path: str, connectors: Mapping[str, Connector]) 
 
 
 def _connections(description: Description, shapes: Shapes, path: str, connection: Connection) -> list[Connection]:
-    """Return one connection for each element that one connects, elements of both ends in the order of their indices."""
+    """Return the connections of the elements that a connection joins, both ends in the order of their indices."""
     starts, part = _part(description, shapes, path, connection, connection.start, connection.start_indices)
     ends, other = _part(description, shapes, path, connection, connection.end, connection.end_indices)
     if part != other:
@@ -87,7 +86,7 @@ def _connections(description: Description, shapes: Shapes, path: str, connection
 def _part(
     description: Description, shapes: Shapes, path: str, connection: Connection, point: Point, chosen: Shape
 ) -> tuple[list[Point], Shape]:
-    """Return the elements that an end of a connection means, and the shape that they have together."""
+    """Return the elements at one end of a connection, and the shape that they form."""
     element, connector = point
     shape = shapes.at(path, point)
     if len(chosen) > len(shape) or any(index > size for index, size in zip(chosen, shape, strict=False)):

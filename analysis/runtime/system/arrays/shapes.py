@@ -1,4 +1,4 @@
-"""Shapes of array connectors: as stated, as in the FMU, or as those that they are connected to."""
+"""Shapes of array connectors: as declared, as in the FMU, or as in a connected array."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Open = tuple[int | None, ...]  # a shape of which sizes may not be known
 
 
 class Shapes:
-    """The shapes of all array connectors by hierarchical name. Raises InputError for one that nothing gives."""
+    """Shapes of all array connectors by hierarchical name. Raises InputError if one cannot be determined."""
 
     def __init__(self, description: Description, sizes: Sizes) -> None:
         self.description = description
@@ -55,16 +55,16 @@ class Shapes:
         ARRAY_ELEMENTS.check(sum(math.prod(shape) for shape in self.known.values()), description.file, "Dimension")
 
     def at(self, path: str, point: Point) -> Shape:
-        """Return the shape of the connector that an end of a connection names; empty for scalars and unknown ones."""
+        """Return the shape of the connector at an end of a connection; () for scalars and unknown connectors."""
         return self.known.get(name_of(path, point), ())
 
     def refuse_second(self, path: str, name: str, second: Connector, first: Connector) -> InputError:
-        """Return the error of an array's element that is a connector by itself, too."""
+        """Return the error for an array's element that is also declared as a connector."""
         where = second.at(path + name)
         return InputError(self.description.file, where, f"declared in line {first.line}, too", "remove one")
 
     def _as_in_fmu(self, name: str, component: Component, connector: Connector, shape: Open) -> Open:
-        """Return the shape of an array in its component's FMU; raises InputError for another than is declared."""
+        """Return the shape of an array in its component's FMU. Raises InputError if another one is declared."""
         fmu = self.load(name, component)
         if name not in self.of_fmus:
             self.of_fmus[name] = array_shapes(fmu.variables)
@@ -88,7 +88,7 @@ class Shapes:
         return actual
 
     def _settle(self, shapes: dict[str, Open]) -> None:
-        """Give sizes that are open those at the other end of whole connections."""
+        """Fill in open sizes from the other ends of connections between whole arrays."""
         ends = [
             (name_of(path, connection.start), name_of(path, connection.end))
             for path, connection in _connections(self.description)
@@ -108,13 +108,13 @@ class Shapes:
 
 
 def name_of(path: str, point: Point) -> str:
-    """Return the hierarchical name of an end of a connection in the system at ``path``."""
+    """Return the hierarchical name of the connector at an end of a connection in the system at ``path``."""
     element, connector = point
     return path + connector if element is None else f"{path}{element}.{connector}"
 
 
 def _elements(system: System, path: str = "") -> Iterator[tuple[str, Element]]:
-    """Yield all elements with the prefix of the names of their connectors."""
+    """Yield all elements, after the prefix of their connectors' names."""
     for outer, inner in walk(system, path):
         yield outer, inner
         for element in inner.elements.values():

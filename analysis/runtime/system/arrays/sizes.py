@@ -1,4 +1,4 @@
-"""The sizes of dimensions that a structural parameter or a constant gives, before a system is flattened."""
+"""Sizes of dimensions determined by a structural parameter or a constant, before a system is flattened."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Load = Callable[[str, Component], Fmu]
 
 
 def walk(system: System, path: str = "") -> Iterator[tuple[str, System]]:
-    """Yield a system and those inside it, with their paths: empty for the outermost, else with a trailing dot."""
+    """Yield a system and its inner systems, after their paths: "" for the outermost, else with a trailing dot."""
     yield path, system
     for element in system.elements.values():
         if isinstance(element, System):
@@ -27,9 +27,9 @@ def walk(system: System, path: str = "") -> Iterator[tuple[str, System]]:
 def given_values(
     description: Description, archive: SystemArchive, assignments: Sequence[Assignment]
 ) -> dict[str, ParameterValue]:
-    """Return the values of parameter sets and options by hierarchical name, later over earlier, outer over inner ones.
+    """Return values of parameter sets and options by hierarchical name; later override earlier, outer inner ones.
 
-    No FMU is needed for that: names are not looked up, nor values converted. Raises InputError.
+    No FMU is needed: names are not looked up, and values are not converted. Raises InputError.
     """
     values: dict[str, ParameterValue] = {}
     unmatched: list[str] = []  # flaws are for the reading that applies the values
@@ -45,7 +45,7 @@ def given_values(
 
 
 class Sizes:
-    """Sizes of dimensions. ``given`` reads the assigned values when they are first needed."""
+    """Sizes of dimensions. ``given`` returns the assigned values; it is called when they are first needed."""
 
     def __init__(self, description: Description, given: Callable[[], Mapping[str, ParameterValue]], load: Load) -> None:
         self.description = description
@@ -60,10 +60,9 @@ class Sizes:
         }
 
     def size(self, owner: Element, path: str, dimension: Dimension, array: str) -> int:
-        """Return the size of a dimension of ``array`` that a connector determines, of the element ``owner`` at
-        ``path``.
+        """Return the size of a dimension of ``array`` that a connector of the element ``owner`` determines.
 
-        Raises InputError.
+        ``path`` is the prefix of the owner's connectors. Raises InputError.
         """
         name = dimension.connector or ""
         where = f"{path}{array}, Dimension (line {dimension.line})"
@@ -77,8 +76,10 @@ class Sizes:
         return self._check(self._find_start(full) if given is None else given, full, where)
 
     def connected(self, component: str, names: Collection[str]) -> dict[str, int]:
-        """Return the values that connections bring the structural parameters ``names`` of a
-        component. Raises InputError."""
+        """Return the values of a component's structural parameters ``names`` that are set by connections.
+
+        Raises InputError.
+        """
         sizes = {}
         for name in names:
             full = f"{component}.{name}"
@@ -89,14 +90,14 @@ class Sizes:
         return sizes
 
     def _chain(self, name: str) -> list[str]:
-        """Return a structural parameter, and those that lead to it, the outermost at the end."""
+        """Return a structural parameter and its chain of sources, the outermost last."""
         chain = [name]
         while self.sources.get(chain[-1], chain[-1]) not in chain:
             chain.append(self.sources[chain[-1]])
         return chain
 
     def _find_assigned(self, chain: Sequence[str]) -> object:
-        """Return the outermost value assigned along a chain, or that of the constant at its end."""
+        """Return the outermost value assigned along a chain, or the value of the constant at its end."""
         if not chain:
             return None
         given = self.given()
@@ -109,7 +110,7 @@ class Sizes:
         return self._find_start(name) if declared is not None and declared.kind == "constant" else None
 
     def _find_start(self, name: str) -> object:
-        """Return a variable's start as the FMU of a component declares it."""
+        """Return a variable's start, as declared by a component's FMU."""
         component, _, short = name.rpartition(".")
         if component not in self.components:
             return None

@@ -1,1 +1,1 @@
-"""Code of one name that differs, of which a process has one only."""
+"""Different code under the same name, of which a process can load only one."""

@@ -1,4 +1,4 @@
-"""Names by which a process finds the code in an FMU apart from its library: modules and shared libraries."""
+"""Modules and shared libraries in an FMU, by the names under which a process finds them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_FMUS = 256  # kept at once
 
 @dataclass(frozen=True)
 class Bundled:
-    """A module or a library of an FMU: its ``name`` in the process, ``file`` in the FMU, SHA-256 of its content."""
+    """Module or library in an FMU: its ``name`` in the process, ``file`` in the FMU, and the SHA-256 of its content."""
 
     kind: str
     name: str
@@ -31,7 +31,7 @@ class Bundled:
 
 
 def bundled_by(fmu: Fmu) -> tuple[Bundled, ...]:
-    """Return what an FMU brings for the process that loads it."""
+    """Return the modules and libraries that an FMU brings into a process."""
     return _list_bundled(fmu.digest, fmu.folder, fmu.binary)
 
 
@@ -51,7 +51,7 @@ def _list_bundled(_digest: str, folder: Path, binary: str) -> tuple[Bundled, ...
 
 
 def module_digest(path: Path) -> str:
-    """Return the SHA-256 of a module's file, or of all files of its folder, without bytecode."""
+    """Return the SHA-256 of a module's file, or of all files in its folder except bytecode."""
     total = hashlib.sha256()
     for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
         if BYTECODE not in file.parts and file.is_file():
@@ -61,7 +61,7 @@ def module_digest(path: Path) -> str:
 
 
 def _module_name(path: Path) -> str:
-    """Return the name under which Python imports a file or a folder; empty where it does not."""
+    """Return the name under which Python imports a file or a folder, "" if it does not."""
     if path.is_dir():
         has_code = any(_suffix(file) for file in path.rglob("*"))
         return path.name if has_code and path.name.isidentifier() else ""
@@ -74,7 +74,7 @@ def _suffix(path: Path) -> str:
 
 
 def _libraries(folder: Path) -> list[Path]:
-    """Return the shared libraries of a folder and its subfolders."""
+    """Return the shared libraries in a folder and its subfolders."""
     return [path for path in sorted(folder.rglob("*")) if path.is_file() and _is_library(path)]
 
 
@@ -83,9 +83,9 @@ def _is_library(path: Path) -> bool:
 
 
 def _names(path: Path, folder: Path, *, is_main: bool) -> Iterator[Bundled]:
-    """Yield the names by which the loader knows a library: of its file and its SONAME.
+    """Yield the names under which the loader knows a library: its file name and its SONAME.
 
-    Modules of Python are loaded by their paths.
+    Python modules are not included, since they are loaded by path.
     """
     file, digest = path.relative_to(folder).as_posix(), module_digest(path)
     is_module = _suffix(path) not in ("", ".so") or any(path.parent.glob("*.py"))
@@ -95,7 +95,7 @@ def _names(path: Path, folder: Path, *, is_main: bool) -> Iterator[Bundled]:
 
 
 def _read_soname(path: Path) -> str:
-    """Return the DT_SONAME of an ELF file; empty where it has none, or is none."""
+    """Return the DT_SONAME of an ELF file, "" if it has none or is another type of file."""
     from elftools.common.exceptions import ELFError  # which own FMUs do not need
     from elftools.elf.dynamic import DynamicSegment
     from elftools.elf.elffile import ELFFile

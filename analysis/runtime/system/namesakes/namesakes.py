@@ -1,4 +1,4 @@
-"""Namesakes: code of one name that differs, of which a process uses the first that it has loaded for all FMUs."""
+"""Namesakes: different code under the same name, of which a process uses the first one loaded for all FMUs."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ _loaded: dict[tuple[str, str], _Loaded] = {}  # by kind and name, what FMUs have
 
 
 def check_namesakes(fmus: Iterable[Fmu], *, in_process: bool) -> None:
-    """Refuse foreign FMUs that would load the code of another one, or that of Perilune. Raises InputError.
+    """Reject foreign FMUs that would use the code of another FMU or of Perilune. Raises InputError.
 
-    They are compared with each other, with the modules of the process that loads them and, where that is this one
+    They are compared with each other, with the modules of the process that loads them and, if it is this one
     (``in_process``), with all that it has ever loaded.
     """
     present = dict(_loaded) if in_process else {}
@@ -47,9 +47,9 @@ def check_namesakes(fmus: Iterable[Fmu], *, in_process: bool) -> None:
 
 
 def note_loaded(fmu: Fmu) -> None:
-    """Note that this process, which is no child, loads a foreign FMU.
+    """Note that this process, which is not a child, loads a foreign FMU.
 
-    Raises InputError where it has loaded namesakes of its code.
+    Raises InputError if namesakes of the FMU's code have been loaded.
     """
     if not fmu.is_own:
         _check(fmu, _loaded, _modules_here)
@@ -74,7 +74,7 @@ def _check(fmu: Fmu, present: Mapping[tuple[str, str], _Loaded], modules: Callab
 
 
 def _check_module(fmu: Fmu, module: Bundled, modules: Files) -> None:
-    """Compare with the module of this name in the process that loads the FMU."""
+    """Raise InputError if the process that loads the FMU has a different module of the same name."""
     if module.name not in modules:
         return
     file = modules[module.name]
@@ -87,7 +87,7 @@ def _check_module(fmu: Fmu, module: Bundled, modules: Files) -> None:
 
 
 def _is_installed(name: str) -> bool:
-    """Return True if a module of this name exists without any FMU: others are not looked for in a process."""
+    """Return True if a module of this name exists outside FMUs, and so may be loaded already."""
     try:
         return name in sys.modules or find_spec(name) is not None
     except (ValueError, ImportError):
@@ -100,7 +100,7 @@ def _modules_here() -> Files:
 
 @cache
 def _modules_of_server() -> Files:
-    """Return the modules of the flight server, which a process like it prints."""
+    """Return the modules of the flight server, printed by a process with the same imports."""
     start = f"import sys; sys.path[:] = {sys.path!r}; import {SERVER}; {MODULES}"
     printed = subprocess.run([sys.executable, "-c", start], stdout=subprocess.PIPE, check=True).stdout
     modules: Files = json.loads(printed)

@@ -1,1 +1,1 @@
-"""Values before a flight: what is collected of them, and what connections pass on."""
+"""Values before a simulation: collected settings, and those that connections pass on."""

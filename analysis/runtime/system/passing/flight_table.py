@@ -1,4 +1,4 @@
-"""Inputs of consecutive flights: each the same parameters and faults, with separate values."""
+"""Inputs of consecutive simulations: the same parameters and faults with different values."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ import numpy as np
 
 @dataclass(frozen=True)
 class FaultColumns:
-    """A fault in n flights: whether it ``flies`` [n], ``value`` [n] in the connector's unit, ``start``, ``end`` (s)."""
+    """Fault in n simulations: whether it acts (``flies``), and its value and window, each of shape [n].
+
+    ``value`` is in the connector's unit, ``start`` and ``end`` are in s.
+    """
 
     flies: np.ndarray
     value: np.ndarray
@@ -20,7 +23,7 @@ class FaultColumns:
 
 @dataclass(frozen=True)
 class FlightTable:
-    """Inputs of n flights: values of varied parameters by name [n], and all faults of the simulation in order."""
+    """Inputs of n simulations: values of varied parameters by name [n], and all faults of the simulation in order."""
 
     flights: int
     values: Mapping[str, np.ndarray]

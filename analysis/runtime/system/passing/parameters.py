@@ -1,4 +1,4 @@
-"""Values of parameters and constants that connections pass on before a flight."""
+"""Values of parameters and constants that connections pass on before a simulation."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .settings import Settings
 
 
 def pass_parameters(network: Network, settings: Settings) -> None:
-    """Carry values of system parameter connectors, and of constants, along their connections."""
+    """Pass the values of system parameters and constants along their connections."""
     for node in network.nodes.values():
         if node.kind in PARAMETERS and node.component is not None and node.name in network.driver:
             brought = _find_passed_value(network, settings, node)
@@ -38,7 +38,7 @@ def pass_parameters(network: Network, settings: Settings) -> None:
 
 
 def _find_passed_value(network: Network, settings: Settings, node: Node) -> tuple[str, float | str] | None:
-    """Return the value and source that connections bring a parameter: the outermost value wins; None without one."""
+    """Return the outermost value that connections pass to a parameter, with its source, or None."""
     chain = [network.driver[node.name]] if node.name in network.driver else []
     while chain and chain[-1].source.name in network.driver:
         chain.append(network.driver[chain[-1].source.name])
@@ -56,7 +56,7 @@ def _find_passed_value(network: Network, settings: Settings, node: Node) -> tupl
 
 
 def _number(text: str, node: Node) -> float | str:
-    """Return a constant's value as `Settings.nodes` has them."""
+    """Return a constant's value in the form of `Settings.nodes`."""
     return text if node.type_name == "String" else float({"true": "1", "false": "0"}.get(text.lower(), text))
 
 
@@ -75,7 +75,10 @@ def _pass_on(network: Network, link: Link, value: float | str) -> float | str:
 
 
 def numbers(network: Network, link: Link) -> list[tuple[float, float]]:
-    """Return a connection's mapping as numbers: Booleans 0 and 1, enumeration items by their values; else nothing."""
+    """Return a connection's mapping as numbers: Booleans as 0 and 1, enumeration items as their values.
+
+    Returns an empty list without a mapping.
+    """
     transformation = link.transformation
     kind = VALUE_TYPES[transformation.kind][0]
 

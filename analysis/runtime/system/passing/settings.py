@@ -1,4 +1,4 @@
-"""The values that a system starts with."""
+"""Initial values of a system."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from ...ssp.parameter_sets import Assignment
 
 @dataclass
 class Settings:
-    """Values by (component, variable), and of system connectors by node name; ``origins``: where each comes from.
+    """Values by (component, variable), those of system connectors by name, and the ``origins`` of both.
 
-    ``left_out`` is where values come from that no mapping passes on, by what they would be applied to without one.
-    ``chosen`` are the values that options give, ``replaced`` what parameters of the system take the place of: the
-    parameter's name and the value before, by component and variable.
+    ``left_out`` is the origin of each value that a mapping omits, by the name to which it would apply without the
+    mapping. ``chosen`` are values of options; ``replaced`` are, by component and variable, the system parameter that
+    replaced a value, and that value.
     """
 
     variables: dict[tuple[str, str], ParameterValue] = field(default_factory=dict)

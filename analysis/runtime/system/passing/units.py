@@ -1,4 +1,4 @@
-"""Units of connections: which connectors of systems pass differences on, and what each connection converts."""
+"""Units of connections: conversions, and system connectors that pass on differences."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..network import Network, Node
 
 
 def convert_units(network: Network) -> None:
-    """Put the conversion of units before the transformation of each connection. Raises InputError."""
+    """Prepend the conversion of units to the transformation of each connection. Raises InputError."""
     _settle_differences(network)
     noted: set[object] = set()
     for link in network.links():
@@ -32,7 +32,10 @@ def convert_units(network: Network) -> None:
 
 
 def check_offset(network: Network, node: Node, source: Unit, target: Unit, file: str, where: str) -> None:
-    """Refuse to convert units of different offsets at a connector for values and for differences. Raises InputError."""
+    """Reject a conversion between units of different offsets at a connector for both values and differences.
+
+    Raises InputError.
+    """
     if node.name in network.mixed and source.offset != target.offset:
         problem = f"{node.name} is connected with values and with differences (relativeQuantity)"
         problem += f", so that the offset between {source.name} and {target.name} fits one of them alone"
@@ -44,9 +47,9 @@ def _disagree(source: Unit, target: Unit) -> bool:
 
 
 def _settle_differences(network: Network) -> None:
-    """Take over relativeQuantity at connectors without an FMU from the variables that they are connected with.
+    """Set relativeQuantity of connectors without an FMU to that of the variables connected to them.
 
-    Those for both kinds of variables become ``network.mixed``.
+    Connectors of both kinds of variables are added to ``network.mixed``.
     """
     if not any(node.unit is not None and node.unit.is_relative for node in network.nodes.values()):
         return
@@ -67,7 +70,7 @@ def _settle_differences(network: Network) -> None:
 
 
 def _group(neighbours: dict[str, list[Node]], first: str) -> tuple[set[str], set[bool]]:
-    """Return the connectors without an FMU around the ``first``, and the kinds of the variables around them."""
+    """Return the connectors without an FMU connected to ``first``, and the relativeQuantity of variables around."""
     group, kinds, pending = {first}, set[bool](), [first]
     while pending:
         for node in neighbours[pending.pop()]:
