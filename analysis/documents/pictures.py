@@ -13,7 +13,7 @@ if TYPE_CHECKING:  # figures take as long to import as a verb without any takes 
     from .cell import LegendEntry
     from .chart.write_svg import TrialPositions
     from .common.colours import Look
-    from .diagram.diagram import Diagram as BlockDiagram
+    from .diagram.diagram import BlockDiagram
     from .interactive.charts import Chart
 
 

@@ -12,7 +12,7 @@ from threading import Lock
 import numpy as np
 
 from .campaign import OpenCampaign
-from .scale import Scale, make_scale
+from .scale import ColumnScale, make_scale
 
 MEMORY = 300_000_000  # bytes of binned columns
 READING = 100_000_000  # bytes of doubles that are read at a time
@@ -22,7 +22,7 @@ READING = 100_000_000  # bytes of doubles that are read at a time
 class Binned:
     """A column as ``codes`` (rows,): bins of ``scale``, which is None if no number is finite."""
 
-    scale: Scale | None
+    scale: ColumnScale | None
     codes: np.ndarray
 
 
@@ -52,7 +52,7 @@ class BinnedColumns:
             while group := list(islice(missing, max(1, READING // (8 * self.campaign.rows)))):
                 for name, numbers in self._read(group).items():
                     scale = make_scale(numbers)
-                    columns[name] = Binned(scale, (scale or Scale(0.0, 1.0)).bin(numbers))
+                    columns[name] = Binned(scale, (scale or ColumnScale(0.0, 1.0)).bin(numbers))
             for name in needed:
                 self._columns[name] = columns[name]
                 self._columns.move_to_end(name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NotRequired, TypedDict
 
 
-class Quantity(TypedDict):
+class QuantityEntry(TypedDict):
     """A column of a campaign; its numbers are in SI, multiplied by ``factor`` they are in ``unit``."""
 
     name: str
@@ -14,14 +14,14 @@ class Quantity(TypedDict):
     meaning: str
 
 
-class Variant(TypedDict):
+class VariantEntry(TypedDict):
     """A variant of a campaign with its colour."""
 
     name: str
     colour: str
 
 
-class Campaign(TypedDict):
+class CampaignEntry(TypedDict):
     """A campaign in a folder; ``flown`` is the number of trials available."""
 
     folder: str
@@ -30,14 +30,14 @@ class Campaign(TypedDict):
     criterion: str
     trials: int
     flown: int
-    variants: list[Variant]
-    quantities: list[Quantity]
+    variants: list[VariantEntry]
+    quantities: list[QuantityEntry]
 
 
 class ShowDocument(TypedDict):
     """Campaigns, and sizes: bins per column, bars per histogram, initial number of histograms."""
 
-    campaigns: list[Campaign]
+    campaigns: list[CampaignEntry]
     bins: int
     bars: int
     figures: int

@@ -11,7 +11,7 @@ from ..documents.common.page import render_page
 from ..documents.common.quantities import display_factor, display_unit
 from ..documents.interactive.bundles import MISSING, read_bundle
 from .campaign import OpenCampaign
-from .documents import Campaign, ShowDocument
+from .documents import CampaignEntry, ShowDocument
 from .scale import BARS, BINS
 
 BUNDLE = "show"
@@ -34,7 +34,7 @@ def show_page(campaigns: Sequence[OpenCampaign]) -> str:
     return render_page(template, title="Campaigns", document=document, own_style=style, bundle=BUNDLE)
 
 
-def _document(campaign: OpenCampaign) -> Campaign:
+def _document(campaign: OpenCampaign) -> CampaignEntry:
     provenance = campaign.source.provenance
     return {
         "folder": campaign.source.folder.name,

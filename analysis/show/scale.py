@@ -23,7 +23,7 @@ CHUNK = 1 << 18  # numbers binned at a time
 
 
 @dataclass(frozen=True)
-class Scale:
+class ColumnScale:
     """Scale from ``low`` to ``high``, finite; with a ``knee`` in asinh: linear below the knee, logarithmic above it."""
 
     low: float
@@ -54,7 +54,7 @@ class Scale:
         return codes
 
 
-def make_scale(numbers: np.ndarray) -> Scale | None:
+def make_scale(numbers: np.ndarray) -> ColumnScale | None:
     """Return a scale that spans the finite numbers among (rows,), with all below its high end; None without any.
 
     Only the greatest double may equal the high end.
@@ -65,19 +65,19 @@ def make_scale(numbers: np.ndarray) -> Scale | None:
     low, high = float(finite.min()), float(finite.max())
     if low == high:  # a range about it
         pad = 1e-3 * abs(low) or 1.0
-        return Scale(max(low - pad, -sys.float_info.max), min(high + pad, sys.float_info.max))
+        return ColumnScale(max(low - pad, -sys.float_info.max), min(high + pad, sys.float_info.max))
     greatest = max(abs(low), abs(high))
     above = min(math.nextafter(high, math.inf), sys.float_info.max)
     knee = knee_of(finite[:: max(1, finite.size // SAMPLED)], greatest)
     if knee or not math.isfinite(2.0 * (high - low)):
-        return Scale(low, above, max(knee or greatest, TINIEST * greatest))
+        return ColumnScale(low, above, max(knee or greatest, TINIEST * greatest))
     if high - low < WHOLE and not np.any(finite % 1.0):
         return _whole_scale(low, high)
-    return Scale(low, above)
+    return ColumnScale(low, above)
 
 
-def _whole_scale(low: float, high: float) -> Scale:
+def _whole_scale(low: float, high: float) -> ColumnScale:
     """Return a scale for whole numbers: equally many numbers per bar, or bars per number."""
     count = high - low + 1.0
     step = math.ceil(count / BARS) if count > BARS else 1.0 / (BARS // count)
-    return Scale(low - 0.5, low - 0.5 + BARS * step)
+    return ColumnScale(low - 0.5, low - 0.5 + BARS * step)

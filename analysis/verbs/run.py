@@ -38,7 +38,7 @@ from .common.flight_text import flight_lines, flight_problems, note_lines
 if TYPE_CHECKING:  # plots and pages are imported where they are created: half of what a run without them would take
     from matplotlib.figure import Figure as Plot
 
-    from ..documents.diagram.diagram import Diagram
+    from ..documents.diagram.diagram import BlockDiagram
 
 STUCK = "nothing is written; see its messages with `log` all, or give a longer `timeout`"
 
@@ -80,7 +80,7 @@ class Result(Documented, results.Result):
             lines=[on_one_line(line) for line in lines],
         )
 
-    def _diagram(self) -> Diagram:
+    def _diagram(self) -> BlockDiagram:
         from ..documents.diagram.diagram import make_diagram
 
         return make_diagram(self.prepared, faults_of(self.faults))

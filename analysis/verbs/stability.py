@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 from ...common.errors import suggestion
 from ..commands.stability import study_command
 from ..documents.model import Document
-from ..documents.of.stability.figures import SIZE, Diagram, loop_charts
+from ..documents.of.stability.figures import SIZE, LoopDiagram, loop_charts
 from ..documents.of.stability.printed import stability_problems
 from ..documents.of.stability.study import decisive_loop, stability_document
 from ..options.command import write_command
@@ -88,36 +88,38 @@ class StabilityReport(Documented, report.StabilityReport):
 
         All diagrams raise KeyError for an unknown loop, ValueError if the study lacks the data of the diagram.
         """
-        return self._plot(Diagram.BODE, loop, point)
+        return self._plot(LoopDiagram.BODE, loop, point)
 
     def plot_nyquist(self, loop: str | None = None, point: str | None = None) -> Plot:
         """Plot the response of a loop in the complex plane, with its exclusion zone."""
-        return self._plot(Diagram.NYQUIST, loop, point)
+        return self._plot(LoopDiagram.NYQUIST, loop, point)
 
     def plot_nichols(self, loop: str | None = None, point: str | None = None) -> Plot:
         """Plot gain over phase of a loop, with its exclusion zone."""
-        return self._plot(Diagram.NICHOLS, loop, point)
+        return self._plot(LoopDiagram.NICHOLS, loop, point)
 
     def plot_sensitivity(self, loop: str | None = None, point: str | None = None) -> Plot:
         """Plot sensitivity and complementary sensitivity of a loop, with their peaks."""
-        return self._plot(Diagram.SENSITIVITY, loop, point)
+        return self._plot(LoopDiagram.SENSITIVITY, loop, point)
 
     def plot_poles(self, loop: str | None = None, point: str | None = None) -> Plot:
         """Plot the poles of the closed loop in the z plane."""
-        return self._plot(Diagram.POLES, loop, point)
+        return self._plot(LoopDiagram.POLES, loop, point)
 
     def plot_step(self, loop: str | None = None, point: str | None = None) -> Plot:
         """Plot the closed loop's response to a step at the cut."""
-        return self._plot(Diagram.STEP, loop, point)
+        return self._plot(LoopDiagram.STEP, loop, point)
 
-    def _plot(self, diagram: Diagram, name: str | None, point: str | None) -> Plot:
+    def _plot(self, diagram: LoopDiagram, name: str | None, point: str | None) -> Plot:
         from ..documents.chart.plot import plot_charts  # which imports matplotlib
 
         loop = decisive_loop(self) if name is None else self.loop(name, point)
         charts = loop_charts(loop, diagram)
         first, *others = (chart.title for chart in charts)
         titles = [f"{loop.name} at {loop.point}; {first}", *others]
-        return plot_charts(charts, SIZE / len(charts), 1.2 * SIZE if diagram is Diagram.BODE else SIZE, titles=titles)
+        return plot_charts(
+            charts, SIZE / len(charts), 1.2 * SIZE if diagram is LoopDiagram.BODE else SIZE, titles=titles
+        )
 
 
 @verb(STABILITY)

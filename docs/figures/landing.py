@@ -20,7 +20,7 @@ from perilune.analysis.documents.chart.plot import plot_charts
 from perilune.analysis.documents.chart.symbols import arrow, mark, marker
 from perilune.analysis.documents.chart.ticks import axis_ends
 from perilune.analysis.documents.common.colours import BLUE, INK, VERMILION
-from perilune.analysis.documents.common.panels import HALF_WIDTH, PANEL_HEIGHT, Panel
+from perilune.analysis.documents.common.panels import HALF_WIDTH, PANEL_HEIGHT, FigurePanel
 from perilune.analysis.documents.interactive.charts import NO_BOX, Chart, Drawing
 from perilune.analysis.documents.of.simulation.trajectory_chart import View, view_chart
 from perilune.analysis.runtime.flight.results import Result
@@ -79,7 +79,7 @@ def landing_figure(landing: Result, sample: list[Result]) -> Figure:
     return plot_charts(charts, HEIGHT, PLOT_WIDTH, columns=2, titles=[chart.title for chart in charts])
 
 
-def landing_panels(landing: Result, sample: list[Result]) -> tuple[Drawing, list[Panel]]:
+def landing_panels(landing: Result, sample: list[Result]) -> tuple[Drawing, list[FigurePanel]]:
     """Return the side view as wide as the page, and panels of the others."""
     side, plan, *histories = landing_charts(landing, sample, BROAD, POINTS * HEIGHT, fluid=True)
     panels = [

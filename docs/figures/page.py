@@ -10,7 +10,7 @@ import numpy as np
 from perilune.analysis.campaigns.execute.results import BatchResult
 from perilune.analysis.documents.common.page import write_page
 from perilune.analysis.documents.common.panels import swatch
-from perilune.analysis.documents.of.batch.content import Content
+from perilune.analysis.documents.of.batch.content import BatchContent
 from perilune.analysis.documents.of.batch.distribution_sections import distribution_figures
 from perilune.analysis.documents.of.batch.embedded_trials import trials_document
 from perilune.analysis.documents.of.batch.scatters import failure_figures, outcome_marks
@@ -45,7 +45,7 @@ COMPARED = ("position_error", "velocity_error")
 def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, path: Path) -> None:
     """Write the page. Raises KeyError for a variant that the publication does not have."""
     target = np.array([landing.provenance["parameters"][f"guidance.target_position[{i}]"] for i in (1, 2, 3)])
-    campaign, content = batch.plan.campaign, Content(batch)
+    campaign, content = batch.plan.campaign, BatchContent(batch)
     distributions = distribution_figures(content, [each for each in campaign.metrics if each.name in COMPARED])
     side, panels = landing_panels(landing, sample)
     write_page(

@@ -1,13 +1,13 @@
 // The texts of a chart at points of its data or its axes.
 
-import type { Note } from "../generated/charts";
+import type { ChartNote } from "../generated/charts";
 import { fontOf } from "./axes";
 import type { Frame } from "./frame";
 
 const BASELINES: Record<string, CanvasTextBaseline> = { top: "top", center: "middle" };
 
 // ``point``: px of a pt of the figure.
-export function drawNote(context: CanvasRenderingContext2D, frame: Frame, note: Note, point: number): void {
+export function drawNote(context: CanvasRenderingContext2D, frame: Frame, note: ChartNote, point: number): void {
   const at = [frame.across(note.at[0], note.of_axes[0]), frame.down(note.at[1], note.of_axes[1])] as const;
   if (!frame.has(note.of_axes[0] ? 0 : at[0], note.of_axes[1] ? 0 : at[1], 1)) return;
   const x = at[0] + note.offset[0] * point;

@@ -92,7 +92,7 @@ export interface Backing {
 }
 
 // A text at a point, each coordinate of the data or of the axes, ``offset`` (pt) from it to the right and up.
-export interface Note {
+export interface ChartNote {
   text: string;
   at: [number, number];
   of_axes: [boolean, boolean];
@@ -127,5 +127,5 @@ export interface Chart<Column = number> {
   dots?: Dots[];
   areas?: Area<Column>[];
   rules?: Rule[];
-  notes?: Note[];
+  notes?: ChartNote[];
 }

@@ -1,7 +1,7 @@
 // Written by build_web.py from analysis/show/documents.py.
 
 // A column of a campaign; its numbers are in SI, multiplied by ``factor`` they are in ``unit``.
-export interface Quantity {
+export interface QuantityEntry {
   name: string;
   unit: string;
   factor: number;
@@ -9,26 +9,26 @@ export interface Quantity {
 }
 
 // A variant of a campaign with its colour.
-export interface Variant {
+export interface VariantEntry {
   name: string;
   colour: string;
 }
 
 // A campaign in a folder; ``flown`` is the number of trials available.
-export interface Campaign {
+export interface CampaignEntry {
   folder: string;
   system: string;
   description: string;
   criterion: string;
   trials: number;
   flown: number;
-  variants: Variant[];
-  quantities: Quantity[];
+  variants: VariantEntry[];
+  quantities: QuantityEntry[];
 }
 
 // Campaigns, and sizes: bins per column, bars per histogram, initial number of histograms.
 export interface ShowDocument {
-  campaigns: Campaign[];
+  campaigns: CampaignEntry[];
   bins: number;
   bars: number;
   figures: number;

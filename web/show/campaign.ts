@@ -1,6 +1,6 @@
 // One campaign: its figures, what is selected in them, and the requests that follow a selection.
 
-import type { Campaign, Counts, ShowDocument } from "../generated/documents";
+import type { CampaignEntry, Counts, ShowDocument } from "../generated/documents";
 import { make } from "../page/elements";
 import { choice, labelOf } from "./elements";
 import { Filter } from "./filter";
@@ -26,7 +26,7 @@ export class CampaignView {
   private waiting = 0;
 
   constructor(
-    private readonly campaign: Campaign,
+    private readonly campaign: CampaignEntry,
     number: number,
     private readonly document: ShowDocument,
   ) {

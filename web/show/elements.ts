@@ -2,7 +2,7 @@
 
 import { SHADES } from "../generated/colours";
 import { make } from "../page/elements";
-import type { Quantity } from "../generated/documents";
+import type { QuantityEntry } from "../generated/documents";
 
 export function choice(label: string, options: string[], chosen: number, onChange: (index: number) => void): HTMLLabelElement {
   const select = make("select");
@@ -13,11 +13,11 @@ export function choice(label: string, options: string[], chosen: number, onChang
 }
 
 // A name from its column: "metric.miss" is miss.
-export function shortName({ name }: Quantity): string {
+export function shortName({ name }: QuantityEntry): string {
   return name.replace(/^(metric|draw)\./, "");
 }
 
-export function labelOf(quantity: Quantity): string {
+export function labelOf(quantity: QuantityEntry): string {
   return quantity.unit ? `${shortName(quantity)}, ${quantity.unit}` : shortName(quantity);
 }
 

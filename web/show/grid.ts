@@ -2,7 +2,7 @@
 
 import { format } from "../page/numbers";
 import { Canvas, type Span } from "./canvas";
-import type { GridCounts, Quantity, ShowDocument, Variant } from "../generated/documents";
+import type { GridCounts, QuantityEntry, ShowDocument, VariantEntry } from "../generated/documents";
 import { type Dots, decodeDots, nearestDot } from "./dots";
 import { make } from "../page/elements";
 import { choice, colour, labelOf, shortName } from "./elements";
@@ -26,8 +26,8 @@ export class Grid {
 
   constructor(
     readonly columns: [x: number, y: number],
-    private readonly quantities: Quantity[],
-    private readonly variants: Variant[],
+    private readonly quantities: QuantityEntry[],
+    private readonly variants: VariantEntry[],
     private readonly sizes: ShowDocument,
     private readonly filter: Filter,
     private readonly onSelect: () => void,
@@ -140,7 +140,7 @@ export class Grid {
   private draw(): void {
     this.canvas.start();
     if (!this.counts || !this.scales) return;
-    const [x, y] = this.columns.map((column) => this.quantities[column]!) as [Quantity, Quantity];
+    const [x, y] = this.columns.map((column) => this.quantities[column]!) as [QuantityEntry, QuantityEntry];
     this.canvas.xAxis(this.scales.x, x.factor, labelOf(x));
     this.canvas.yAxis(this.scales.y, y.factor, labelOf(y));
     if (this.dots) this.drawDots(this.dots);

@@ -2,7 +2,7 @@
 
 import { format } from "../page/numbers";
 import { Canvas, type Span } from "./canvas";
-import type { HistogramCounts, Quantity, ShowDocument, Variant } from "../generated/documents";
+import type { HistogramCounts, QuantityEntry, ShowDocument, VariantEntry } from "../generated/documents";
 import { make } from "../page/elements";
 import { colour, labelOf, shortName } from "./elements";
 import type { Filter } from "./filter";
@@ -20,8 +20,8 @@ export class Histogram {
 
   constructor(
     readonly column: number,
-    private readonly quantity: Quantity,
-    private readonly variants: Variant[],
+    private readonly quantity: QuantityEntry,
+    private readonly variants: VariantEntry[],
     private readonly sizes: ShowDocument,
     private readonly filter: Filter,
     private readonly onSelect: () => void,
@@ -146,6 +146,6 @@ export class Histogram {
 }
 
 // Black is drawn in the colour of texts, which is light on a dark page.
-export function lineColour({ colour: named }: Variant): string {
+export function lineColour({ colour: named }: VariantEntry): string {
   return named === "#000000" ? colour("ink") : named;
 }

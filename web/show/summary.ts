@@ -1,7 +1,7 @@
 // What is selected, in words, with how many trials fail and succeed; what ends the selection.
 
 import { DIGITS, format } from "../page/numbers";
-import type { Campaign, Counts, RangeEnds, Variant } from "../generated/documents";
+import type { CampaignEntry, Counts, RangeEnds, VariantEntry } from "../generated/documents";
 import { button, make } from "../page/elements";
 import { choice, shortName } from "./elements";
 import type { Filter, Outcome } from "./filter";
@@ -24,7 +24,7 @@ export class Summary {
   private readonly reset: HTMLButtonElement;
 
   constructor(
-    private readonly campaign: Campaign,
+    private readonly campaign: CampaignEntry,
     private readonly filter: Filter,
     private readonly onSelect: () => void,
   ) {
@@ -79,7 +79,7 @@ export class Summary {
     return item;
   }
 
-  private row({ name }: Variant, index: number): Row {
+  private row({ name }: VariantEntry, index: number): Row {
     const swatch = make("span", { class: "swatch" });
     swatch.style.background = lineColour(this.campaign.variants[index]!);
     const box = this.campaign.variants.length > 1 ? make("input", { type: "checkbox" }) : null;

@@ -3,7 +3,7 @@
 import { PinnedCard } from "../page/card";
 import { button, make } from "../page/elements";
 import { DIGITS, format } from "../page/numbers";
-import type { Quantity, TrialEntry } from "../generated/documents";
+import type { QuantityEntry, TrialEntry } from "../generated/documents";
 import { labelOf, shortName } from "./elements";
 
 export class TrialTable {
@@ -13,7 +13,7 @@ export class TrialTable {
   private readonly note = make("p", { class: "note" });
 
   constructor(
-    private readonly quantities: Quantity[],
+    private readonly quantities: QuantityEntry[],
     private readonly onTrial: (row: number) => void,
   ) {
     const table = make("table", { class: "tight" }, this.head, this.body);
@@ -45,7 +45,7 @@ export class TrialCard {
   private readonly card = new PinnedCard();
   readonly element = this.card.element;
 
-  constructor(private readonly quantities: Quantity[]) {}
+  constructor(private readonly quantities: QuantityEntry[]) {}
 
   show(entry: TrialEntry): void {
     const numbers = this.quantities.map((quantity, index) => ({
@@ -64,7 +64,7 @@ function outcomeOf({ success, status }: TrialEntry): string {
   return `${success ? "success" : "failure"}, ${status}`;
 }
 
-function numberText(number: number | string | null, { factor }: Quantity): string {
+function numberText(number: number | string | null, { factor }: QuantityEntry): string {
   if (number === null) return "\u2013";
   if (typeof number === "string") return number === "inf" ? "\u221e" : "\u2212\u221e";
   return format(number * factor, DIGITS);

@@ -62,7 +62,7 @@ def phenotype(genes: Genes, bases: list[Matrix], coding: Coding) -> Phenotype:
     return Phenotype(prune(apply_variations(bases[genes.basis], genes.variations)), coding.decode(genes.code))
 
 
-class Bar(NamedTuple):
+class AdmissionThreshold(NamedTuple):
     """Threshold for a candidate: its standing must be better than the worst of a population."""
 
     order: ParetoOrder
@@ -86,7 +86,7 @@ class Evaluator(Protocol):
     objectives: int  # number of objectives
     trials: int  # of an evaluation that is complete
 
-    def evaluate(self, tasks: Sequence[Task], bar: Bar | None) -> list[Evaluation]:
+    def evaluate(self, tasks: Sequence[Task], bar: AdmissionThreshold | None) -> list[Evaluation]:
         """Evaluate laws, each from the trial after the known ones; objectives are sums of numbers >= 0.
 
         An evaluation may end early where ``bar`` rejects it, and must not otherwise.

@@ -14,7 +14,7 @@ from ...campaigns.execute.flyer import Flyer, TrialResult
 from ...campaigns.execute.workers import FlyerPool
 from ...runtime.ssp.given_values import ParameterValue
 from ..laws.law import Law, law_parameters
-from .candidate import Bar, Evaluation, Task
+from .candidate import AdmissionThreshold, Evaluation, Task
 
 VARIANT = "default"
 
@@ -46,7 +46,7 @@ class FlightEvaluator:
         self._evaluated = evaluated
         self._pool = FlyerPool(plan, workers, native)
 
-    def evaluate(self, tasks: Sequence[Task], bar: Bar | None) -> list[Evaluation]:
+    def evaluate(self, tasks: Sequence[Task], bar: AdmissionThreshold | None) -> list[Evaluation]:
         """Return evaluations in the order of the tasks. Raises InputError for an objective below 0."""
         evaluations: dict[int, Evaluation] = {}
         work = [(self._overlay(task), self._expressions, task.known, bar) for task in tasks]
@@ -72,7 +72,7 @@ def fly_law(
     overlay: dict[str, ParameterValue],
     expressions: Sequence[Expression],
     known: Evaluation,
-    bar: Bar | None,
+    bar: AdmissionThreshold | None,
 ) -> Evaluation:
     """Fly a law's trials after the known ones, in order, to the last or until the bar rejects the sums."""
     sums, successes, flown = known

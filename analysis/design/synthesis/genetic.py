@@ -17,7 +17,7 @@ import numpy as np
 
 from ..laws.law import Matrix
 from .candidate import (
-    Bar,
+    AdmissionThreshold,
     Candidate,
     Evaluation,
     Evaluator,
@@ -110,7 +110,7 @@ class Search:
         """Breed children of some couples, evaluated together, then inserted one after another."""
         random, settings = self.state.random, self.settings
         order = ParetoOrder(objectives_of(self.state.population))
-        bar = Bar(order, order.standing(order.objectives[order.worst()]))
+        bar = AdmissionThreshold(order, order.standing(order.objectives[order.worst()]))
         children: list[Genes] = []
         for _ in range(couples):
             pair = random.integers(len(self.state.population), size=2)
@@ -148,7 +148,7 @@ class Search:
         others = self._random(basis, best.code, self.settings.population - len(elites) - 1)
         state.population = elites + self._evaluate([basic, *others])
 
-    def _evaluate(self, genes: Sequence[Genes], bar: Bar | None = None) -> list[Candidate]:
+    def _evaluate(self, genes: Sequence[Genes], bar: AdmissionThreshold | None = None) -> list[Candidate]:
         """Evaluate candidates of genes. Known laws are not evaluated again, nor where the bar rejects the known
         results.
 

@@ -28,7 +28,7 @@ VERTICAL = PlanKind.meanings[PlanKind.VERTICAL]
 
 
 @dataclass(frozen=True)
-class Curve:
+class PropellantCurve:
     """Propellant fraction over one quantity, nan where there is no programme."""
 
     at: np.ndarray
@@ -36,7 +36,7 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class ProgrammeComparison:
     """Least propellant fractions to one ``distance`` (m) of both programmes; nan where there is none."""
 
     distance: float
@@ -62,12 +62,12 @@ class HoverStudy:
     vertical: Programme
     optimum: PlannedPath | None
     bound: PlannedPath | None
-    durations: Curve | None
-    distances: Curve | None
+    durations: PropellantCurve | None
+    distances: PropellantCurve | None
     adjoint: AdjointSolution | None = None
     finite: FiniteProfile | None = None
     free_fall: FreeFallProgramme | None = None
-    comparisons: tuple[Comparison, ...] = ()
+    comparisons: tuple[ProgrammeComparison, ...] = ()
 
     def with_curves(self) -> Self:
         """Return the study with its curves. Raises `PlanError`."""
@@ -76,7 +76,11 @@ class HoverStudy:
         programme = self.programme
         if self.given:
             programme = find_programme(programme.vehicle, self.transfer) or programme
-        return replace(self, durations=Curve(*over_duration(programme)), distances=Curve(*over_distance(programme)))
+        return replace(
+            self,
+            durations=PropellantCurve(*over_duration(programme)),
+            distances=PropellantCurve(*over_distance(programme)),
+        )
 
     @property
     def path(self) -> PlannedPath:
@@ -127,9 +131,9 @@ def hover_study(
         progress.update(optimum)
         bounded = _bound(vehicle, transfer, intervals or BOUND_INTERVALS) if bound else None
         progress.update(bound)
-        durations = Curve(*over_duration(best)) if curves else None
+        durations = PropellantCurve(*over_duration(best)) if curves else None
         progress.update(curves)
-        farther = Curve(*over_distance(best)) if curves else None
+        farther = PropellantCurve(*over_distance(best)) if curves else None
         progress.update(curves)
     return HoverStudy(
         vehicle=vehicle,
@@ -160,12 +164,12 @@ def _require(plan: Plan | None, what: str, transfer: Transfer) -> Plan:
     return plan
 
 
-def _compare(planned: Vehicle, transfer: Transfer, turn_begun: float) -> Comparison:
+def _compare(planned: Vehicle, transfer: Transfer, turn_begun: float) -> ProgrammeComparison:
     """Return both programmes to one distance."""
     programme = find_programme(planned, transfer)
     free_fall = None if programme is None else find_free_fall(programme, turn_begun)
     fractions = (math.nan if plan is None else plan.propellant_fraction for plan in (programme, free_fall))
-    return Comparison(transfer.distance, *fractions)
+    return ProgrammeComparison(transfer.distance, *fractions)
 
 
 def _bound(vehicle: Vehicle, transfer: Transfer, intervals: int) -> PlannedPath:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..common.colours import FAINT
-from ..interactive.charts import Area, Note, Rule
+from ..interactive.charts import Area, ChartNote, Rule
 from ..interactive.measures import TICK_SIZE
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
@@ -86,6 +86,6 @@ def instant(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()
     return Rule(at=at, upright=True, colour=colour.lower(), width=width, dashes=dashes)
 
 
-def note_above(text: str) -> Note:
+def note_above(text: str) -> ChartNote:
     """Return a faint text above the right end of the axes."""
-    return Note(text, (1.0, 1.0), (True, True), (0.0, 5.0), ("right", "baseline"), FAINT, TICK_SIZE)
+    return ChartNote(text, (1.0, 1.0), (True, True), (0.0, 5.0), ("right", "baseline"), FAINT, TICK_SIZE)

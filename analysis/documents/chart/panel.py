@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..common.panels import PANEL_HEIGHT, PANEL_WIDTH, Panel
+from ..common.panels import PANEL_HEIGHT, PANEL_WIDTH, FigurePanel
 from ..interactive.charts import NO_BOX, Chart, Curve, Drawing
 from ..interactive.columns import Coarse, has_enough_digits
 from ..interactive.envelope import envelope
@@ -30,7 +30,7 @@ def chart_panel(
     kind: str = "",
     trials: TrialPositions = no_trials,
     reduced: bool = False,
-) -> Panel:
+) -> FigurePanel:
     """Return the panel of a ``chart``, sizes in inches; ``name`` must differ between the figures of a page.
 
     A chart that has its box keeps it, others are laid out. Text has one size at any width. ``title`` stands above the
@@ -41,9 +41,9 @@ def chart_panel(
     placed = chart if chart.box != NO_BOX else lay_out_fluid(chart, across, up, title=title)
     svg = write_svg(placed, name, description, across, up, title=title, kind=kind, trials=trials)
     if not _is_exact(placed):
-        return Panel(label, Drawing(svg, [_picture(placed)]))
+        return FigurePanel(label, Drawing(svg, [_picture(placed)]))
     curves = [_reduce(curve) for curve in placed.curves] if reduced else placed.curves
-    return Panel(label, Drawing(svg, [replace(placed, curves=curves)]))
+    return FigurePanel(label, Drawing(svg, [replace(placed, curves=curves)]))
 
 
 def wide_figure(name: str, description: str, chart: Chart, height: float, *, title: str = "") -> Drawing:
@@ -53,7 +53,7 @@ def wide_figure(name: str, description: str, chart: Chart, height: float, *, tit
 
 def stack_panel(
     label: str, name: str, description: str, charts: tuple[Chart, Chart], height: float, width: float = PANEL_WIDTH
-) -> Panel:
+) -> FigurePanel:
     """Return the panel of two charts over the same abscissa, whose texts the lower one has; sizes in inches."""
     upper, lower = charts
     stacked = (replace(upper, x=replace(upper.x, bare=True)), lower)
@@ -70,7 +70,7 @@ def stack_panel(
         chart_panel(label, f"{name}-{order}", f"{description}; {chart.title}", chart, high, width, title=chart.title)
         for order, (chart, high) in enumerate(zip(lay_out_both(left, right), heights, strict=True))
     )
-    return Panel(label, above.figure._replace(below=below.figure))
+    return FigurePanel(label, above.figure._replace(below=below.figure))
 
 
 def _picture(chart: Chart) -> Chart:

@@ -11,7 +11,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.typing import LineStyleType
 
-from ..interactive.charts import Area, Backing, Curve, Dots, Marker, Note
+from ..interactive.charts import Area, Backing, ChartNote, Curve, Dots, Marker
 from .plot_lines import QuantityLine, TrialDots
 from .svg.marks import CROSS_WIDTH
 from .symbols import OUTLINES
@@ -105,7 +105,7 @@ def plot_dots(axes: Axes, dots: Dots, x: np.ndarray, y: np.ndarray) -> None:
 CROWD = 3000  # dots, from which they are an image in a picture of paths
 
 
-def plot_note(axes: Axes, note: Note) -> None:
+def plot_note(axes: Axes, note: ChartNote) -> None:
     """Write a text at its point."""
     axes.annotate(
         note.text, note.at, note.offset, (SYSTEMS[note.of_axes[0]], SYSTEMS[note.of_axes[1]]), "offset points",
@@ -114,7 +114,7 @@ def plot_note(axes: Axes, note: Note) -> None:
     )  # fmt: skip
 
 
-def _box(note: Note, backing: Backing | None) -> dict[str, object] | None:
+def _box(note: ChartNote, backing: Backing | None) -> dict[str, object] | None:
     if backing is None:
         return None
     style = f"square,pad={backing.margin / note.size!r}"

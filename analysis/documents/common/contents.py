@@ -9,7 +9,7 @@ from markupsafe import Markup
 PREFIX = "section-"  # of anchors, which no identifier inside a figure has
 
 
-class Entry(NamedTuple):
+class ContentsEntry(NamedTuple):
     """The title of a section and the anchor at which it begins."""
 
     title: str
@@ -20,7 +20,7 @@ class Contents:
     """The sections of one page in their order, as its template writes them."""
 
     def __init__(self) -> None:
-        self.entries: list[Entry] = []
+        self.entries: list[ContentsEntry] = []
 
     def add(self, title: str) -> Markup:
         """Return the anchor of a further section."""
@@ -28,5 +28,5 @@ class Contents:
         name = f"{PREFIX}{slug}"
         if any(entry.anchor == name for entry in self.entries):
             name += f"-{len(self.entries)}"
-        self.entries.append(Entry(title, name))
+        self.entries.append(ContentsEntry(title, name))
         return Markup.escape(name)

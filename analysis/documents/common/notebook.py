@@ -18,14 +18,14 @@ TEMPLATE = Path(__file__).with_name("notebook.html")
 MOST_ROWS = 12
 
 
-class Grid(NamedTuple):
+class CellGrid(NamedTuple):
     """A small table: head cells and rows of cells, text or markup."""
 
     head: Sequence[str]
     rows: Sequence[Sequence[Markup | str]]
 
 
-def notebook_view(title: str, words: Iterable[str], grids: Iterable[Grid], plot: Plot | None) -> str:
+def notebook_view(title: str, words: Iterable[str], grids: Iterable[CellGrid], plot: Plot | None) -> str:
     """Return the HTML of a result, with the first rows of long tables and their number of rows."""
     displayed = [(grid.head, grid.rows[:MOST_ROWS], len(grid.rows)) for grid in grids if grid.rows]
     picture = None

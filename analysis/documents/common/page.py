@@ -84,7 +84,7 @@ def write_page(path: Path, template: Path, **content: Any) -> None:
     write_atomically(path, render_page(template, **content).encode())
 
 
-class Table(NamedTuple):
+class PageTable(NamedTuple):
     """Headings and rows of cells; the columns ``numbers`` are aligned right."""
 
     heads: Sequence[str]

@@ -21,7 +21,7 @@ SWATCH = 6.0  # px, the size of a mark in a legend
 KILOMETRES = 1e4  # m, from which on lengths are in km
 
 
-class Panel(NamedTuple):
+class FigurePanel(NamedTuple):
     """A figure with its heading, a label, which has a look where it is a contender's, and its legend."""
 
     label: str

@@ -15,13 +15,13 @@ from markupsafe import Markup
 from ....common.visible import on_one_line, visible
 from ...options.fault import Fault
 from ...runtime.system.prepared import PreparedSystem
-from ..common.page import Table, exact
+from ..common.page import PageTable, exact
 from ..common.quantities import declared_unit, display_unit
 from .drawing import draw
 from .elk import MISSING, Engine, LayoutError
-from .graph import Block, Edge, PortKey
+from .graph import DiagramBlock, Edge, PortKey
 from .layout import lay_out
-from .placement import Placement
+from .placement import Arrangement
 from .reading import read_graph
 
 Result = TypeVar("Result")
@@ -33,16 +33,16 @@ BROAD = 1.6  # of a diagram's height, from which width on it is larger on a shee
 
 
 @dataclass(frozen=True)
-class Diagram:
+class BlockDiagram:
     """A diagram, or why there is none; ``system`` is its graph, ``is_broad``: it is printed on a sheet on its side."""
 
-    system: Block
+    system: DiagramBlock
     svg: Markup | None
     missing: str = ""
     is_broad: bool = False
 
 
-def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diagram:
+def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> BlockDiagram:
     """Return the diagram of a prepared system, with the faults that its run has. No FMU is loaded."""
     system = read_graph(prepared, faults)
     blocks = sum(1 for _ in system.all_blocks()) - 1
@@ -51,18 +51,18 @@ def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Diag
     size = f"{blocks} blocks and {connections} connections"
     if blocks > MAX_BLOCKS or connections > MAX_CONNECTIONS:
         limits = f"at most {MAX_BLOCKS} and {MAX_CONNECTIONS} are drawn"
-        return Diagram(system, None, f"No block diagram: {size}; {limits}.")
+        return BlockDiagram(system, None, f"No block diagram: {size}; {limits}.")
     try:
         placement = _outside_loops(partial(_lay_out, system))
     except LayoutError as error:
-        return Diagram(system, None, f"No block diagram of {size}: {error}.")
+        return BlockDiagram(system, None, f"No block diagram of {size}: {error}.")
     if placement is None:
-        return Diagram(system, None, MISSING)
+        return BlockDiagram(system, None, MISSING)
     is_broad = placement.width > max(SHEET, BROAD * placement.height)
-    return Diagram(system, draw(system, placement), is_broad=is_broad)
+    return BlockDiagram(system, draw(system, placement), is_broad=is_broad)
 
 
-def _lay_out(system: Block) -> Placement | None:
+def _lay_out(system: DiagramBlock) -> Arrangement | None:
     """Lay out a system; return None where the engine was not built. Raises LayoutError."""
     engine = Engine.load()
     if engine is None:
@@ -81,7 +81,7 @@ def _outside_loops(call: Callable[[], Result]) -> Result:
         return executor.submit(call).result()
 
 
-def block_table(system: Block) -> Table:
+def block_table(system: DiagramBlock) -> PageTable:
     """Return the blocks with their FMUs and their unconnected outputs, which are not drawn."""
     rows: list[list[Markup | str]] = []
     for block in system.all_blocks():
@@ -93,20 +93,20 @@ def block_table(system: Block) -> Table:
         names = ", ".join([*others[:MAX_NAMED], *more])
         description = Markup('<span class="long">{}</span>').format(_text(block.description))
         rows.append([_text(block.path), _text(block.model), block.kind_label, description, names])
-    return Table(("block", "FMU", "kind", "description", "other outputs"), rows, ())
+    return PageTable(("block", "FMU", "kind", "description", "other outputs"), rows, ())
 
 
-def connection_table(system: Block) -> Table:
+def connection_table(system: DiagramBlock) -> PageTable:
     """Return the edges of the diagram: ends, number of connections, unit, conversion on the way."""
     ports = {key: port for block in system.all_blocks() for key, port in block.ports.items()}
     rows = []
     for edge in system.all_edges():
         ends = [_text(f"{key.block}.{ports[key].label}" if key.block else ports[key].label) for key in _ends(edge)]
         rows.append([*ends, str(len(edge.pairs)), declared_unit(ports[edge.source].unit), _text(edge.note)])
-    return Table(("from", "to", "elements", "unit", "on the way"), rows, (2,))
+    return PageTable(("from", "to", "elements", "unit", "on the way"), rows, (2,))
 
 
-def parameter_table(prepared: PreparedSystem, system: Block) -> Table:
+def parameter_table(prepared: PreparedSystem, system: DiagramBlock) -> PageTable:
     """Return the parameters that a system gives to its blocks, with their values; a dash where no value is set."""
     targets: dict[str, list[str]] = defaultdict(list)
     for block in system.all_blocks():
@@ -118,7 +118,7 @@ def parameter_table(prepared: PreparedSystem, system: Block) -> Table:
         unit = node.unit.name if node.unit else None
         setting = exact(prepared.settings.nodes.get(name), unit, 6)
         rows.append([_text(name), setting, display_unit(unit), _text(", ".join(given_to))])
-    return Table(("parameter", "value", "unit", "given to"), rows, (1,))
+    return PageTable(("parameter", "value", "unit", "given to"), rows, (1,))
 
 
 def _ends(edge: Edge) -> tuple[PortKey, PortKey]:

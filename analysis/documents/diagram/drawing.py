@@ -17,8 +17,8 @@ from markupsafe import Markup
 from ....common.visible import on_one_line, visible
 from ..common import colours
 from ..font.text import text_width
-from .graph import Block, Edge, PortKey, Side
-from .placement import Placed, Placement, Point, Route, Segment, Terminal
+from .graph import DiagramBlock, Edge, PortKey, Side
+from .placement import Arrangement, Placed, Point, Route, Segment, Terminal
 from .shapes import HEADER, LIST_LINE, LIST_SIZE, MARGIN, NAME_SIZE, TEXT_SIZE, Label, plain
 from .strokes import uncovered
 
@@ -41,7 +41,7 @@ ARROW = 6.0  # length of an arrow's head
 TO_LABEL = 10.0  # from a port to its label
 
 
-def draw(system: Block, placement: Placement) -> Markup:
+def draw(system: DiagramBlock, placement: Arrangement) -> Markup:
     """Return the <svg> element of a laid-out system."""
     width, height = placement.width + 2.0 * BORDER, placement.height + 2.0 * BORDER
     count = sum(1 for block in system.all_blocks() if not block.blocks)
@@ -64,7 +64,7 @@ def draw(system: Block, placement: Placement) -> Markup:
     return Markup(etree.tostring(root, encoding="unicode"))
 
 
-def _draw_system(parent: etree._Element, placement: Placement, origin: Point, outer: dict[str, str]) -> None:
+def _draw_system(parent: etree._Element, placement: Arrangement, origin: Point, outer: dict[str, str]) -> None:
     group = etree.SubElement(parent, "g")
     if origin != (0.0, 0.0):
         group.set("transform", f"translate({_number(origin[0])} {_number(origin[1])})")

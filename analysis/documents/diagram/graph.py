@@ -30,7 +30,7 @@ class PortKey(NamedTuple):
 
 
 @dataclass
-class Port:
+class DiagramPort:
     """A connector, or a vector's connectors. ``size`` is the vector's, ``3`` or ``2,3``; empty for a scalar.
 
     ``signals`` are the names of its elements as a run records them.
@@ -71,7 +71,7 @@ class Edge:
 
 
 @dataclass
-class Block:
+class DiagramBlock:
     """A component, a system with ``blocks`` inside, or a reference to a signal dictionary.
 
     ``path`` is its flat name, empty for the whole system. ``kind`` is that of an FMU of the catalogue, or what the
@@ -84,10 +84,10 @@ class Block:
     kind: str
     model: str = ""
     description: str = ""
-    ports: dict[PortKey, Port] = field(default_factory=dict)
+    ports: dict[PortKey, DiagramPort] = field(default_factory=dict)
     parameters: list[Edge] = field(default_factory=list)
     faults: list[str] = field(default_factory=list)
-    blocks: list[Block] = field(default_factory=list)
+    blocks: list[DiagramBlock] = field(default_factory=list)
     edges: list[Edge] = field(default_factory=list)
 
     def add_entry(self, key: PortKey, number: int) -> PortKey:
@@ -96,7 +96,7 @@ class Block:
         self.ports.setdefault(entry, replace(self.ports[key]))
         return entry
 
-    def all_blocks(self) -> Iterator[Block]:
+    def all_blocks(self) -> Iterator[DiagramBlock]:
         """Yield the block, and those inside it."""
         yield self
         for block in self.blocks:
@@ -112,7 +112,7 @@ class Block:
         """The kind of one block: plant, sensor, guidance."""
         return self.kind.removesuffix("s")
 
-    def visible_ports(self) -> dict[PortKey, Port]:
+    def visible_ports(self) -> dict[PortKey, DiagramPort]:
         """Return the ports that the diagram shows: those connected, and some inputs that are not.
 
         Of a block to which nothing is connected they are the first ones of both sides.

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from .graph import Edge, PortKey
-from .placement import Placement, Point, Route
+from .placement import Arrangement, Point, Route
 from .rows import columns_of
 
 CLEARANCE = 8.0  # between a box and the nearest line next to it
@@ -46,13 +46,13 @@ class _Group:
     channel: float = 0.0
 
 
-def join_rows(rows: Sequence[Placement], edges: Sequence[Edge]) -> Placement:
+def join_rows(rows: Sequence[Arrangement], edges: Sequence[Edge]) -> Arrangement:
     """Join all rows into one placement, with the edges that are not in any of them."""
     return _Lanes(rows, edges).join()
 
 
 class _Lanes:
-    def __init__(self, rows: Sequence[Placement], edges: Sequence[Edge]) -> None:
+    def __init__(self, rows: Sequence[Arrangement], edges: Sequence[Edge]) -> None:
         self.rows = rows
         self.edges = edges
         self.homes = {key: number for number, row in enumerate(rows) for key in row.ports()}
@@ -65,10 +65,10 @@ class _Lanes:
         self.left = self.add_channel()
         self.tops = self.add_lanes()
 
-    def join(self) -> Placement:
+    def join(self) -> Arrangement:
         """Join all rows into one placement."""
         routes = [Route(edge, self.line(edge, group)) for group in self.groups for edge in group.edges]
-        joined = Placement(max(row.width for row in self.rows) - self.left, self.tops[-1])
+        joined = Arrangement(max(row.width for row in self.rows) - self.left, self.tops[-1])
         for row, top in zip(self.rows, self.tops, strict=False):
             row.move(0.0, top)
             joined.blocks += row.blocks

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from .elk import Engine
-from .graph import Block, Edge, PortKey, Side
+from .graph import DiagramBlock, Edge, PortKey, Side
 from .lanes import join_rows
 from .order import order_blocks
-from .placement import Placed, Placement, Point, Route, Terminal
+from .placement import Arrangement, Placed, Point, Route, Terminal
 from .rows import columns_of, cut_into_rows
 from .shapes import HEADER, LINE, MARGIN, TERMINAL, Label, port_label, shape_of
 
@@ -18,13 +18,13 @@ ARROW = 12.0  # of a terminal, next to its label
 INNER = 14.0  # between a system's frame and what is inside
 
 
-def lay_out(system: Block, engine: Engine) -> Placement:
+def lay_out(system: DiagramBlock, engine: Engine) -> Arrangement:
     """Lay out the whole system. Raises LayoutError."""
     return _System(engine, system, is_whole=True).placement()
 
 
 class _System:
-    def __init__(self, engine: Engine, system: Block, *, is_whole: bool) -> None:
+    def __init__(self, engine: Engine, system: DiagramBlock, *, is_whole: bool) -> None:
         self.engine = engine
         self.system = system
         self.is_whole = is_whole
@@ -32,7 +32,7 @@ class _System:
         self.nodes: dict[int, dict[str, Any]] = {}  # by the identity of the box
         self.ids: dict[PortKey, str] = {}
 
-    def placement(self) -> Placement:
+    def placement(self) -> Arrangement:
         """Lay out the system, in rows if it would be wider than a page."""
         boxes: list[Placed | Terminal] = [self.block(block) for block in self.system.blocks]
         boxes += self.terminals()
@@ -48,7 +48,7 @@ class _System:
         between = [edge for edge in forward if homes[edge.source] != homes[edge.target]]
         return join_rows(placements, [*between, *back])
 
-    def rows(self, whole: Placement) -> list[list[Placed | Terminal]]:
+    def rows(self, whole: Arrangement) -> list[list[Placed | Terminal]]:
         """Return the boxes of each row; a system inside another is one row, with terminals at both sides.
 
         A terminal of the whole is in the row of the first block that it is connected to.
@@ -66,14 +66,14 @@ class _System:
             rows[next((k for k, row in enumerate(cut) if others and numbers[others[0]] in row), 0)].append(terminal)
         return rows
 
-    def arrange(self, boxes: Sequence[Placed | Terminal], edges: Sequence[Edge]) -> Placement:
+    def arrange(self, boxes: Sequence[Placed | Terminal], edges: Sequence[Edge]) -> Arrangement:
         """Lay out boxes with edges between them from left to right."""
         lines = [
             {"id": f"e{number}", "sources": [self.ids[edge.source]], "targets": [self.ids[edge.target]]}
             for number, edge in enumerate(edges)
         ]
         result = self.engine.lay_out([self.nodes[id(box)] for box in boxes], lines)
-        placement = Placement(result["width"], result["height"])
+        placement = Arrangement(result["width"], result["height"])
         for node, box in zip(result["children"], boxes, strict=True):
             box.x, box.y, box.width, box.height = (node[name] for name in ("x", "y", "width", "height"))
             points = {port["id"]: (node["x"] + port["x"], node["y"] + port["y"]) for port in node["ports"]}
@@ -89,7 +89,7 @@ class _System:
             placement.routes.append(Route(edge, [(bend["x"], bend["y"]) for bend in bends]))
         return placement
 
-    def block(self, block: Block) -> Placed:
+    def block(self, block: DiagramBlock) -> Placed:
         """Place a block and add its node; a system inside is laid out first."""
         shape = shape_of(block, self.notes)
         node: dict[str, Any] = {"id": f"b{len(self.nodes)}"}
@@ -167,7 +167,7 @@ class _System:
         return [edge for edge in edges if edge not in back], [edge for edge in edges if edge in back]
 
 
-def _notes(system: Block) -> dict[PortKey, str]:
+def _notes(system: DiagramBlock) -> dict[PortKey, str]:
     """Return the notes at the ports that edges enter; of several entries to a port, with the source block of each."""
     names = {block.path: block.name for block in system.blocks} | {system.path: ""}
     shared = {edge.target._replace(entry=0) for edge in system.edges if edge.target.entry}

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from .graph import Block, Edge, Port, PortKey
+from .graph import DiagramBlock, DiagramPort, Edge, PortKey
 from .shapes import Label, Shape
 
 Point = tuple[float, float]
@@ -18,14 +18,14 @@ Segment = tuple[Point, Point]
 class Placed:
     """A block. ``ports`` are the points at which edges end; ``inner`` is what a system has inside, at ``origin``."""
 
-    block: Block
+    block: DiagramBlock
     shape: Shape
     x: float
     y: float
     width: float
     height: float
     ports: dict[PortKey, Point]
-    inner: Placement | None = None
+    inner: Arrangement | None = None
     origin: Point = (0.0, 0.0)
 
     @property
@@ -43,7 +43,7 @@ class Terminal:
     """A connector of the system itself; an edge ends at its ``point``."""
 
     key: PortKey
-    port: Port
+    port: DiagramPort
     label: Label
     x: float
     y: float
@@ -77,7 +77,7 @@ class Route:
 
 
 @dataclass
-class Placement:
+class Arrangement:
     """A system, or a row of its blocks."""
 
     width: float

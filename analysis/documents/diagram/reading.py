@@ -17,7 +17,7 @@ from ...runtime.system.flattening import orient
 from ...runtime.system.network import Node
 from ...runtime.system.prepared import PreparedSystem
 from ..common.quantities import declared_unit
-from .graph import Block, Edge, Port, PortKey, Side
+from .graph import DiagramBlock, DiagramPort, Edge, PortKey, Side
 
 ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 CUSTOM, FOREIGN, SYSTEM, DICTIONARY = "", "foreign FMU", "system", "signal dictionary"
@@ -26,21 +26,21 @@ SIDES = {"input": (Side.IN,), "output": (Side.OUT,), "inout": tuple(Side)}  # by
 Vectors = dict[str, list[str]]  # the indices of a vector's elements, in their order
 
 
-def read_graph(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Block:
+def read_graph(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> DiagramBlock:
     """Read the whole system as a block with its components inside."""
-    return _Reader(prepared, faults).system(prepared.network.description.system, "", prepared.archive.name)
+    return _GraphReader(prepared, faults).system(prepared.network.description.system, "", prepared.archive.name)
 
 
-class _Reader:
+class _GraphReader:
     def __init__(self, prepared: PreparedSystem, faults: Sequence[Fault]) -> None:
         self.prepared = prepared
         self.network = prepared.network
         self.faults = faults
         self.vectors: dict[str, Vectors] = {}
 
-    def system(self, system: System, path: str, name: str) -> Block:
+    def system(self, system: System, path: str, name: str) -> DiagramBlock:
         """Read a system; ``path`` ends with a dot, or is empty for the whole."""
-        block = Block(path.removesuffix("."), name, SYSTEM)
+        block = DiagramBlock(path.removesuffix("."), name, SYSTEM)
         self.add_ports(block, system, path)
         for element in system.elements.values():
             block.blocks.append(self.element(element, path))
@@ -75,12 +75,12 @@ class _Reader:
                     blocks[key.block].ports[key].is_connected = True
         return block
 
-    def element(self, element: Element, path: str) -> Block:
+    def element(self, element: Element, path: str) -> DiagramBlock:
         name = path + element.name
         if isinstance(element, System):
             return self.system(element, f"{name}.", element.name)
         if isinstance(element, DictionaryReference):
-            block = Block(name, element.name, DICTIONARY, element.dictionary)
+            block = DiagramBlock(name, element.name, DICTIONARY, element.dictionary)
         else:
             assert isinstance(element, Component)
             fmu = self.network.fmus[name]
@@ -88,7 +88,7 @@ class _Reader:
             model = fmu.name
             if name in self.prepared.options.use:
                 model += f", replaces {PurePosixPath(element.source).stem}"
-            block = Block(name, element.name, kind, model, fmu.description.description or "")
+            block = DiagramBlock(name, element.name, kind, model, fmu.description.description or "")
             block.faults = [str(fault) for fault in self.faults if self.owner(fault) == name]
         self.add_ports(block, element, f"{name}.")
         return block
@@ -96,7 +96,7 @@ class _Reader:
     def owner(self, fault: Fault) -> str:
         return split_name(fault.name, self.network.fmus)[0]
 
-    def add_ports(self, block: Block, element: Element, path: str) -> None:
+    def add_ports(self, block: DiagramBlock, element: Element, path: str) -> None:
         """Add the connectors of an element, on both sides for a dictionary's signals; an FMU's other outputs, too."""
         sizes = self.sizes(block, element)
         self.vectors[block.path] = sizes
@@ -110,7 +110,7 @@ class _Reader:
             for side in SIDES.get(kind, ()):
                 key = PortKey(block.path, side, f"{name}[]" if is_vector else name)
                 size = size_text(sizes[name]) if is_vector else ""
-                port = block.ports.setdefault(key, Port(name, size, unit, []))
+                port = block.ports.setdefault(key, DiagramPort(name, size, unit, []))
                 port.signals.append(path + connector_name)
 
     def kind_and_unit(self, connector: Connector, path: str) -> tuple[str, str | None]:
@@ -119,12 +119,12 @@ class _Reader:
             return connector.kind, connector.unit
         return node.kind, node.unit.name if node.unit else connector.unit
 
-    def sizes(self, block: Block, element: Element) -> Vectors:
+    def sizes(self, block: DiagramBlock, element: Element) -> Vectors:
         """Return the vectors of an element: of all variables of an FMU, not only of its declared connectors."""
         fmu = self.network.fmus.get(block.path) if isinstance(element, Component) else None
         return vectors_of(element.connectors if fmu is None else fmu.variables)
 
-    def key(self, block: Block, inner: dict[str, Block], point: Point, node: Node, side: Side) -> PortKey:
+    def key(self, block: DiagramBlock, inner: dict[str, DiagramBlock], point: Point, node: Node, side: Side) -> PortKey:
         """Return the port at one end of a connection; seen from inside, a system's inputs are sources."""
         element, connector = point
         name, is_vector = base_name(connector)

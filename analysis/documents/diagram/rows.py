@@ -12,7 +12,7 @@ WIDEST = 1360.0  # of a row of several columns
 
 
 @dataclass
-class Column:
+class BoxColumn:
     """Boxes one above the other, between the abscissas ``left`` and ``right``; no other box is between these."""
 
     left: float
@@ -20,19 +20,19 @@ class Column:
     boxes: list[Placed | Terminal]
 
 
-def columns_of(boxes: Iterable[Placed | Terminal]) -> list[Column]:
+def columns_of(boxes: Iterable[Placed | Terminal]) -> list[BoxColumn]:
     """Return the columns that boxes are in, from left to right."""
-    columns: list[Column] = []
+    columns: list[BoxColumn] = []
     for box in sorted(boxes, key=lambda box: box.x):
         if columns and box.x < columns[-1].right:
             columns[-1].right = max(columns[-1].right, box.x + box.width)
             columns[-1].boxes.append(box)
         else:
-            columns.append(Column(box.x, box.x + box.width, [box]))
+            columns.append(BoxColumn(box.x, box.x + box.width, [box]))
     return columns
 
 
-def cut_into_rows(columns: Sequence[Column], arcs: Sequence[tuple[int, int]]) -> list[range]:
+def cut_into_rows(columns: Sequence[BoxColumn], arcs: Sequence[tuple[int, int]]) -> list[range]:
     """Return the columns of each row: as few rows as `WIDEST` allows, with as many edges as possible inside rows.
 
     ``arcs`` are the columns that each edge connects. Of equally good cuts the one with rows of the most equal widths

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from ....common.visible import on_one_line, visible
 from ..common.quantities import declared_unit
 from ..font.text import shorten, text_width
-from .graph import Block, Edge, Port, PortKey, Side
+from .graph import DiagramBlock, DiagramPort, Edge, PortKey, Side
 
 NAME_SIZE, TEXT_SIZE, LIST_SIZE = 11.0, 9.0, 9.0
 LONGEST = 40  # characters of a label
@@ -37,7 +37,7 @@ class Label:
 
 
 @dataclass(frozen=True)
-class Item:
+class BlockEntry:
     """An entry of the list at the foot of a block: a parameter with the ``edge`` that gives it, or a fault."""
 
     text: str
@@ -54,7 +54,7 @@ class Shape:
     height: float
     foot: float
     labels: dict[PortKey, Label] = field(default_factory=dict)
-    items: list[Item] = field(default_factory=list)
+    items: list[BlockEntry] = field(default_factory=list)
 
 
 def plain(text: str, longest: int = LONGEST) -> str:
@@ -62,7 +62,7 @@ def plain(text: str, longest: int = LONGEST) -> str:
     return shorten(on_one_line(visible(text)), longest)
 
 
-def shape_of(block: Block, notes: dict[PortKey, str]) -> Shape:
+def shape_of(block: DiagramBlock, notes: dict[PortKey, str]) -> Shape:
     """Return the shape of a component; ``notes`` are the remarks on what enters a port."""
     labels = {key: port_label(key, port, notes.get(key, "")) for key, port in block.visible_ports().items()}
     widths = {side: max((labels[key].width for key in labels if key.side is side), default=0.0) for side in Side}
@@ -78,7 +78,7 @@ def shape_of(block: Block, notes: dict[PortKey, str]) -> Shape:
     return Shape(width, HEADER + rows * LINE + foot, foot, labels, items)
 
 
-def port_label(key: PortKey, port: Port, note: str) -> Label:
+def port_label(key: PortKey, port: DiagramPort, note: str) -> Label:
     """Return the label of a port: its unit where values leave or nothing is connected, else what happens to them."""
     has_unit = key.side is Side.OUT or not port.is_connected
     return Label(plain(port.label), plain(note or (declared_unit(port.unit) if has_unit else "")))
@@ -99,17 +99,17 @@ def parameter_text(edge: Edge) -> str:
     return plain(f"{text} ({edge.change})" if edge.change else text, 2 * LONGEST)
 
 
-def _items(block: Block, width: float) -> Iterable[Item]:
+def _items(block: DiagramBlock, width: float) -> Iterable[BlockEntry]:
     """Return faults, a line each, then parameters, as many in a line as fit."""
     line = -1
     for fault in block.faults:
         line += 1
-        yield Item(fault_text(fault), MARGIN, line)
+        yield BlockEntry(fault_text(fault), MARGIN, line)
     x = width
     for number, edge in enumerate(block.parameters, 1):
         text = parameter_text(edge) + ("," if number < len(block.parameters) else "")
         length = text_width(text, LIST_SIZE)
         if x + length > width - MARGIN:
             line, x = line + 1, MARGIN
-        yield Item(text, x, line, edge)
+        yield BlockEntry(text, x, line, edge)
         x += length + text_width(" ", LIST_SIZE)

@@ -133,7 +133,7 @@ class Backing:
 
 
 @dataclass(frozen=True)
-class Note:
+class ChartNote:
     """A text at a point, each coordinate of the data or of the axes, ``offset`` (pt) from it to the right and up."""
 
     text: str
@@ -181,7 +181,7 @@ class Chart:
     dots: Sequence[Dots] = ()
     areas: Sequence[Area] = ()
     rules: Sequence[Rule] = ()
-    notes: Sequence[Note] = ()
+    notes: Sequence[ChartNote] = ()
 
 
 class Drawing(NamedTuple):

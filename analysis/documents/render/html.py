@@ -11,7 +11,7 @@ from ..cell import Cell, Head, Rich, Row, RowHeading, RowNote
 from ..chart.panel import chart_panel, stack_panel, wide_figure
 from ..chart.write_svg import no_trials
 from ..common.page import write_page
-from ..common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, swatch
+from ..common.panels import HALF_WIDTH, PANEL_WIDTH, FigurePanel, swatch
 from ..interactive.bundles import MISSING
 from ..model import Document, Medium, Table, select
 from ..pictures import Figure
@@ -129,7 +129,7 @@ def _body(table: Table, kinds: Sequence[str]) -> list[BodyRow]:
     return body
 
 
-def _rows(figures: Sequence[Figure]) -> list[tuple[str, list[tuple[Figure, Panel]]]]:
+def _rows(figures: Sequence[Figure]) -> list[tuple[str, list[tuple[Figure, FigurePanel]]]]:
     """Return runs of figures of one width in order: ``wide``, or a kind of grid."""
     return [(kind, [(figure, panel_of(figure)) for figure in run]) for kind, run in groupby(figures, _kind)]
 
@@ -138,14 +138,14 @@ def _kind(figure: Figure) -> str:
     return "wide" if figure.is_wide else "" if figure.is_narrow else "halves"
 
 
-def panel_of(figure: Figure) -> Panel:
+def panel_of(figure: Figure) -> FigurePanel:
     """Return a figure with its drawings and its legend."""
     legend = [(legend_swatch(entry), ", ".join(entry.lines)) for entry in figure.legend]
     width = PANEL_WIDTH if figure.is_narrow else HALF_WIDTH
     named = (figure.name, figure.words)
     if figure.is_wide:
         wide = wide_figure(*named, figure.chart, figure.height, title=figure.chart.title)
-        return Panel(figure.label, wide, legend)
+        return FigurePanel(figure.label, wide, legend)
     if figure.below is not None:
         stack = stack_panel(figure.label, *named, (figure.chart, figure.below), figure.height, width)
         return stack._replace(legend=legend)

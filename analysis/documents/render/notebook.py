@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup
 
 from ..cell import Cell, LegendEntry
-from ..common.notebook import Grid, notebook_view
+from ..common.notebook import CellGrid, notebook_view
 from ..common.panels import HALF_WIDTH, PANEL_WIDTH
 from ..model import Document, KeyNumbers, Listing, Medium, Node, Table, Text, Verdict, nodes_of
 from ..pictures import Diagram, Figure, Figures, Plot
@@ -26,7 +26,7 @@ def document_view(document: Document) -> str:
     """Return the HTML of a document: its statements, the first rows of its tables, its first figures."""
     nodes = nodes_of(document, Medium.NOTEBOOK)
     grids = [
-        Grid(_heads(node), [[_cell(cell) for cell in row] for row in _rows(node)])
+        CellGrid(_heads(node), [[_cell(cell) for cell in row] for row in _rows(node)])
         for node in nodes
         if isinstance(node, Table | Listing)
     ]

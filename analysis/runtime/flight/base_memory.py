@@ -12,7 +12,7 @@ Snapshot = TypeVar("Snapshot")
 
 
 @dataclass(frozen=True)
-class Cell:
+class MemoryCell:
     """One real number of a system's memory: a variable of an FMU, or the last value exchanged at a connector."""
 
     name: str
@@ -28,7 +28,7 @@ class BaseMemory(ABC, Generic[Snapshot]):
     but are not cells.
     """
 
-    cells: list[Cell]
+    cells: list[MemoryCell]
 
     @abstractmethod
     def read(self) -> np.ndarray:
@@ -39,7 +39,7 @@ class BaseMemory(ABC, Generic[Snapshot]):
         """Save the complete memory at communication point ``point``. Free it with `release`."""
 
     @abstractmethod
-    def put_back(self, snapshot: Snapshot, cell: Cell | None = None, number: float = 0.0) -> None:
+    def put_back(self, snapshot: Snapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
         """Restore a snapshot; if ``cell`` is passed, with that cell set to ``number``."""
 
     @abstractmethod

@@ -18,7 +18,7 @@ from ..loop import arrays
 from ..ssp.fmu_description import find_annotation
 from ..system.fmu import Fmu
 from ..system.prepared import PreparedSystem
-from .base_memory import BaseMemory, Cell
+from .base_memory import BaseMemory, MemoryCell
 from .program import Layout
 
 HEADER_WORDS = 6
@@ -79,7 +79,7 @@ class Memory(BaseMemory[Snapshot]):
         self._instances = instances
         self._buffers = buffers
         self._stored = () if fmi3 is None else (fmi3.stored.sent, fmi3.stored.exact)
-        self.cells: list[Cell] = []
+        self.cells: list[MemoryCell] = []
         self._write: dict[str, Callable[[bytes, int, float], bytes]] = {}
         self._pieces: list[Piece] = []
         for component, instance in instances.items():
@@ -87,7 +87,7 @@ class Memory(BaseMemory[Snapshot]):
             self._write[component] = ENCODINGS[encoding]
             mine = _find_cells(instance.fmu, frozen)
             self.cells += [
-                Cell(f"{component}.{item.name}", item.unit, component, index) for index, item in mine.items()
+                MemoryCell(f"{component}.{item.name}", item.unit, component, index) for index, item in mine.items()
             ]
             references = list(dict.fromkeys(item.reference for item in mine.values()))
             self._pieces.append(Piece(instance, np.array(references, dtype=np.uint32), len(mine)))
@@ -98,7 +98,7 @@ class Memory(BaseMemory[Snapshot]):
             node = prepared.network.nodes.get(name)
             real = layout.types[name] == "Real"
             if node is not None and node.kind == "output" and node.component in followers and real:
-                self.cells.append(Cell(f"{name} as exchanged", layout.units[name], None, slot))
+                self.cells.append(MemoryCell(f"{name} as exchanged", layout.units[name], None, slot))
                 self._slots.append(slot)
 
     def read(self) -> np.ndarray:
@@ -118,7 +118,7 @@ class Memory(BaseMemory[Snapshot]):
             point, states, serialized, buffers.values.copy(), buffers.whole.copy(), buffers.frozen.copy(), stored
         )
 
-    def put_back(self, snapshot: Snapshot, cell: Cell | None = None, number: float = 0.0) -> None:
+    def put_back(self, snapshot: Snapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
         """Restore a snapshot; if ``cell`` is passed, with that cell set to ``number``."""
         for component, instance in self._instances.items():
             instance.set_state(snapshot.states[component])

@@ -13,7 +13,7 @@ from typing import Unpack
 import numpy as np
 
 from ...options.fault import Fault
-from ..flight.base_memory import BaseMemory, Cell
+from ..flight.base_memory import BaseMemory, MemoryCell
 from ..flight.base_simulation import NOTHING, BaseSimulation, Choices
 from ..flight.endings import FLIGHT_STATUSES
 from ..flight.program import layout_of
@@ -231,7 +231,7 @@ class ProcessMemory(BaseMemory[ProcessSnapshot]):
         self._simulation = simulation
         with simulation.process.refusing_end() as connection:
             entries = connection.ask(messages.ListMemory(), messages.CellList).entries
-        self.cells = [Cell(*entry) for entry in entries]
+        self.cells = [MemoryCell(*entry) for entry in entries]
 
     def read(self) -> np.ndarray:
         """See `BaseMemory.read`."""
@@ -242,7 +242,7 @@ class ProcessMemory(BaseMemory[ProcessSnapshot]):
         """See `BaseMemory.take`."""
         return ProcessSnapshot(point, self._ask(messages.TakeSnapshot(point)))
 
-    def put_back(self, snapshot: ProcessSnapshot, cell: Cell | None = None, number: float = 0.0) -> None:
+    def put_back(self, snapshot: ProcessSnapshot, cell: MemoryCell | None = None, number: float = 0.0) -> None:
         """See `BaseMemory.put_back`."""
         index = None if cell is None else self.cells.index(cell)
         self._ask(messages.RestoreSnapshot(snapshot.number, index, number))

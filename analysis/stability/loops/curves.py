@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from .readings import Curve
+from .readings import FrequencyResponse
 
 Response = Callable[[np.ndarray], np.ndarray]
 
@@ -106,7 +106,7 @@ def dense(
     include: Iterable[float] = (),
     refine: bool = True,
     most: int = 20000,
-) -> Curve:
+) -> FrequencyResponse:
     """Return the response of one channel on a grid from ``low`` to ``high`` (rad/s) that resolves it.
 
     Between neighbours the complex logarithm changes by at most ``step`` (1: a factor e, or one rad), unless they are at
@@ -127,7 +127,7 @@ def dense(
         if len(frequency) + len(coarse) > most:
             raise ValueError(f"the frequency response is not resolved by {most} points up to {high:g} rad/s")
         frequency, value = _halve(response, frequency, value, coarse)
-    return _refine(response, frequency, value, most) if refine else Curve(frequency, value)
+    return _refine(response, frequency, value, most) if refine else FrequencyResponse(frequency, value)
 
 
 def _finite(response: Response, frequency: np.ndarray) -> np.ndarray:
@@ -146,7 +146,7 @@ def _halve(
     return np.insert(frequency, intervals + 1, middle), np.insert(value, intervals + 1, middle_values)
 
 
-def _refine(response: Response, frequency: np.ndarray, value: np.ndarray, most: int) -> Curve:
+def _refine(response: Response, frequency: np.ndarray, value: np.ndarray, most: int) -> FrequencyResponse:
     """Refine the curve around every closest approach, which every crossing is, and so is a touch without a crossing."""
     for _ in range(_HALVINGS):
         gain = np.abs(np.log(np.maximum(np.abs(value), _SILENT)))
@@ -162,4 +162,4 @@ def _refine(response: Response, frequency: np.ndarray, value: np.ndarray, most: 
         if not intervals.size or len(frequency) + len(intervals) > most:
             break
         frequency, value = _halve(response, frequency, value, intervals)
-    return Curve(frequency, value)
+    return FrequencyResponse(frequency, value)

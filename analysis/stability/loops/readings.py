@@ -60,7 +60,7 @@ class Robust:
 
 
 @dataclass(frozen=True)
-class Curve:
+class FrequencyResponse:
     """A frequency response: angular frequencies (rad/s) and complex values of L, minus the loop's transfer."""
 
     frequency: np.ndarray

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .readings import Classical, Crossing, Curve, Robust, decibels
+from .readings import Classical, Crossing, FrequencyResponse, Robust, decibels
 
 ROUNDS = 4
 GAIN_STAYS = 0.01  # dB
@@ -22,7 +22,7 @@ class Refined:
     """A curve with lines at its crossings. ``gain`` (dB) and ``phase`` (deg) are what its margins still moved in the
     last of ``rounds`` rounds."""
 
-    curve: Curve
+    curve: FrequencyResponse
     rounds: int
     gain: float
     phase: float
@@ -44,8 +44,8 @@ class Refined:
 
 
 def refine(
-    curve: Curve,
-    margins_of: Callable[[Curve], tuple[Classical, Robust]],
+    curve: FrequencyResponse,
+    margins_of: Callable[[FrequencyResponse], tuple[Classical, Robust]],
     measure: Callable[[float], tuple[float, complex]],
 ) -> Refined:
     """Return the curve with further lines where its margins are decided: at crossings and nearest to -1.
@@ -77,15 +77,15 @@ def _decisive(classical: Classical, robust: Robust) -> list[float]:
     return [*crossings, robust.sensitivity_frequency, robust.disk_frequency]
 
 
-def _is_new(curve: Curve, frequency: float) -> bool:
+def _is_new(curve: FrequencyResponse, frequency: float) -> bool:
     """Return True if a frequency is between the lines, and next to none of them."""
     low, high = curve.frequency[0] * (1.0 + ENDS), curve.frequency[-1] * (1.0 - ENDS)
     return bool(low < frequency < high and np.min(abs(curve.frequency / frequency - 1.0)) > SAME)
 
 
-def _with_line(curve: Curve, frequency: float, response: complex) -> Curve:
+def _with_line(curve: FrequencyResponse, frequency: float, response: complex) -> FrequencyResponse:
     index = int(np.searchsorted(curve.frequency, frequency))
-    return Curve(np.insert(curve.frequency, index, frequency), np.insert(curve.value, index, response))
+    return FrequencyResponse(np.insert(curve.frequency, index, frequency), np.insert(curve.value, index, response))
 
 
 def _shift(before: Classical, after: Classical) -> tuple[float, float]:

@@ -10,7 +10,7 @@ import numpy as np
 from ..loops.curves import Response, cache_response, dense
 from ..loops.margin_values import Margins, Quantity
 from ..loops.margins import classical, robust
-from ..loops.readings import Classical, Curve, Robust
+from ..loops.readings import Classical, FrequencyResponse, Robust
 from ..request.declaration import MarginLimits
 from ..results.requirement import Requirement, Scope, grows
 
@@ -24,7 +24,7 @@ LOWER = 0.2  # step down where encirclements cannot be counted from there
 class Assessment:
     """Margins with the curve that they were read from; ``notes`` say what could not be counted, and why."""
 
-    curve: Curve
+    curve: FrequencyResponse
     classical: Classical
     robust: Robust
     notes: dict[str, str]

@@ -11,7 +11,7 @@ import numpy as np
 
 from ....common.errors import InputError, suggestion
 from ....fmus_src.roles import SAMPLE_PERIOD
-from ...runtime.flight.base_memory import Cell
+from ...runtime.flight.base_memory import MemoryCell
 from ...runtime.flight.results import COMPLETE, NONFINITE
 from ...runtime.process.opening import open_simulation
 from ...runtime.ssp.given_values import ParameterValue
@@ -199,7 +199,7 @@ class OperatingPoint:
         self.memory.release(self.snapshot)
 
 
-def _scales(cells: list[Cell], largest: np.ndarray, now: np.ndarray) -> np.ndarray:
+def _scales(cells: list[MemoryCell], largest: np.ndarray, now: np.ndarray) -> np.ndarray:
     vectors: dict[str, float] = {}
     minimum: dict[str, float] = {}
     units: dict[str, float] = {}

@@ -18,7 +18,7 @@ import numpy as np
 from ..loops.curves import quotient
 from ..loops.growth import WINDOWS, growth_to_overflow, steady_growth
 from ..loops.multisine import Multisine, fraction_unexcited, line_spectrum, multisine, single_line
-from ..loops.readings import Curve
+from ..loops.readings import FrequencyResponse
 from ..request.channels import Channel
 from ..results.requirement import Verdict
 from ..results.responses import Measured
@@ -89,7 +89,7 @@ class Injector:
             period=self.samples * self.seconds,
             half_amplitude_change=float(np.max(abs(quotient(half[low], value[low]) - 1.0))),
             unexcited=unexcited,
-            curve=Curve(self.frequency, value),
+            curve=FrequencyResponse(self.frequency, value),
         )
 
     def peak(self) -> float:

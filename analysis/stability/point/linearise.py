@@ -12,7 +12,7 @@ import scipy.linalg
 from .bench import OperatingPoint
 from .jacobian import STEPS, Jacobian, plateau
 from .lifted import LiftedModel, StateVariable, reachable
-from .modes import Block, circles, multipliers
+from .modes import CoupledMemory, circles, multipliers
 
 # Of derivatives by one step of 1e-5: an integrator's multiplier over 5 s differs from 1 by 2.4e-5 (landing_mission).
 ONE_STEP_CHANGE = 1e-5
@@ -32,7 +32,7 @@ class Linearisation:
     model: LiftedModel
     neighbour: LiftedModel
     drift: list[tuple[str, float, float, str | None]]
-    blocks: tuple[Block, ...]
+    blocks: tuple[CoupledMemory, ...]
     cells: list[int]
     states: int
     unknown: float = 0.0
@@ -117,7 +117,9 @@ def _moves(columns: np.ndarray, heard: np.ndarray) -> np.ndarray:
     return reachable((columns[: columns.shape[1]] != 0.0).T, heard)
 
 
-def _blocks(jacobian: Jacobian, arrows: np.ndarray, driven: list, matrices: Sequence[np.ndarray]) -> tuple[Block, ...]:
+def _blocks(
+    jacobian: Jacobian, arrows: np.ndarray, driven: list, matrices: Sequence[np.ndarray]
+) -> tuple[CoupledMemory, ...]:
     """Return the multipliers of all memory, with the cells that each cut moves and depends on along the ``arrows``."""
     count, inputs = arrows.shape[1], len(driven)
     moved, moves = [], []
@@ -129,7 +131,7 @@ def _blocks(jacobian: Jacobian, arrows: np.ndarray, driven: list, matrices: Sequ
     for cells in circles(matrices[0][:count]):
         values, neighbours = (multipliers(matrix, cells) for matrix in matrices)
         blocks.append(
-            Block(
+            CoupledMemory(
                 names=tuple(jacobian.memory.cells[cell].name for cell in cells),
                 multipliers=values,
                 change=float(abs(abs(values[0]) - abs(neighbours[0]))),

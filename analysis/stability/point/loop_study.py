@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from ..loops.curves import Response, interpolate, quotient
-from ..loops.readings import Classical, Curve, Robust, decibels
+from ..loops.readings import Classical, FrequencyResponse, Robust, decibels
 from ..loops.refinement import refine
 from ..request.channels import Channel
 from ..request.declaration import MarginLimits
@@ -46,7 +46,7 @@ class LoopStudy:
     notes: dict[str, str] = field(default_factory=dict)
     injector: Injector | None = None
     measured: Measured | None = None
-    refined: Curve | None = None  # the measured response with lines at its crossings
+    refined: FrequencyResponse | None = None  # the measured response with lines at its crossings
     unstable: UnstableError | None = None  # as the flight of a measurement has it
 
     def __post_init__(self) -> None:
@@ -76,7 +76,7 @@ class LoopStudy:
         if self.measured is None or self.injector is None or not self._by_measurement or self._silent:
             return
 
-        def margins_of(curve: Curve) -> tuple[Classical, Robust]:
+        def margins_of(curve: FrequencyResponse) -> tuple[Classical, Robust]:
             assessment = self._assess_measured(curve)[0]
             return assessment.classical, assessment.robust
 
@@ -209,7 +209,7 @@ class LoopStudy:
             self.notes["linearisation"] = f"{why}, so margins are those of the frequency-response test"
         return self._assess_measured(self.refined or self.measured.curve)
 
-    def _assess_measured(self, curve: Curve) -> tuple[Assessment, Response]:
+    def _assess_measured(self, curve: FrequencyResponse) -> tuple[Assessment, Response]:
         response = interpolate(curve.frequency, curve.value, self.seconds)
         return assess(response, curve.frequency[0], curve.frequency[-1], self.seconds, None), response
 

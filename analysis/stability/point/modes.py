@@ -79,7 +79,7 @@ def _rank(a: np.ndarray, b: np.ndarray) -> tuple[int, float]:
 
 
 @dataclass(frozen=True)
-class Block:
+class CoupledMemory:
     """Memory that reaches itself through all of itself.
 
     ``multipliers`` are the largest first, and ``change`` is how much the largest changes with the next smaller steps of

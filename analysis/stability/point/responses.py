@@ -16,7 +16,7 @@ from .assessment import assess, lowest_frequency
 from .bench import StudyError
 from .lifted import UNIT_CIRCLE, LiftedModel, Port
 from .linearise import Linearisation
-from .modes import Block, modes, unseen_mode
+from .modes import CoupledMemory, modes, unseen_mode
 
 GAIN_AGREES = factor_of(0.1)
 PHASE_AGREES = np.radians(0.5)
@@ -41,7 +41,7 @@ class LoopModel:
     modes: tuple[Mode, ...]
     poles_open: np.ndarray
     facts: Linearised
-    outside: tuple[Block, ...] = ()
+    outside: tuple[CoupledMemory, ...] = ()
 
     def response(self, frequency: np.ndarray) -> np.ndarray:
         return self.model.response((self.port,), frequency)[:, 0, 0]
@@ -151,14 +151,14 @@ def _blur(change: float) -> float:
     return max(UNIT_CIRCLE, min(10.0 * change, MOST_BLUR))
 
 
-def _is_outside(block: Block, own: Sequence[Mode], plateau: float) -> bool:
+def _is_outside(block: CoupledMemory, own: Sequence[Mode], plateau: float) -> bool:
     """Return True if a block grows, and no mode of the loop accounts for it already."""
     if abs(block.multipliers[0]) < 1.0 + _blur(max(block.change, plateau)):
         return False
     return not any(mode.kind == "loop" and _alike(mode, block) for mode in own)
 
 
-def _alike(mode: Mode, block: Block) -> bool:
+def _alike(mode: Mode, block: CoupledMemory) -> bool:
     """Return True if a mode is the fastest of a block: of a reduced model it is so up to the omitted memory."""
     return bool(abs(abs(mode.z) - abs(block.multipliers[0])) < MOST_BLUR)
 

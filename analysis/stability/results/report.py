@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..loops.margin_values import Margins
-from ..loops.readings import Classical, Curve, Robust
+from ..loops.readings import Classical, FrequencyResponse, Robust
 from .requirement import Requirement, Verdict, combine, combine_verdicts
 from .responses import Agreement, AmplitudePoint, Linearised, Measured, Mode, Nonlinearity, StateSpace, Structure
 from .varied import Dispersion, Sampled, SweepReport
@@ -28,7 +28,7 @@ class LoopReport:
     sample_period: float  # s, of the loop
     closed: tuple[str, ...]  # other loops, which stay closed
     sign: str
-    curve: Curve
+    curve: FrequencyResponse
     classical: Classical
     robust: Robust
     stable: bool | None  # of the whole system, all loops closed; None: not known

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..loops.readings import Curve
+from ..loops.readings import FrequencyResponse
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Measured:
     period: float  # s, of the multisine
     half_amplitude_change: float  # largest relative change of L between full and half amplitude
     unexcited: float  # largest response on unexcited lines relative to the excited ones': nonlinearity, noise
-    curve: Curve
+    curve: FrequencyResponse
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from ....common.paths import SYSTEMS
 from ....fmus_src.roles import FINISHED
 from ...documents.figures.declared import FigureDeclaration, LimitsFigure, UnavailableFigure
-from ...documents.of.simulation.figures.limits import Verdict, evaluate, limit_lines
+from ...documents.of.simulation.figures.limits import LimitVerdict, evaluate, limit_lines
 from ...runtime.flight.results import Flight, Result, status_lines
 from ...runtime.system.prepared import PreparedSystem
 
@@ -29,7 +29,7 @@ def flight_lines(prepared: PreparedSystem, figures: Sequence[FigureDeclaration],
         if isinstance(figure, LimitsFigure):
             lines += limit_lines(figure, result)
         elif isinstance(figure, UnavailableFigure) and figure.has_limits:
-            lines += [f"{figure.title}: {Verdict.NOT_EVALUATED}, {note}" for note in figure.notes]
+            lines += [f"{figure.title}: {LimitVerdict.NOT_EVALUATED}, {note}" for note in figure.notes]
     return [*lines, *status_lines(prepared.network, result)]
 
 
@@ -45,12 +45,12 @@ def flight_problems(prepared: PreparedSystem, figures: Sequence[FigureDeclaratio
         if isinstance(figure, LimitsFigure):
             named = {
                 verdict: [limit.name for limit, each in evaluate(figure, result) if each is verdict]
-                for verdict in Verdict
+                for verdict in LimitVerdict
             }
-            if named[Verdict.VIOLATED]:
-                lines.append(f"limits violated: {', '.join(named[Verdict.VIOLATED])}")
-            if named[Verdict.NOT_EVALUATED]:
-                names = ", ".join(named[Verdict.NOT_EVALUATED])
+            if named[LimitVerdict.VIOLATED]:
+                lines.append(f"limits violated: {', '.join(named[LimitVerdict.VIOLATED])}")
+            if named[LimitVerdict.NOT_EVALUATED]:
+                names = ", ".join(named[LimitVerdict.NOT_EVALUATED])
                 lines.append(f"limits not evaluated: {names}: {figure.obstacle(result)}")
         elif isinstance(figure, UnavailableFigure) and figure.has_limits:
             lines += [f"limits not evaluated: {note}" for note in figure.notes]

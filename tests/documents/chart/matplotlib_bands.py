@@ -5,13 +5,13 @@ from __future__ import annotations
 from perilune.analysis.documents.common.colours import FAINT
 from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
 from perilune.analysis.documents.interactive.charts import Chart
-from perilune.analysis.documents.of.comparison.flights.band_figures import Frame
+from perilune.analysis.documents.of.comparison.flights.band_figures import QuantityFrame
 from perilune.analysis.documents.of.comparison.flights.bands import Bands
 from tests.support.figures.axes import FAILED
 from tests.support.figures.read_figure import read_charts
 
 
-def read_bands(bands: Bands, frame: Frame, colour: str, *, is_stepped: bool) -> Chart:
+def read_bands(bands: Bands, frame: QuantityFrame, colour: str, *, is_stepped: bool) -> Chart:
     """Return the chart of `band_chart` whose range is not clipped."""
     with house_style():
         figure = new_figure(2.1, 3.4)

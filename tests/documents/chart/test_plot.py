@@ -16,7 +16,7 @@ from perilune.analysis.documents.chart.marks import across, band_areas, during, 
 from perilune.analysis.documents.chart.plot import plot_charts
 from perilune.analysis.documents.chart.quantity import quantity_curve
 from perilune.analysis.documents.chart.symbols import OUTLINES, arrow, marker, marks
-from perilune.analysis.documents.interactive.charts import NO_BOX, Area, Backing, Chart, Dots, Note
+from perilune.analysis.documents.interactive.charts import NO_BOX, Area, Backing, Chart, ChartNote, Dots
 from tests.documents.chart.test_history_charts import plain
 from tests.support.figures.read_figure import read_charts
 
@@ -74,9 +74,9 @@ def test_everything_else():
                during(0.5, 1.0, "#6b6b6b", 0.35),
                Area(stroked, stroked**2, (False, False), "#222222", 0.5, 1.2, (4.0, 2.0))],
         rules=[level(1.0, "#222222", 0.9, (5.0, 3.0)), instant(2.0, "#222222", 0.8)],
-        notes=[Note("12 dB", (1.0, 2.0), (False, False), (4.0, -3.0), ("left", "center"), "#222222", 8.0, True,
+        notes=[ChartNote("12 dB", (1.0, 2.0), (False, False), (4.0, -3.0), ("left", "center"), "#222222", 8.0, True,
                     Backing("#ffffff", 0.8, 2.0)),
-               Note("nominal", (1.02, 1.5), (True, False), (0.0, 0.0), ("left", "center"), "#6b6b6b", 9.0)],
+               ChartNote("nominal", (1.02, 1.5), (True, False), (0.0, 0.0), ("left", "center"), "#6b6b6b", 9.0)],
     )  # fmt: skip
     assert plain(read_back(chart)) == plain(chart)
 

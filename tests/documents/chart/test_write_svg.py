@@ -35,7 +35,7 @@ from perilune.analysis.documents.chart.write_svg import write_svg
 from perilune.analysis.documents.common import panels
 from perilune.analysis.documents.common.quantities import MINUS
 from perilune.analysis.documents.font.text import text_width
-from perilune.analysis.documents.interactive.charts import NO_BOX, Area, Backing, Chart, Dots, Note
+from perilune.analysis.documents.interactive.charts import NO_BOX, Area, Backing, Chart, ChartNote, Dots
 from tests.support.figures.fluid import position
 
 WIDTH, HEIGHT = 245.0, 180.0  # pt
@@ -83,7 +83,7 @@ def test_positions(x, y, fractions):
     points = [(between(x, across), between(y, up)) for across, up in fractions]
     abscissas, ordinates = (np.array(each) for each in zip(*points, strict=True))
     circles = marks(abscissas, ordinates, marker("o", 4.0, "#0072B2", fill="white"))
-    note = Note("here", points[0], (False, False), (3.0, -2.0), ("left", "baseline"), "#222222", 9.0)
+    note = ChartNote("here", points[0], (False, False), (3.0, -2.0), ("left", "baseline"), "#222222", 9.0)
     placed, root = draw(Chart(NO_BOX, x, y, curves=[circles], notes=[note]))
     width, height = area_of(placed)
     positions = [(expected(x, across, 0.0, width), expected(y, up, height, -height)) for across, up in points]
@@ -182,7 +182,7 @@ def test_strokes_of_an_area():
 def test_opacity_backing_and_bare_axes():
     faint = quantity_curve(np.arange(3.0), np.arange(3.0), "altitude", "m")
     curves = [type(faint)(**{**vars(faint), "opacity": 0.4})]
-    note = Note("limit", (0.5, 0.5), (True, True), (0.0, 0.0), ("center", "center"), "#222222", 8.0, True,
+    note = ChartNote("limit", (0.5, 0.5), (True, True), (0.0, 0.0), ("center", "center"), "#222222", 8.0, True,
                 Backing("#ffffff", 0.8, 2.0))  # fmt: skip
     placed, root = draw(Chart(NO_BOX, bare_axis(UNIT), lane_axis(["one", "two"]), curves=curves, notes=[note]))
     assert [each.text for each in root.iter("{*}text")] == ["one", "two", "limit"]
@@ -203,7 +203,7 @@ def test_opacity_backing_and_bare_axes():
     ("at", "align", "side"), [((1.02, 0.5), ("left", "center"), 2), ((0.5, 1.0), ("center", "bottom"), 1)]
 )
 def test_room_for_notes_at_the_edge(at, align, side):
-    note = Note("98.5 % (97.9 to 99.0 %)", at, (True, True), (0.0, 2.0), align, "#222222", 9.0)
+    note = ChartNote("98.5 % (97.9 to 99.0 %)", at, (True, True), (0.0, 2.0), align, "#222222", 9.0)
     without, _ = draw(Chart(NO_BOX, UNIT, UNIT))
     placed, root = draw(Chart(NO_BOX, UNIT, UNIT, notes=[note]))
     text = root.findall(".//{*}text")[-1]

@@ -10,8 +10,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from lxml import etree, html
 
-from perilune.analysis.documents.common.page import Table, render_page
-from perilune.analysis.documents.diagram.diagram import Diagram, block_table, connection_table
+from perilune.analysis.documents.common.page import PageTable, render_page
+from perilune.analysis.documents.diagram.diagram import BlockDiagram, block_table, connection_table
 from perilune.analysis.documents.diagram.drawing import draw
 from perilune.analysis.documents.diagram.layout import lay_out
 from perilune.analysis.documents.diagram.page import TEMPLATE
@@ -63,8 +63,8 @@ def test_a_page_with_hostile_names(engine, name):
     graph, svg = check_svg(engine, name, f"{name}2", name)
     page = render_page(
         TEMPLATE,
-        title=name, file=name, step=0.1, stop_time=1.0, algorithm="jacobi", diagram=Diagram(graph, svg),
-        blocks=block_table(graph), connections=connection_table(graph), parameters=Table((), (), ()),
+        title=name, file=name, step=0.1, stop_time=1.0, algorithm="jacobi", diagram=BlockDiagram(graph, svg),
+        blocks=block_table(graph), connections=connection_table(graph), parameters=PageTable((), (), ()),
     )  # fmt: skip
     root = html.document_fromstring(page)
     assert not root.xpath("//script | //iframe | //img | //comment()")

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.analysis.documents.diagram.order import loops_back, order_blocks, short_loops
-from perilune.analysis.documents.diagram.rows import WIDEST, Column, cut_into_rows
+from perilune.analysis.documents.diagram.rows import WIDEST, BoxColumn, cut_into_rows
 
 COUNT = 6
 arcs = st.lists(st.tuples(st.integers(0, COUNT - 1), st.integers(0, COUNT - 1)), max_size=14)
@@ -40,7 +40,7 @@ def test_the_order_of_the_description_unless_it_is_much_worse():
 def test_cuts(widths, arcs):
     columns, left = [], 0.0
     for width in widths:
-        columns.append(Column(left, left + width, []))
+        columns.append(BoxColumn(left, left + width, []))
         left += width + 20.0
     count = len(columns)
     arcs = [(a % count, b % count) for a, b in arcs]
@@ -60,5 +60,5 @@ def test_cuts(widths, arcs):
 
 @pytest.mark.parametrize("count", [1, 40])
 def test_one_column_each(count):
-    columns = [Column(1000.0 * k, 1000.0 * k + 900.0, []) for k in range(count)]
+    columns = [BoxColumn(1000.0 * k, 1000.0 * k + 900.0, []) for k in range(count)]
     assert len(cut_into_rows(columns, [])) == count

@@ -35,7 +35,7 @@ from perilune.analysis.documents.of.stability.parts import modes
 from perilune.analysis.documents.of.stability.words import complex_number, fold_long, in_decibels, numeral
 from perilune.analysis.documents.render.cell_markup import cell_markup
 from perilune.analysis.stability.loops.margin_values import Quantity
-from perilune.analysis.stability.loops.readings import Curve
+from perilune.analysis.stability.loops.readings import FrequencyResponse
 from perilune.analysis.stability.results.responses import Mode
 from tests.support.loops.exact_margins import crossings
 from tests.support.loops.exact_systems import end_of_stability
@@ -166,7 +166,7 @@ def test_titles_have_room(studies, name):
 
 
 def test_phase_of_measured_points_is_on_the_curves_branch():
-    curve = Curve(np.array([1.0, 2.0, 3.0, 4.0]), np.exp(-1j * np.array([3.0, 5.5, 8.0, 10.0])))
+    curve = FrequencyResponse(np.array([1.0, 2.0, 3.0, 4.0]), np.exp(-1j * np.array([3.0, 5.5, 8.0, 10.0])))
     phase = phase_of(curve, None)
     assert -360.0 < phase[2] <= 0.0
     np.testing.assert_allclose(nearest_phase(curve, phase, curve), phase)

@@ -17,7 +17,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.documents.common.quantities import NONE
 from perilune.analysis.documents.of.stability.charts.sets import joint_chart
 from perilune.analysis.stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
-from perilune.analysis.stability.loops.readings import Classical, Curve
+from perilune.analysis.stability.loops.readings import Classical, FrequencyResponse
 from perilune.analysis.stability.results.requirement import Requirement, Scope
 from perilune.analysis.stability.results.responses import Mode
 from tests.support.lengths import either
@@ -256,7 +256,8 @@ def extreme(studies):
     start = replace(loop.classical.gain[0], value=0.9, frequency=0.0)  # L crosses the ray at its start
     zero = replace(loop.classical, gain=(*loop.classical.gain, start))
     bare = replace(
-        loop, name="bare", classical=zero, curve=Curve(np.array([0.1, 1.0]), np.array([1.0 + 0j, 0.5 - 0.5j])),
+        loop, name="bare", classical=zero,
+        curve=FrequencyResponse(np.array([0.1, 1.0]), np.array([1.0 + 0j, 0.5 - 0.5j])),
         linearised=None, measured_response=None, agreement=None, modes=(), poles_z=np.zeros(0), structure=None,
         step=None, nonlinearities=(), sampling=(), requirements=(), dispersion=None,
     )  # fmt: skip

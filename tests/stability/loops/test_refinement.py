@@ -10,7 +10,7 @@ import pytest
 from perilune.analysis.stability.loops.curves import interpolate
 from perilune.analysis.stability.loops.margins import classical, robust
 from perilune.analysis.stability.loops.multisine import multisine
-from perilune.analysis.stability.loops.readings import Curve, decibel_size, degree_size
+from perilune.analysis.stability.loops.readings import FrequencyResponse, decibel_size, degree_size
 from perilune.analysis.stability.loops.refinement import ROUNDS, refine
 from tests.support.loops.sampled_loops import response_of
 
@@ -42,7 +42,7 @@ def test_margins_at_a_resonance_between_lines(rate, damping, gain):
         requests.append(frequency)
         return frequency, complex(truth(np.array([frequency]))[0])
 
-    lines = Curve(LINES, truth(LINES))
+    lines = FrequencyResponse(LINES, truth(LINES))
     refined = refine(lines, margins_of, measure)
     exact, distance = classical(truth, LINES[0], LINES[-1], STEP, None), robust(truth, LINES[0], LINES[-1])
     (before, _), (after, closest) = margins_of(lines), margins_of(refined.curve)
@@ -66,7 +66,7 @@ def test_what_is_left_is_said():
         count += 1
         return frequency, complex(truth(np.array([frequency]))[0]) * (1.3 if count % 2 else 0.8)
 
-    refined = refine(Curve(LINES, truth(LINES)), margins_of, measure)
+    refined = refine(FrequencyResponse(LINES, truth(LINES)), margins_of, measure)
     assert refined.rounds == ROUNDS
     assert not refined.settled
     assert f"after {ROUNDS} rounds of test frequencies at the crossings" in refined.remainder

@@ -4,34 +4,36 @@ from __future__ import annotations
 
 from hypothesis import strategies
 
-from perilune.analysis.documents.diagram.graph import Block, Edge, Port, PortKey, Side
+from perilune.analysis.documents.diagram.graph import DiagramBlock, DiagramPort, Edge, PortKey, Side
 
 KINDS = ("plants", "sensors", "guidance", "", "foreign FMU")
 MAX_BLOCKS, MAX_PORTS = 7, 4
 
 
-def block_of(name: str, inputs: dict[str, str], outputs: dict[str, str], path: str = "", kind: str = "") -> Block:
+def block_of(
+    name: str, inputs: dict[str, str], outputs: dict[str, str], path: str = "", kind: str = ""
+) -> DiagramBlock:
     """Return a block with scalar ports; the dictionaries are names with units."""
     path = path or name
-    block = Block(path, name, kind, f"{name} model")
+    block = DiagramBlock(path, name, kind, f"{name} model")
     add_ports(block, inputs, outputs)
     return block
 
 
-def add_ports(block: Block, inputs: dict[str, str], outputs: dict[str, str]) -> None:
+def add_ports(block: DiagramBlock, inputs: dict[str, str], outputs: dict[str, str]) -> None:
     """Give a block scalar ports."""
     for side, ports in ((Side.IN, inputs), (Side.OUT, outputs)):
         for port, unit in ports.items():
             name = f"{block.path}.{port}" if block.path else port
-            block.ports[PortKey(block.path, side, port)] = Port(port, "", unit, [name])
+            block.ports[PortKey(block.path, side, port)] = DiagramPort(port, "", unit, [name])
 
 
-def connect(system: Block, source: tuple[str, str], target: tuple[str, str], change: str = "") -> None:
+def connect(system: DiagramBlock, source: tuple[str, str], target: tuple[str, str], change: str = "") -> None:
     """Add an edge between two blocks inside a system, each named with its port."""
     join(system, PortKey(source[0], Side.OUT, source[1]), PortKey(target[0], Side.IN, target[1]), change)
 
 
-def join(system: Block, source: PortKey, target: PortKey, change: str = "") -> None:
+def join(system: DiagramBlock, source: PortKey, target: PortKey, change: str = "") -> None:
     """Add an edge between two ports, of the system or of blocks inside it."""
     blocks = {block.path: block for block in system.all_blocks()}
     pair = blocks[source.block].ports[source].signals[0], blocks[target.block].ports[target].signals[0]
@@ -45,7 +47,7 @@ def join(system: Block, source: PortKey, target: PortKey, change: str = "") -> N
 
 
 @strategies.composite
-def graphs(draw: strategies.DrawFn) -> Block:
+def graphs(draw: strategies.DrawFn) -> DiagramBlock:
     """Draw a system of some blocks, one of which may be a system, and any edges, loops of one block included."""
     system = draw(levels(""))
     if system.blocks and draw(strategies.booleans()):
@@ -65,10 +67,10 @@ def graphs(draw: strategies.DrawFn) -> Block:
 
 
 @strategies.composite
-def levels(draw: strategies.DrawFn, path: str) -> Block:
+def levels(draw: strategies.DrawFn, path: str) -> DiagramBlock:
     """Draw a system with connectors, blocks and edges inside, some of several sources."""
     sizes = strategies.integers(0, MAX_PORTS)
-    system = Block(path, "any", "system")
+    system = DiagramBlock(path, "any", "system")
     add_ports(system, *({f"{side}{k}": "m" for k in range(draw(sizes))} for side in ("in", "out")))
     for number in range(draw(strategies.integers(1, MAX_BLOCKS))):
         inputs, outputs = ({f"{side}{k}": "m" for k in range(draw(sizes))} for side in ("u", "y"))

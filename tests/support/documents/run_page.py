@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from perilune.analysis.documents.diagram.diagram import Diagram
+from perilune.analysis.documents.diagram.diagram import BlockDiagram
 from perilune.analysis.documents.figures.declared import FigureDeclaration
 from perilune.analysis.documents.of.simulation.run import RunContext, run_document
 from perilune.analysis.documents.render.html import write_document
@@ -15,7 +15,7 @@ def write_run_report(
     path: Path,
     title: str,
     figures: Sequence[FigureDeclaration] = (),
-    diagram: Diagram | None = None,
+    diagram: BlockDiagram | None = None,
     command: str = "",
 ) -> None:
     """Write the page of a run that has no system behind it."""

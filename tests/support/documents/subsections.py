@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from markupsafe import Markup
 
-from perilune.analysis.documents.common.panels import Panel
+from perilune.analysis.documents.common.panels import FigurePanel
 from perilune.analysis.documents.figures.declared import FigureDeclaration
 from perilune.analysis.documents.interactive.charts import Drawing
 from perilune.analysis.documents.model import Group, Note, Table, Text
@@ -30,7 +30,7 @@ class ReadSubsection:
     """A heading with plots, panels or one as wide as the page, a table, results and captions."""
 
     title: str
-    panels: list[Panel] = field(default_factory=list)
+    panels: list[FigurePanel] = field(default_factory=list)
     plot: Drawing | None = None
     legend: list[tuple[Markup, str]] = field(default_factory=list)
     findings: list[Markup] = field(default_factory=list)
@@ -69,7 +69,7 @@ def joint_findings(figures: Sequence[FigureDeclaration], result: Result) -> list
     return [rich_markup(each, is_sentence=True) for each in figure_groups.joint_findings(figures, result)]
 
 
-def trajectory_panels(result: Result) -> list[Panel]:
+def trajectory_panels(result: Result) -> list[FigurePanel]:
     """Return the views of trajectories."""
     return [panel_of(figure) for figure in trajectory.trajectory_figures(result)]
 

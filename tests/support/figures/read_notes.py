@@ -9,13 +9,13 @@ from matplotlib.colors import to_hex, to_rgba
 from matplotlib.patches import BoxStyle
 from matplotlib.text import Annotation, Text
 
-from perilune.analysis.documents.interactive.charts import Backing, Note
+from perilune.analysis.documents.interactive.charts import Backing, ChartNote
 from tests.support.figures.unstated import UnstatedError
 
 OF_AXES = {"data": False, "axes fraction": True}
 
 
-def read_note(axes: Axes, text: Text) -> Note:
+def read_note(axes: Axes, text: Text) -> ChartNote:
     """Read a text with its position; a point of the data is inside the axes."""
     if text.get_rotation() != 0.0 or text.get_path_effects() or getattr(text, "arrow_patch", None) is not None:
         raise UnstatedError("a turned text, or one with an arrow")
@@ -25,7 +25,7 @@ def read_note(axes: Axes, text: Text) -> Note:
     for each, is_of_axes, (low, high) in zip(at, of_axes, (axes.get_xlim(), axes.get_ylim()), strict=True):
         if not is_of_axes and not min(low, high) <= each <= max(low, high):
             raise UnstatedError("a text beside the axes")
-    return Note(
+    return ChartNote(
         text=text.get_text(),
         at=at,
         of_axes=of_axes,

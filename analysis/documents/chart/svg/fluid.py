@@ -10,7 +10,7 @@ import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ...interactive.charts import Axis, Backing, Chart, Curve, Note
+from ...interactive.charts import Axis, Backing, Chart, ChartNote, Curve
 from .frame import Frame
 
 POINT = 1.375  # px of a pt: the least text has 11 px
@@ -97,7 +97,7 @@ def _curve(curve: Curve) -> Curve:
     return replace(curve, width=POINT * curve.width, marker=marker)
 
 
-def _note(note: Note) -> Note:
+def _note(note: ChartNote) -> ChartNote:
     backing = note.backing and Backing(note.backing.colour, note.backing.opacity, POINT * note.backing.margin)
     offset = (POINT * note.offset[0], POINT * note.offset[1])
     return replace(note, offset=offset, size=POINT * note.size, backing=backing)

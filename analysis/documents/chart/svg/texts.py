@@ -6,7 +6,7 @@ import numpy as np
 from markupsafe import escape
 
 from ...font.text import ASCENT, DEEP, DESCENT, MIDDLE, TALL, text_width
-from ...interactive.charts import Note
+from ...interactive.charts import ChartNote
 from .fluid import FluidFrame
 
 ANCHORS = {"left": "start", "center": "middle", "right": "end"}
@@ -14,7 +14,7 @@ BEGINS = {"left": 0.0, "center": -0.5, "right": -1.0}  # of its width, from the 
 RISES = {"top": ASCENT, "center": MIDDLE, "bottom": -DESCENT, "baseline": 0.0}
 
 
-def draw_note(frame: FluidFrame, note: Note) -> str:
+def draw_note(frame: FluidFrame, note: ChartNote) -> str:
     """Return a text at a point of the data or of the axes, over its backing; nothing where the data lie outside."""
     x, y = frame.point(note.at, note.of_axes)
     of_data = (frame.left if note.of_axes[0] else x, frame.top if note.of_axes[1] else y)
@@ -23,7 +23,7 @@ def draw_note(frame: FluidFrame, note: Note) -> str:
     return frame.put(x, y, _write(note))
 
 
-def _write(note: Note) -> str:
+def _write(note: ChartNote) -> str:
     x, y = note.offset[0], RISES[note.align[1]] * note.size - note.offset[1]
     bold = ' font-weight="700"' if note.bold else ""
     return (
@@ -32,7 +32,7 @@ def _write(note: Note) -> str:
     )
 
 
-def overhang(note: Note, width: float, height: float) -> tuple[float, float, float, float]:
+def overhang(note: ChartNote, width: float, height: float) -> tuple[float, float, float, float]:
     """Return how far (pt) a note at the edge of axes of this size reaches beyond: left, top, right, bottom."""
     left = note.offset[0] + BEGINS[note.align[0]] * _width(note)
     base = -note.offset[1] + RISES[note.align[1]] * note.size
@@ -46,11 +46,11 @@ def overhang(note: Note, width: float, height: float) -> tuple[float, float, flo
     )
 
 
-def _width(note: Note) -> float:
+def _width(note: ChartNote) -> float:
     return text_width(note.text, note.size, is_bold=note.bold)
 
 
-def _backing(note: Note, x: float, y: float) -> str:
+def _backing(note: ChartNote, x: float, y: float) -> str:
     """Return a rectangle as high as the tallest letters, so that it is equal for all texts."""
     if note.backing is None:
         return ""

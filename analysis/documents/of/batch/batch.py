@@ -14,7 +14,7 @@ from ..campaign.replays import replay_table
 from ..campaign.statuses import component_statuses, component_table, status_table
 from ..campaign.variants import group_rows, variant_rows
 from ..origin import digest_table
-from .content import Content
+from .content import BatchContent
 from .correlations import driver_sections, failure_section
 from .distribution_sections import distribution_section, other_distribution_sections
 from .header import header_nodes
@@ -28,7 +28,7 @@ from .scatters import scatter_nodes, scatter_title
 
 def batch_document(batch: BatchResult, printed: Sequence[str] = ()) -> Document:
     """Return the document of a batch; ``printed`` are metrics that a terminal lists."""
-    content = Content(batch)
+    content = BatchContent(batch)
     return Document(
         batch.provenance["system"],
         [
@@ -44,7 +44,7 @@ def batch_document(batch: BatchResult, printed: Sequence[str] = ()) -> Document:
     )
 
 
-def _sections(content: Content) -> list[Section]:
+def _sections(content: BatchContent) -> list[Section]:
     batch, campaign = content.batch, content.campaign
     return [
         *requirement_sections(batch.summary, campaign),
@@ -65,7 +65,7 @@ def _sections(content: Content) -> list[Section]:
     ]
 
 
-def _group_sections(content: Content) -> list[Section]:
+def _group_sections(content: BatchContent) -> list[Section]:
     by = content.campaign.group
     if by is None:
         return []
@@ -84,7 +84,7 @@ def _status_section(batch: BatchResult) -> Section:
     return Section("Termination status", nodes, is_folded=True)
 
 
-def _replay_sections(content: Content) -> list[Section]:
+def _replay_sections(content: BatchContent) -> list[Section]:
     replays, extremes = content.replays, extremes_to_replay(content.batch)
     if not (replays or extremes):
         return []
@@ -106,7 +106,7 @@ def _replay_sections(content: Content) -> list[Section]:
     return [Section("Replay commands", nodes, is_folded=True)]
 
 
-def _parameter_section(content: Content) -> Section:
+def _parameter_section(content: BatchContent) -> Section:
     table = parameter_table(content.campaign)
     nodes: list[Node] = [table, Note("As the campaign declares them, in SI units.")]
     if not table.rows:

@@ -19,7 +19,7 @@ from .scatters import influence_on_success
 
 
 @dataclass(frozen=True)
-class Content:
+class BatchContent:
     """A batch with the looks of its variants, its metrics, verdicts, replays and influences."""
 
     batch: BatchResult

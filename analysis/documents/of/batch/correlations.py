@@ -12,7 +12,7 @@ from ...cell import Cell, Quantity
 from ...common.quantities import number
 from ...model import Missing, Node, Note, Section, Table
 from ...pictures import Figures
-from .content import Content
+from .content import BatchContent
 from .scatters import failure_figures, outcome_marks
 
 MOST_INPUTS = 3  # of a metric
@@ -41,7 +41,7 @@ def drivers(result: BatchResult) -> list[Driver]:
     return rows
 
 
-def driver_sections(content: Content) -> list[Section]:
+def driver_sections(content: BatchContent) -> list[Section]:
     """Return the inputs that each metric depends on most."""
     rows = [
         (each.variant, each.metric, ", ".join(f"{name} {number(rho, 2)}" for name, rho in each.inputs))
@@ -58,7 +58,7 @@ def driver_sections(content: Content) -> list[Section]:
     return [Section("Correlation with dispersed inputs", nodes, is_folded=True)]
 
 
-def failure_section(content: Content) -> Section:
+def failure_section(content: BatchContent) -> Section:
     """Return failures over the inputs of most influence on success, and the influence of all."""
     rates = {variant: entry.success_rate for variant, entry in content.batch.summary.items()}
     nodes: list[Node] = []
@@ -90,6 +90,6 @@ def _influence_table(influences: Mapping[str, Mapping[str, float]], names: list[
     return Table(("input", *influences), rows, style="")
 
 
-def _significant(content: Content) -> str:
+def _significant(content: BatchContent) -> str:
     """Return the correlation below which one is not significant (5 %)."""
     return number(2.0 / content.batch.provenance["trials"] ** 0.5, 2)

@@ -14,11 +14,11 @@ from ...common.panels import PANEL_HEIGHT
 from ...model import ForScript, Missing, Node, Note, Section
 from ...pictures import Figure, Figures
 from ..campaign.distributions import CUMULATIVE, distribution_chart, metric_values
-from .content import Content
+from .content import BatchContent
 from .embedded_trials import trials_document, trials_notes
 
 
-def distribution_section(content: Content) -> Section:
+def distribution_section(content: BatchContent) -> Section:
     """Return the distributions of metrics of success and requirements, and the trials that marks stand for."""
     batch = content.batch
     samples = {variant: sample.note for variant, sample in batch.plotted.items() if sample.note}
@@ -47,7 +47,7 @@ def distribution_section(content: Content) -> Section:
     return Section("Distributions", nodes)
 
 
-def other_distribution_sections(content: Content) -> list[Section]:
+def other_distribution_sections(content: BatchContent) -> list[Section]:
     """Return the distributions of all other metrics, constant metrics and those without a finite value."""
     varying, constant, empty = content.sorted_metrics
     others = [metric for metric in varying if metric not in content.judged]
@@ -62,7 +62,7 @@ def other_distribution_sections(content: Content) -> list[Section]:
     return [Section("Other distributions", nodes, is_folded=True)] if nodes else []
 
 
-def distribution_figures(content: Content, metrics: Sequence[Metric]) -> Figures:
+def distribution_figures(content: BatchContent, metrics: Sequence[Metric]) -> Figures:
     """Return the empirical distributions of metrics over all trials, with one legend."""
     numbers = {metric: number for number, metric in enumerate(content.campaign.metrics)}
 

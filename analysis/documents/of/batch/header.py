@@ -9,10 +9,10 @@ from ...model import KeyNumbers, Node, Repeat, Text
 from ..campaign.replays import anchors_of
 from ..campaign.verdicts import verdict_nodes
 from ..origin import condition_notes
-from .content import Content
+from .content import BatchContent
 
 
-def header_nodes(content: Content) -> list[Node]:
+def header_nodes(content: BatchContent) -> list[Node]:
     """Return the verdicts on the variants and the conditions of the batch."""
     campaign, provenance = content.campaign, content.batch.provenance
     command = batch_command(content.batch.plan)

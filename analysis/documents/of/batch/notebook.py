@@ -12,11 +12,11 @@ from ...cell import Cell
 from ...model import Node, Table, Text
 from ..campaign.metrics import metric_summary
 from ..campaign.variants import interval_head
-from .content import Content
+from .content import BatchContent
 from .distribution_sections import distribution_figures
 
 
-def notebook_nodes(content: Content) -> list[Node]:
+def notebook_nodes(content: BatchContent) -> list[Node]:
     """Return the campaign's name, faults, tables of rates, requirements and metrics, and distributions."""
     campaign, rows = content.campaign, summary_rows(content.batch.summary)
     faults = content.batch.plan.fault_texts()
@@ -44,7 +44,7 @@ def _rate_table(rows: Sequence[SummaryRow], group: str | None) -> Table:
     return Table((*who_heads(group), "trials", "success, %", interval_head(CONFIDENCE), "statuses"), body)
 
 
-def _requirement_table(content: Content) -> Table:
+def _requirement_table(content: BatchContent) -> Table:
     rows = [
         (f"{name}: {entry.text}", variant, entry.verdict, entry.flights, entry.failures)
         for variant, name, entry in requirement_rows(content.batch.summary)

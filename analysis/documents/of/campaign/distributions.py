@@ -19,7 +19,7 @@ from ...chart.symbols import mark, marker, marks
 from ...common.colours import INK, Look, look
 from ...common.quantities import display_factor, label_with_unit
 from ...font.text import text_width
-from ...interactive.charts import NO_BOX, Chart, Drawing, Note
+from ...interactive.charts import NO_BOX, Chart, ChartNote, Drawing
 from ...interactive.measures import TICK_SIZE, WIDTH
 
 if TYPE_CHECKING:
@@ -169,6 +169,6 @@ def rates_chart(batch: BatchResult, published: Mapping[str, float]) -> Chart:
     return Chart(NO_BOX, abscissa, lanes, curves=curves, notes=notes)
 
 
-def _above(lane: int, text: str, x: float, side: str) -> Note:
+def _above(lane: int, text: str, x: float, side: str) -> ChartNote:
     """Return a text above a lane, at a fraction of the abscissa."""
-    return Note(text, (x, lane - 0.32), (True, False), (0.0, 0.0), (side, "bottom"), INK, TICK_SIZE)
+    return ChartNote(text, (x, lane - 0.32), (True, False), (0.0, 0.0), (side, "bottom"), INK, TICK_SIZE)

@@ -27,7 +27,7 @@ class JudgedMetric(NamedTuple):
     limits: MetricLimits | None
 
 
-class Cell(NamedTuple):
+class MetricCell(NamedTuple):
     """A metric over all trials of a variant: its median, and the ``trial`` in which it is ``worst``, with limits."""
 
     median: float | None
@@ -42,7 +42,7 @@ class VerdictRow(NamedTuple):
     variant: str
     entry: VariantSummary
     is_best: bool
-    numbers: list[Cell]
+    numbers: list[MetricCell]
     verdict: str
     grade: Grade
 
@@ -83,12 +83,12 @@ def axis_start(intervals: Iterable[Interval]) -> float:
     return min(0.9, math.floor(10.0 * min((low for low, _ in intervals), default=1.0)) / 10.0)
 
 
-def _column(judged: JudgedMetric, summary: Summary, worst: Worst) -> dict[str, Cell]:
+def _column(judged: JudgedMetric, summary: Summary, worst: Worst) -> dict[str, MetricCell]:
     metric, limits = judged
     medians = {name: entry.metrics_all[metric.name].value(MEDIAN) for name, entry in summary.items()}
     best = _best(medians, 0 if limits is None else limits.better)
     trials = {name: (None, None) if limits is None else worst(name, metric, limits) for name in summary}
-    return {name: Cell(medians[name], name in best, trials[name][1], trials[name][0]) for name in summary}
+    return {name: MetricCell(medians[name], name in best, trials[name][1], trials[name][0]) for name in summary}
 
 
 def _best(numbers: Mapping[str, float | None], better: int) -> set[str]:

@@ -15,7 +15,7 @@ from ...pictures import Figure
 from ..campaign.metrics import metric_summary
 from ..campaign.replays import replay_table
 from ..campaign.statuses import status_table
-from .content import Content
+from .content import ComparisonContent
 from .distributions import metric_figures, overlaid_figures
 from .flights.sections import end_section, ends_by_variant_section, error_section, time_sections, trajectory_section
 from .header import header_nodes
@@ -32,7 +32,7 @@ from .provenance import parameter_section, provenance_section
 
 def comparison_document(comparison: Comparison, command: str, printed: Sequence[str] = ()) -> Document:
     """Return the document of a comparison; ``command`` repeats it, ``printed`` are metrics that a terminal lists."""
-    content = Content(comparison)
+    content = ComparisonContent(comparison)
     system = comparison.first.document["system"]
     return Document(
         f"{system}: {len(comparison.contenders)} variants on the same trials",
@@ -48,7 +48,7 @@ def comparison_document(comparison: Comparison, command: str, printed: Sequence[
     )
 
 
-def _sections(content: Content) -> list[Section]:
+def _sections(content: ComparisonContent) -> list[Section]:
     return [
         *trajectory_section(content),
         distribution_section(content),
@@ -73,7 +73,7 @@ def _status_section(comparison: Comparison) -> Section:
     return Section("Termination status", [status_table(comparison.summary), note], is_folded=True)
 
 
-def _replay_section(content: Content) -> list[Section]:
+def _replay_section(content: ComparisonContent) -> list[Section]:
     if not content.replays:
         return []
     note = Note([
@@ -85,7 +85,7 @@ def _replay_section(content: Content) -> list[Section]:
     return [Section("Replay commands", nodes, is_folded=True)]
 
 
-def notebook_nodes(content: Content) -> list[Node]:
+def notebook_nodes(content: ComparisonContent) -> list[Node]:
     """Return notes, tables of rates and metrics, and the distributions of metrics that vary."""
     compared = content.comparison
 

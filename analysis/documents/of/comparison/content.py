@@ -17,14 +17,14 @@ from ..campaign.replays import Replay
 from ..campaign.verdict_table import VerdictTable, verdict_table
 from .distributions import looks_of, metric_distributions, sort_metrics
 from .flights.ends import UNITS, Ends, ends_of
-from .flights.histories import Flights
+from .flights.histories import FlightHistories
 from .flights.missing import missing_statements
 from .pairs import PairGroup, metric_pairs, rate_pairs
 from .replays import trials_to_replay
 
 
 @dataclass(frozen=True)
-class Content:
+class ComparisonContent:
     """A comparison with its recorded simulations, pairs, verdicts and the looks of its variants."""
 
     comparison: Comparison
@@ -35,9 +35,9 @@ class Content:
         return looks_of(self.comparison)
 
     @cached_property
-    def flights(self) -> Flights:
+    def flights(self) -> FlightHistories:
         """Simulations with recorded signals."""
-        return Flights(self.comparison)
+        return FlightHistories(self.comparison)
 
     @cached_property
     def ends(self) -> dict[str, dict[str, Ends]]:

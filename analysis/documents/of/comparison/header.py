@@ -11,11 +11,11 @@ from ...common.quantities import MINUS
 from ...model import Fold, Items, KeyNumbers, Missing, Node, Note, Repeat, Text
 from ..campaign.replays import anchors_of
 from ..campaign.verdicts import verdict_nodes
-from .content import Content
+from .content import ComparisonContent
 from .differences import Sentence, significant_differences
 
 
-def header_nodes(content: Content, command: str) -> list[Node]:
+def header_nodes(content: ComparisonContent, command: str) -> list[Node]:
     """Return verdicts, significant differences, ``command`` that repeats the comparison, conditions."""
     compared = content.comparison
     first: Mapping[str, Any] = compared.first.document
@@ -43,7 +43,7 @@ def header_nodes(content: Content, command: str) -> list[Node]:
     ]  # fmt: skip
 
 
-def _difference_nodes(content: Content) -> list[Node]:
+def _difference_nodes(content: ComparisonContent) -> list[Node]:
     sentences = significant_differences(content.comparison, content.rate_groups, content.metric_groups)
     nodes: list[Node] = [_list_sentences(sentences.first, content.styles)] if sentences.first else []
     if sentences.others:
@@ -67,7 +67,7 @@ def _sentence(sentence: Sentence, styles: Mapping[str, Look]) -> list[Inline]:
     return [a, f" {MINUS} ", b, ": ", *words, "."]
 
 
-def _condition_notes(content: Content) -> list[Node]:
+def _condition_notes(content: ComparisonContent) -> list[Node]:
     """Return parameter sets of each of several batches, faults and assumptions."""
     compared = content.comparison
     has_several = len(compared.batches) > 1

@@ -16,13 +16,13 @@ from ...pictures import Figures
 from ..campaign.metrics import metric_table
 from ..campaign.variants import group_rows, interval_cell, variant_cells, variant_heads, variant_rows
 from ..campaign.verdict_table import axis_start
-from .content import Content
+from .content import ComparisonContent
 from .distributions import metric_figures, overlaid_figures
 from .flights.sections import missing_nodes
 from .pairs import metric_pair_table, metric_pairs, rate_pair_table
 
 
-def distribution_section(content: Content) -> Section:
+def distribution_section(content: ComparisonContent) -> Section:
     """Return the distributions of the metrics that success and requirements judge."""
     nodes = missing_nodes(content, "propellant")
     if content.judged:
@@ -37,7 +37,7 @@ def distribution_section(content: Content) -> Section:
     return Section("Distributions", nodes)
 
 
-def other_distribution_section(content: Content) -> list[Section]:
+def other_distribution_section(content: ComparisonContent) -> list[Section]:
     """Return the distributions of other metrics; constant ones and those without a finite value in words."""
     varying, constant, empty = content.sorted_metrics
     others = [metric for metric in varying if metric not in content.judged]
@@ -52,12 +52,12 @@ def other_distribution_section(content: Content) -> list[Section]:
     return [Section("Other distributions", nodes, is_folded=True)] if nodes else []
 
 
-def _distributions(content: Content, metrics: Sequence[Metric]) -> Figures:
+def _distributions(content: ComparisonContent, metrics: Sequence[Metric]) -> Figures:
     draw = partial(metric_figures, content.distributions, metrics, content.styles)
     return overlaid_figures(draw, content.styles)
 
 
-def rate_section(content: Content) -> Section:
+def rate_section(content: ComparisonContent) -> Section:
     """Return the rates of success and of metrics that are true or false."""
     rows = variant_rows(content.comparison.summary)
     note = (
@@ -68,7 +68,7 @@ def rate_section(content: Content) -> Section:
     return Section("Success probabilities", nodes, is_folded=True)
 
 
-def metric_section(content: Content) -> Section:
+def metric_section(content: ComparisonContent) -> Section:
     """Return the statistics of metrics."""
     nodes: list[Node] = [Missing("the campaign declares no metrics but rates")]
     if content.comparison.metrics:
@@ -80,7 +80,7 @@ def metric_section(content: Content) -> Section:
     return Section("Metrics of the successful trials", nodes, is_folded=True)
 
 
-def _metric_tables(content: Content, rows: Sequence[SummaryRow], by: str | None = None) -> list[Node]:
+def _metric_tables(content: ComparisonContent, rows: Sequence[SummaryRow], by: str | None = None) -> list[Node]:
     metrics, styles = content.comparison.metrics, content.styles
     return [
         metric_table(rows, metrics, "metrics", styles, by),
@@ -88,7 +88,7 @@ def _metric_tables(content: Content, rows: Sequence[SummaryRow], by: str | None 
     ]
 
 
-def group_section(content: Content) -> list[Section]:
+def group_section(content: ComparisonContent) -> list[Section]:
     """Return rates and metrics of the groups of trials, if there are."""
     compared = content.comparison
     if compared.group is None:
@@ -103,7 +103,7 @@ def group_section(content: Content) -> list[Section]:
     return [Section(f"By {compared.group}", nodes, is_folded=True)]
 
 
-def pair_section(content: Content) -> Section:
+def pair_section(content: ComparisonContent) -> Section:
     """Return differences of rates and metrics of pairs of variants, trial by trial."""
     heading = "Paired comparison"
     if not content.comparison.pairs:
@@ -114,7 +114,7 @@ def pair_section(content: Content) -> Section:
     return Section(heading, nodes, is_folded=True)
 
 
-def _reference_text(content: Content) -> Text:
+def _reference_text(content: ComparisonContent) -> Text:
     reference = content.comparison.reference
     has_folders = len(content.comparison.batches) > 1
     others = " within a folder, and the first folder between folders; " if has_folders else "; "
@@ -126,7 +126,7 @@ def _reference_text(content: Content) -> Text:
     ])  # fmt: skip
 
 
-def _rate_nodes(content: Content) -> list[Node]:
+def _rate_nodes(content: ComparisonContent) -> list[Node]:
     groups, styles = content.rate_groups, content.styles
     others = [Fold("The other pairs", [rate_pair_table(groups, "others", styles)])] if groups[0].others else []
     note = (
@@ -136,7 +136,7 @@ def _rate_nodes(content: Content) -> list[Node]:
     return [rate_pair_table(groups, "first", styles), *others, Note(note)]
 
 
-def _metric_nodes(content: Content) -> list[Node]:
+def _metric_nodes(content: ComparisonContent) -> list[Node]:
     groups, styles = content.metric_groups, content.styles
     over_all = metric_pairs(content.comparison, content.paired, successful=False)
     has_others = bool(groups[0].others)

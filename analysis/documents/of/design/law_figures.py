@@ -25,7 +25,7 @@ from ...chart.symbols import BARB, arrow, mark, marker
 from ...common.colours import BLUE, FAINT, INK, VERMILION
 from ...common.quantities import MINUS
 from ...font.text import text_width
-from ...interactive.charts import Area, Axis, Backing, Chart, Curve, Note
+from ...interactive.charts import Area, Axis, Backing, Chart, ChartNote, Curve
 from ...pictures import Diagram
 
 INCH = 72.0  # pt
@@ -155,7 +155,7 @@ def _circle(node: Node, at: Point) -> list[Curve]:
     return [mark(*at, marker("o", 2.0 * RADIUS - 1.0, colour, fill="#ffffff"))]
 
 
-def _names(node: Node, at: Point) -> Iterator[Note]:
+def _names(node: Node, at: Point) -> Iterator[ChartNote]:
     """Yield the name of a source in its box; or the operation in a circle, and below it the node's number."""
     source = _source(node)
     if source and not node.terms:
@@ -179,5 +179,5 @@ def _note(
     offset: Point = (0.0, 0.0),
     align: tuple[str, str] = CENTRED,
     backing: Backing | None = None,
-) -> Note:
-    return Note(text, at, (False, False), offset, align, colour.lower(), size, backing=backing)
+) -> ChartNote:
+    return ChartNote(text, at, (False, False), offset, align, colour.lower(), size, backing=backing)

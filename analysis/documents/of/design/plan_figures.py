@@ -10,7 +10,7 @@ import numpy as np
 
 from ....design.trajectories.landing_study import LandingStudy
 from ....design.trajectories.path import PlannedPath
-from ....design.transfers.hover_study import Curve, HoverStudy
+from ....design.transfers.hover_study import HoverStudy, PropellantCurve
 from ...chart.axes import linear_axis
 from ...chart.equal import Ends, to_scale
 from ...chart.lines import line
@@ -20,7 +20,7 @@ from ...common.colours import FAINT, INK, Look, look
 from ...common.panels import HALF_WIDTH, PANEL_HEIGHT, far
 from ...common.quantities import number
 from ...interactive import charts
-from ...interactive.charts import NO_BOX, Axis, Chart, Note
+from ...interactive.charts import NO_BOX, Axis, Chart, ChartNote
 from ...pictures import Figure
 
 POINTS = 72.0  # in an inch
@@ -41,7 +41,7 @@ class Series(NamedTuple):
     look: Look
 
 
-class Point(NamedTuple):
+class PlanPoint(NamedTuple):
     """One plan among those of a curve: where it lies, its propellant fraction, its look."""
 
     at: float
@@ -100,7 +100,7 @@ def curve_figures(study: HoverStudy, series: Sequence[Series]) -> list[Figure]:
     complete = study.with_curves()
     assert complete.durations is not None
     assert complete.distances is not None
-    points = [Point(one.path.duration, one.path.propellant_fraction, one.look) for one in series]
+    points = [PlanPoint(one.path.duration, one.path.propellant_fraction, one.look) for one in series]
     points[0] = points[0]._replace(propellant=study.programme.propellant_fraction)
     here = points[0]._replace(at=study.transfer.distance)
     return [
@@ -109,13 +109,13 @@ def curve_figures(study: HoverStudy, series: Sequence[Series]) -> list[Figure]:
     ]
 
 
-def _curve_figure(label: str, name: str, curve: Curve, quantity: str, points: Sequence[Point]) -> Figure:
+def _curve_figure(label: str, name: str, curve: PropellantCurve, quantity: str, points: Sequence[PlanPoint]) -> Figure:
     known = curve.propellant[np.isfinite(curve.propellant)]
     words = f"{label}: {number(float(known.min()))} to {number(float(known.max()))}"
     return Figure(label, name, words, curve_chart(curve, quantity, points), PANEL_HEIGHT)
 
 
-def curve_chart(curve: Curve, quantity: str, points: Sequence[Point]) -> Chart:
+def curve_chart(curve: PropellantCurve, quantity: str, points: Sequence[PlanPoint]) -> Chart:
     """Return propellant over one quantity, with a mark for each plan."""
     abscissas = np.append(curve.at, [point.at for point in points])
     ordinates = np.append(curve.propellant, [point.propellant for point in points])
@@ -175,7 +175,7 @@ def path_chart(
     ends = [axis_ends(np.concatenate([path[axis] for path in paths]), MARGINS[axis]) for axis in (0, 1)]
     texts = [f"{name}, {unit}" for name, (_, unit) in zip(names, scales, strict=True)]
     end = mark(float(paths[0][0][-1]), float(paths[0][1][-1]), marker("o", MARK, INK))
-    about = Note(f"axes to {scaled}", (1.0, 1.0), (True, True), (0.0, 4.0), ("right", "bottom"), FAINT, 8.0)
+    about = ChartNote(f"axes to {scaled}", (1.0, 1.0), (True, True), (0.0, 4.0), ("right", "bottom"), FAINT, 8.0)
     return Chart(
         NO_BOX,
         linear_axis(ends[0], intervals, label=texts[0]),

@@ -15,7 +15,7 @@ from ...chart.symbols import mark, marker
 from ...chart.ticks import axis_ends
 from ...common.colours import BLUE, FAINT, INK, SKY, VERMILION
 from ...common.quantities import number
-from ...interactive.charts import NO_BOX, Backing, Chart, Curve, Note
+from ...interactive.charts import NO_BOX, Backing, Chart, ChartNote, Curve
 from ...interactive.measures import TICK_SIZE
 from ...pictures import Figure
 
@@ -83,9 +83,9 @@ def _dimension(begin: float, end: float, at: float) -> list[Curve]:
     return [line(np.array([begin, end]), np.full(2, at), INK, width=0.8), *heads]
 
 
-def _text(text: str, at: tuple[float, float], colour: str, side: str) -> Note:
+def _text(text: str, at: tuple[float, float], colour: str, side: str) -> ChartNote:
     """Return a text above a point, over a pale background."""
-    return Note(
+    return ChartNote(
         text, at, (False, False), (0.0, 3.0), (side, "baseline"), colour.lower(), TICK_SIZE,
         backing=Backing("#ffffff", 0.7, 0.5),
     )  # fmt: skip

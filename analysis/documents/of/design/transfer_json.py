@@ -8,7 +8,7 @@ from dataclasses import asdict
 
 from ....design.trajectories.path import PlannedPath
 from ....design.trajectories.vehicle import limits_document
-from ....design.transfers.hover_study import Curve, HoverStudy
+from ....design.transfers.hover_study import HoverStudy, PropellantCurve
 
 NAMES = ("t2_s", "t5_s", "w_s", "tp_s", "t7_s")
 
@@ -92,7 +92,7 @@ def _path(study: HoverStudy, path: PlannedPath | None) -> dict[str, object] | No
     }
 
 
-def _curve(curve: Curve | None, name: str) -> dict[str, list[float] | list[float | None]] | None:
+def _curve(curve: PropellantCurve | None, name: str) -> dict[str, list[float] | list[float | None]] | None:
     if curve is None:
         return None
     fractions = [_known(float(fraction)) for fraction in curve.propellant]

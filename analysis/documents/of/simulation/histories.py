@@ -26,8 +26,7 @@ from ...common.signals import (
     signal_groups,
     states_and_commands,
 )
-from ...interactive.charts import NO_BOX, Chart
-from ...interactive.charts import Note as Annotation
+from ...interactive.charts import NO_BOX, Chart, ChartNote
 from ...model import Group, Items, Node, Note
 from ...pictures import Figure, Figures
 from .figures.words import join
@@ -204,7 +203,7 @@ def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, i
     return Chart(NO_BOX, abscissa, ordinate, curves=curves, notes=notes)
 
 
-def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[Annotation]]:
+def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[ChartNote]]:
     """Return the ends of the ordinate, clipped where a few extreme values would flatten the rest, and a note on it."""
     finite = values[np.isfinite(values)]
     if not finite.size:
@@ -221,8 +220,8 @@ def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[Annotation]]:
     return ends, [_annotation(text, (0.98 if early else 0.02, 0.98), ("right" if early else "left", "top"), 8.0)]
 
 
-def _annotation(text: str, at: tuple[float, float], align: tuple[str, str], size: float) -> Annotation:
-    return Annotation(text, at, (True, True), (0.0, 0.0), align, FAINT, size)
+def _annotation(text: str, at: tuple[float, float], align: tuple[str, str], size: float) -> ChartNote:
+    return ChartNote(text, at, (True, True), (0.0, 0.0), align, FAINT, size)
 
 
 def signal_plot(result: Result, names: Sequence[str]) -> Drawing:

@@ -33,15 +33,14 @@ from ...scene.picture import draw_ends
 from ...scene.view import scene_view
 from ..origin import condition_notes, digest_table
 from .figures.groups import FigureGroup, figure_groups, joint_findings
-from .figures.limits import Verdict as LimitVerdict
-from .figures.limits import limit_document
+from .figures.limits import LimitVerdict, limit_document
 from .final_values import final_values, signal_table
 from .histories import time_histories
 from .nodes import trajectory_nodes
 from .summary import notebook_nodes
 
 if TYPE_CHECKING:  # the layout of diagrams starts a JavaScript engine
-    from ...diagram.diagram import Diagram
+    from ...diagram.diagram import BlockDiagram
 
 ENDINGS = {
     "finished": "Nominal termination: end-of-run flag raised",
@@ -67,7 +66,7 @@ class RunContext:
 
     title: str
     figures: Sequence[FigureDeclaration] = ()
-    draw_diagram: Callable[[], Diagram] | None = None
+    draw_diagram: Callable[[], BlockDiagram] | None = None
     command: str = ""
     lines: Sequence[str] = ()
 

@@ -11,7 +11,7 @@ from ...chart.ticks import axis_ticks
 from ...common.colours import FAINT, INK
 from ...common.quantities import number
 from ...font.text import text_width
-from ...interactive.charts import Chart, Note
+from ...interactive.charts import Chart, ChartNote
 from ...interactive.measures import TICK_SIZE
 
 INTERVALS = 8  # between marks, at most
@@ -41,7 +41,7 @@ def mark_rows(time: np.ndarray) -> np.ndarray:
 
 def time_notes(
     chart: Chart, size: tuple[float, float], paths: Sequence[np.ndarray], time: np.ndarray, rows: np.ndarray
-) -> list[Note]:
+) -> list[ChartNote]:
     """Return the times at marks of the first of the ``paths``, next to its line.
 
     A label is where it covers neither marks of any path nor another label; a time without such a place, or at a mark
@@ -81,13 +81,13 @@ def _candidates(path: np.ndarray, rows: np.ndarray, row: int, *, is_left: bool) 
     return [(above, 4.0), (-above, -10.0), (-above, 4.0), (above, -10.0)]
 
 
-def _note(time: float, at: np.ndarray, offset: tuple[float, float], *, is_end: bool) -> Note:
+def _note(time: float, at: np.ndarray, offset: tuple[float, float], *, is_end: bool) -> ChartNote:
     align = ("left" if offset[0] > 0.0 else "right", "baseline")
     point, text = (float(at[0]), float(at[1])), f"{number(float(time), 4)} s"
-    return Note(text, point, (False, False), offset, align, INK if is_end else FAINT, TICK_SIZE, bold=is_end)
+    return ChartNote(text, point, (False, False), offset, align, INK if is_end else FAINT, TICK_SIZE, bold=is_end)
 
 
-def _extent(note: Note, mark: np.ndarray) -> Extent:
+def _extent(note: ChartNote, mark: np.ndarray) -> Extent:
     width = text_width(note.text, note.size, is_bold=note.bold)
     left, bottom = float(mark[0] + note.offset[0]), float(mark[1] + note.offset[1])
     left -= width if note.align[0] == "right" else 0.0

@@ -16,7 +16,7 @@ from ...common.panels import HALF_WIDTH
 from ...common.quantities import number
 from ...common.round_body import altitude_over, radius_of, track_angles
 from ...common.signals import SignalGroup, position_groups
-from ...interactive.charts import Note
+from ...interactive.charts import ChartNote
 from ...interactive.measures import TICK_SIZE
 from ...pictures import Figure
 from .figures.section import legend_of
@@ -38,7 +38,7 @@ def trajectory_figures(result: Result) -> list[Figure]:
     for view in _views(result):
         name, description = f"trajectory-{view.name}", f"{view.title} of {components}"
         chart, ordinate, scales = view_chart(view, POINTS * HALF_WIDTH, POINTS * HEIGHT)
-        note = Note(scales, (1.0, 1.0), (True, True), (0.0, 4.0), ("right", "baseline"), FAINT, TICK_SIZE)
+        note = ChartNote(scales, (1.0, 1.0), (True, True), (0.0, 4.0), ("right", "baseline"), FAINT, TICK_SIZE)
         chart = replace(chart, notes=[*chart.notes, note], title=ordinate)
         figures.append(Figure(view.title, name, description, chart, HEIGHT))
     return figures

@@ -184,7 +184,7 @@ def sweep_figure(sweep: SweepReport, report: StabilityReport, name: str) -> Figu
 SIZE = 4.6  # in, of a single diagram
 
 
-class Diagram(StrEnum):
+class LoopDiagram(StrEnum):
     """A diagram of a loop."""
 
     BODE = "bode"
@@ -195,25 +195,25 @@ class Diagram(StrEnum):
     STEP = "step"
 
 
-def loop_charts(loop: LoopReport, diagram: Diagram) -> list[Chart]:
+def loop_charts(loop: LoopReport, diagram: LoopDiagram) -> list[Chart]:
     """Return the charts of one diagram of a loop, for figures of `SIZE`.
 
     Raises ValueError where the study has not what it takes.
     """
     lacking = {
-        Diagram.POLES: "no poles: it has no linear model" if not poles_of(loop).size else "",
-        Diagram.STEP: "no step response: it is unstable or has no linear model" if loop.step is None else "",
+        LoopDiagram.POLES: "no poles: it has no linear model" if not poles_of(loop).size else "",
+        LoopDiagram.STEP: "no step response: it is unstable or has no linear model" if loop.step is None else "",
     }
     if words := lacking.get(diagram):
         raise ValueError(f"{loop.name} at {loop.point}: {words}")
-    single: dict[Diagram, Callable[[LoopReport], Chart]] = {
-        Diagram.NYQUIST: nyquist_chart,
-        Diagram.NICHOLS: nichols_chart,
-        Diagram.SENSITIVITY: sensitivity_chart,
-        Diagram.POLES: partial(pole_chart, near=False),
-        Diagram.STEP: step_chart,
+    single: dict[LoopDiagram, Callable[[LoopReport], Chart]] = {
+        LoopDiagram.NYQUIST: nyquist_chart,
+        LoopDiagram.NICHOLS: nichols_chart,
+        LoopDiagram.SENSITIVITY: sensitivity_chart,
+        LoopDiagram.POLES: partial(pole_chart, near=False),
+        LoopDiagram.STEP: step_chart,
     }
-    if diagram is Diagram.BODE:
+    if diagram is LoopDiagram.BODE:
         return list(bode_charts(loop))
     chart = single[diagram](loop)
-    return [_to_scale(chart, SIZE, SIZE, fluid=False) if diagram in (Diagram.NYQUIST, Diagram.POLES) else chart]
+    return [_to_scale(chart, SIZE, SIZE, fluid=False) if diagram in (LoopDiagram.NYQUIST, LoopDiagram.POLES) else chart]

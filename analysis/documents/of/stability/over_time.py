@@ -124,7 +124,7 @@ def over_time_chart(histories: Sequence[Course], quantity: Quantity) -> Chart:
         rules += [level(edge, VERMILION, 1.2) for edge in ((limit, -limit) if is_below else (limit,))]
         words = f"required {number(limit)} {unit}".strip()
         at, colour = (1.0, limit), VERMILION.lower()
-        notes.append(charts.Note(words, at, (True, False), (-2.0, -3.0), ("right", "top"), colour, 8.0))
+        notes.append(charts.ChartNote(words, at, (True, False), (-2.0, -3.0), ("right", "top"), colour, 8.0))
     times = np.concatenate([history.times for history in histories])
     return Chart(
         NO_BOX,

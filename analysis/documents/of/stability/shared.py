@@ -24,7 +24,7 @@ ByPart = dict[str, list[Figure]]  # by the part of a loop's section that they be
 
 
 @dataclass(frozen=True)
-class Picture:
+class FigureContent:
     """Content of a figure: everything but points, and the points (pt)."""
 
     strokes: Sequence[object]
@@ -42,16 +42,16 @@ class Shared:
 @dataclass
 class _Distinct:
     figure: Figure
-    picture: Picture
+    picture: FigureContent
     loops: list[int]
 
 
-def picture_of(figure: Figure) -> Picture:
+def picture_of(figure: Figure) -> FigureContent:
     """Return what a figure shows; points outside of the axes are at their edges."""
     charts = [chart for chart in (figure.chart, figure.below) if chart is not None]
     width, height = POINTS * (PANEL_WIDTH if figure.is_narrow else HALF_WIDTH), POINTS * figure.height
     points = [each for chart in charts for each in _points(chart, width, height)]
-    return Picture([_strokes(chart) for chart in charts], np.concatenate(points))
+    return FigureContent([_strokes(chart) for chart in charts], np.concatenate(points))
 
 
 def _strokes(chart: Chart) -> Sequence[object]:
@@ -99,7 +99,7 @@ def _fractions(axis: Axis, values: object, of_axes: bool) -> np.ndarray:
     return np.clip((numbers - ends[0]) / (ends[1] - ends[0]), 0.0, 1.0)
 
 
-def alike(one: Picture, other: Picture) -> bool:
+def alike(one: FigureContent, other: FigureContent) -> bool:
     """Return True if two pictures are indistinguishable."""
     if one.strokes != other.strokes or one.points.size != other.points.size:
         return False

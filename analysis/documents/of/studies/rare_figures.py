@@ -20,7 +20,7 @@ from ...chart.symbols import mark, marker, marks
 from ...chart.ticks import axis_ends
 from ...common.colours import BLUE, FAINT, INK, VERMILION
 from ...common.quantities import display_factor, label_with_unit, number
-from ...interactive.charts import NO_BOX, Backing, Chart, Note
+from ...interactive.charts import NO_BOX, Backing, Chart, ChartNote
 from ...pictures import Figure
 
 GREY = "#9a9a9a"
@@ -79,9 +79,9 @@ def curve_legend(chart: Chart) -> list[LegendEntry]:
     return [LegendEntry(curve, [curve.name]) for curve in chart.curves if curve.name]
 
 
-def number_above(text: str, at: float) -> Note:
+def number_above(text: str, at: float) -> ChartNote:
     """Return a number above the axes, at an abscissa."""
-    return Note(text, (at, 1.0), (False, True), (0.0, 2.0), ("center", "bottom"), INK, 8.5)
+    return ChartNote(text, (at, 1.0), (False, True), (0.0, 2.0), ("center", "bottom"), INK, 8.5)
 
 
 def limits_of(values: np.ndarray) -> tuple[float, float]:
@@ -172,7 +172,7 @@ def design_chart(study: RareResult, one: str, other: str) -> Chart:
         marks(at[:, 0], at[:, 1], DESIGN),
     ]
     notes = [
-        Note(str(entry["trial"]), (place[0], place[1]), (False, False), (5.0, 4.0), ("left", "baseline"), INK, 8.5)
+        ChartNote(str(entry["trial"]), (place[0], place[1]), (False, False), (5.0, 4.0), ("left", "baseline"), INK, 8.5)
         for entry, place in zip(study.failures, at.tolist(), strict=True)
     ]
     return Chart(
@@ -206,7 +206,7 @@ def interval_chart(rows: Sequence[Equivalent], probability: float | None) -> Cha
             curves.append(mark(left * 1.02, lane, marker("<", 6.0, colour), beyond=True))
         label = f"{row.label}: {number(row.simulations, 3)} simulations"
         at, align = (0.01, lane - 0.28), ("left", "bottom")
-        notes.append(Note(label, at, (True, False), (0.0, 0.0), align, INK, 8.5, backing=BEHIND))
+        notes.append(ChartNote(label, at, (True, False), (0.0, 0.0), align, INK, 8.5, backing=BEHIND))
     return Chart(
         NO_BOX,
         fine_axis((left, 2.0 * max(positive)), label=f"probability of failure, {PERCENT} interval"),

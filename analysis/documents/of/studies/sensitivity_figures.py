@@ -26,7 +26,7 @@ CAP = marker("|", 5.0, INK)  # the end of an interval
 ORDERS = (BLUE, SKY)  # total, first order
 
 
-class Bar(NamedTuple):
+class IndexBar(NamedTuple):
     """A parameter's indices for a metric, each with the two ends of its interval."""
 
     name: str
@@ -37,10 +37,10 @@ class Bar(NamedTuple):
     rank: float | None
 
 
-def bars_of(study: SensitivityResult, metric: str) -> list[Bar]:
+def bars_of(study: SensitivityResult, metric: str) -> list[IndexBar]:
     """Return a bar for each parameter, by total index, the largest first."""
     bars = [
-        Bar(
+        IndexBar(
             name,
             entry["total"],
             _ends(entry["total_interval"]),
@@ -70,7 +70,7 @@ def index_figures(study: SensitivityResult, metrics: Sequence[str]) -> list[Figu
     return figures
 
 
-def index_chart(bars: Sequence[Bar]) -> Chart:
+def index_chart(bars: Sequence[IndexBar]) -> Chart:
     """Return two bars for each parameter with its intervals: total above, first-order below."""
     areas, curves = [], []
     for lane, bar in enumerate(bars):

@@ -18,10 +18,10 @@ from ...chart.symbols import mark, marker, marks
 from ...chart.ticks import axis_ends
 from ...common.colours import BLUE, FAINT, GRID, INK, VERMILION, Look
 from ...common.quantities import display_factor, label_with_unit, number
-from ...interactive.charts import NO_BOX, Chart, Note, Rule
+from ...interactive.charts import NO_BOX, Chart, ChartNote, Rule
 from ...pictures import Figure
 from .rare_figures import DASHED, DOTTED, GREY, HEIGHT, curve_legend, number_above
-from .worst_points import Lane, Objective, box_lanes, objective_of, select_values
+from .worst_points import Lane, ObjectiveValues, box_lanes, objective_of, select_values
 
 LANE = 0.52  # in
 
@@ -68,7 +68,7 @@ def search_chart(study: WorstResult) -> Chart:
     )
 
 
-class Level(NamedTuple):
+class MarkedAbscissa(NamedTuple):
     """An abscissa that a chart marks if it is finite, as displayed: dashed unless it is the search's."""
 
     at: float
@@ -81,11 +81,11 @@ class Level(NamedTuple):
         return () if self.colour == VERMILION else DASHED
 
 
-def _rules(levels: Sequence[Level]) -> list[Rule]:
+def _rules(levels: Sequence[MarkedAbscissa]) -> list[Rule]:
     return [instant(each.at, each.colour, 1.7, each.dashes) for each in levels if math.isfinite(each.at)]
 
 
-def _legend(first: str, levels: Sequence[Level]) -> list[LegendEntry]:
+def _legend(first: str, levels: Sequence[MarkedAbscissa]) -> list[LegendEntry]:
     """Return what is ``first`` in grey, and the levels with their numbers."""
     finite = [each for each in levels if math.isfinite(each.at)]
     return [
@@ -114,9 +114,9 @@ def random_figures(study: WorstResult) -> list[Figure]:
     return figures
 
 
-def _trial_levels(objective: Objective) -> list[Level]:
+def _trial_levels(objective: ObjectiveValues) -> list[MarkedAbscissa]:
     indices = ((objective.random, INK, "worst random trial"), (objective.worst, VERMILION, "worst case"))
-    return [Level(float(objective.values[index]), colour, name) for index, colour, name in indices]
+    return [MarkedAbscissa(float(objective.values[index]), colour, name) for index, colour, name in indices]
 
 
 def trials_chart(study: WorstResult) -> Chart:
@@ -141,7 +141,7 @@ def trials_chart(study: WorstResult) -> Chart:
     )
 
 
-def _fresh_levels(study: WorstResult) -> list[Level]:
+def _fresh_levels(study: WorstResult) -> list[MarkedAbscissa]:
     """Return the realisations' quantile, their worst, and the value of the search."""
     assert study.fresh is not None
     assert study.over is not None
@@ -151,7 +151,7 @@ def _fresh_levels(study: WorstResult) -> list[Level]:
         (study.fresh.worst, INK, "worst of them"),
         (study.value, VERMILION, f"{study.over.name} in the search"),
     )
-    return [Level(float(select_values(study, np.array([at]))[0]), colour, name) for at, colour, name in levels]
+    return [MarkedAbscissa(float(select_values(study, np.array([at]))[0]), colour, name) for at, colour, name in levels]
 
 
 def fresh_chart(study: WorstResult) -> Chart:
@@ -193,9 +193,9 @@ def box_chart(lanes: Sequence[Lane]) -> Chart:
         factor = display_factor(lane.unit)
         texts = [(0.0, number(factor * lane.low, 6), "left"), (1.0, number(factor * lane.high, 6), "right")]
         for x, text, side in texts:
-            notes.append(Note(text, (x, index - 0.3), (False, False), (0.0, 0.0), (side, "bottom"), FAINT, 8.0))
+            notes.append(ChartNote(text, (x, index - 0.3), (False, False), (0.0, 0.0), (side, "bottom"), FAINT, 8.0))
         at, centred = (0.5, index - 0.3), ("center", "bottom")
-        notes.append(Note(lane.label, at, (False, False), (0.0, 0.0), centred, INK, 8.5))
+        notes.append(ChartNote(lane.label, at, (False, False), (0.0, 0.0), centred, INK, 8.5))
     return Chart(
         NO_BOX,
         replace(ticked_axis((-0.02, 1.02), [0.0, 0.5, 1.0], label="fraction of the search box"), grid=False),

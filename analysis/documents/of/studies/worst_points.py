@@ -14,7 +14,7 @@ from ...common.quantities import display_factor, label_with_unit
 CUT = 0.02  # of the simulations, those farthest from the worst may lie outside of an axis
 
 
-class Objective(NamedTuple):
+class ObjectiveValues(NamedTuple):
     """The objective of all points of a search in their order, as a page shows it.
 
     ``values`` (points,) are nan where there is none, and ``failed`` says which did not come to their end, or are
@@ -62,7 +62,7 @@ def point_values(study: WorstResult) -> np.ndarray:
     return np.concatenate(columns)
 
 
-def objective_of(study: WorstResult) -> Objective:
+def objective_of(study: WorstResult) -> ObjectiveValues:
     """Return the objective of all points in the order in which they were flown, angles in degrees."""
     values = point_values(study)
     displayed = select_values(study, values)
@@ -70,7 +70,7 @@ def objective_of(study: WorstResult) -> Objective:
     random = int(np.argmax(values[: study.random_trials]))
     failed = ~np.isfinite([study.badness.size(float(value)) for value in values])
     rising = study.badness.size(-1.0) < 0.0  # of a margin the smaller number is worse
-    return Objective(label, displayed, failed, rising, int(np.argmax(values)), random)
+    return ObjectiveValues(label, displayed, failed, rising, int(np.argmax(values)), random)
 
 
 def select_values(study: WorstResult, values: np.ndarray) -> np.ndarray:

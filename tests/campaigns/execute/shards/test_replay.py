@@ -18,7 +18,7 @@ from lxml import html
 import perilune
 from perilune.analysis.campaigns.folder.files import shard_path
 from perilune.analysis.cli import main
-from perilune.analysis.documents.of.batch.content import Content
+from perilune.analysis.documents.of.batch.content import BatchContent
 from perilune.analysis.documents.of.batch.replays import extremes_to_replay
 from perilune.analysis.runtime.flight import interruptible
 from perilune.common.paths import SYSTEMS
@@ -198,7 +198,7 @@ def test_pages_print_the_short_command_where_there_is_a_folder(folder, tmp_path,
     """As the user names it, and it flies."""
     monkeypatch.chdir(folder.parent)
     result = perilune.merge(folder.name)
-    rows = [*Content(result).replays, *extremes_to_replay(result)]
+    rows = [*BatchContent(result).replays, *extremes_to_replay(result)]
     assert rows
     for row in rows:
         assert row.command == f"perilune replay campaign {row.trial} --configuration {row.variant}"

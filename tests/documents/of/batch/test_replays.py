@@ -16,7 +16,7 @@ import perilune
 from perilune.analysis.campaigns.definition.campaign import Variant
 from perilune.analysis.cli import main
 from perilune.analysis.commands.campaigns import replay_command
-from perilune.analysis.documents.of.batch.content import Content
+from perilune.analysis.documents.of.batch.content import BatchContent
 from perilune.analysis.documents.of.batch.replays import extremes_to_replay
 from perilune.analysis.documents.render.cell_markup import cell_markup
 from perilune.analysis.documents.render.words import cell_text
@@ -38,7 +38,7 @@ def test_the_first_failures_and_where_a_metric_is_largest():
     """Three of the four failures of one; its tilt is largest in two trials, which tells of neither."""
     result = batch_result({"one": ONE, "two": TWO}, DRAWS + METRICS)
     ended = "stop_time (ship.status 2)"
-    actual = Content(result).replays
+    actual = BatchContent(result).replays
     assert [(row.variant, row.trial) for row in actual] == [("one", 1), ("one", 3), ("one", 4), ("two", 5)]
     reasons = [[cell_text(reason) for reason in row.reasons] for row in actual]  # miss is worst where it is no number
     assert reasons == [[ended], [ended, "worst miss: not a number m"], [ended], ["worst miss: 0.2 m"]]
@@ -67,7 +67,7 @@ def test_what_never_settles_is_largest():
 
 def test_nothing_to_fly_again(tmp_path):
     result = batch_result({"default": [(True, 0.0, 0.0)] * 3}, METRICS)
-    assert Content(result).replays == extremes_to_replay(result) == []
+    assert BatchContent(result).replays == extremes_to_replay(result) == []
     write_batch_page(result, tmp_path / "page.html", "Calm")
     assert "Replay commands" not in text_of((tmp_path / "page.html").read_text(encoding="utf-8"))
 
@@ -77,7 +77,7 @@ def test_they_are_on_the_page(tmp_path):
     write_batch_page(result, tmp_path / "page.html", "Again")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert_self_contained(page)
-    for row in (*Content(result).replays, *extremes_to_replay(result)):
+    for row in (*BatchContent(result).replays, *extremes_to_replay(result)):
         assert row.command in text_of(page)
     calm = batch_result({"two": TWO}, DRAWS + METRICS)
     write_batch_page(calm, tmp_path / "calm.html", "Calm")

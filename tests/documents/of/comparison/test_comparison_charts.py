@@ -21,8 +21,8 @@ from perilune.analysis.documents.of.comparison.flights.end_figures import (
     overlaid_ends,
 )
 from perilune.analysis.documents.of.comparison.flights.ends import Ends
-from perilune.analysis.documents.of.comparison.flights.recorded import Flight, Quantity
-from perilune.analysis.documents.of.comparison.flights.trajectories import Bundle, Path
+from perilune.analysis.documents.of.comparison.flights.recorded import ComparedFlight, FlightQuantity
+from perilune.analysis.documents.of.comparison.flights.trajectories import FlightPath, VariantPaths
 from perilune.analysis.documents.of.comparison.flights.trajectory_figures import plan_figures, side_figures
 from tests.documents.chart.matplotlib_bands import read_bands
 from tests.documents.chart.test_history_charts import plain
@@ -39,13 +39,13 @@ def has_axes(figure, abscissa, ordinate):
 
 
 def quantity(kind="motion", unit="m", name="a.b", *, is_stepped=False):
-    return Quantity(name, name.rpartition(".")[2], unit, kind, (name,), lambda signals: signals[name], is_stepped)
+    return FlightQuantity(name, name.rpartition(".")[2], unit, kind, (name,), lambda signals: signals[name], is_stepped)
 
 
 def flights(name="a.b", *, is_stepped=False, scale=1.0):
     rows = scale * np.random.default_rng(3).normal(size=(9, STEPS.size)).cumsum(axis=1)
     rows = np.round(rows) if is_stepped else rows
-    return [Flight(trial, trial < 7, STEPS, {name: row}, True) for trial, row in enumerate(rows)]
+    return [ComparedFlight(trial, trial < 7, STEPS, {name: row}, True) for trial, row in enumerate(rows)]
 
 
 @pytest.mark.parametrize("is_stepped", [False, True])
@@ -170,9 +170,9 @@ def test_overlaid_ellipses_are_in_the_order_of_the_legend():
 
 
 def test_paths_are_to_scale_where_their_sides_are_alike():
-    path = Path(True, np.linspace(-5e4, 0.0, 9), np.linspace(9e3, 0.0, 9), np.stack([STEPS[:9], 2.0 * STEPS[:9]]))
-    failed = Path(False, path.along, 2.0 * path.height, path.plan)
-    bundle = Bundle([path, failed], np.array([1.0, 1.0]), "ship.altitude", None)
+    path = FlightPath(True, np.linspace(-5e4, 0.0, 9), np.linspace(9e3, 0.0, 9), np.stack([STEPS[:9], 2.0 * STEPS[:9]]))
+    failed = FlightPath(False, path.along, 2.0 * path.height, path.plan)
+    bundle = VariantPaths([path, failed], np.array([1.0, 1.0]), "ship.altitude", None)
     (side,) = side_figures({"one": bundle}, STYLES)
     chart = side.chart
     assert chart.x.label == "downrange from the target, km"

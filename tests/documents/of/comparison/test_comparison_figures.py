@@ -22,8 +22,8 @@ from perilune.analysis.documents.of.comparison.flights.band_figures import band_
 from perilune.analysis.documents.of.comparison.flights.bands import LEVELS, bands_of
 from perilune.analysis.documents.of.comparison.flights.ends import Ends, dispersion, ellipse, ends_of, target_of
 from perilune.analysis.documents.of.comparison.flights.recorded import (
-    Flight,
-    Quantity,
+    ComparedFlight,
+    FlightQuantity,
     doubling,
     quantities,
     read_flights,
@@ -163,11 +163,11 @@ def test_a_command_in_the_last_row_is_left_out(batch, flights):
 
 
 def made(rows, value=1.0, success=True, step=1.0):
-    return Flight(0, success, step * np.arange(rows), {"a.b": np.full(rows, value)}, False)
+    return ComparedFlight(0, success, step * np.arange(rows), {"a.b": np.full(rows, value)}, False)
 
 
 def test_bands_end_where_few_still_fly():
-    quantity = Quantity("a.b", "b", None, "other", ("a.b",), lambda signals: signals["a.b"])
+    quantity = FlightQuantity("a.b", "b", None, "other", ("a.b",), lambda signals: signals["a.b"])
     flights = [made(10) for _ in range(7)] + [made(20, 2.0)]
     bands = bands_of(quantity, flights)
     assert bands.time[-1] == 9.0  # one of eight is fewer than a quarter
@@ -175,15 +175,15 @@ def test_bands_end_where_few_still_fly():
     only_failed = bands_of(quantity, [made(10, success=False)])
     assert (only_failed.flights, only_failed.failed) == (1, [])
     assert bands_of(quantity, [made(1)]) is None
-    assert bands_of(Quantity("c", "c", None, "other", ("c",), lambda signals: signals["c"]), flights) is None
+    assert bands_of(FlightQuantity("c", "c", None, "other", ("c",), lambda signals: signals["c"]), flights) is None
 
 
 def test_whole_numbers_are_held_and_others_interpolated():
     values = {"a.b": np.array([0.0, 1.0, 3.0])}
-    coarse = Flight(0, True, np.array([0.0, 2.0, 4.0]), values, False)
+    coarse = ComparedFlight(0, True, np.array([0.0, 2.0, 4.0]), values, False)
     fine = made(5, 0.0)
     for held, expected in ((True, [0.0, 0.0, 1.0, 1.0, 3.0]), (False, [0.0, 0.5, 1.0, 2.0, 3.0])):
-        quantity = Quantity("a.b", "b", None, "other", ("a.b",), lambda signals: signals["a.b"], held)
+        quantity = FlightQuantity("a.b", "b", None, "other", ("a.b",), lambda signals: signals["a.b"], held)
         bands = bands_of(quantity, [fine, coarse])
         np.testing.assert_array_equal(bands.percentiles[LEVELS.index(95.0)], expected)
         np.testing.assert_array_equal(bands.percentiles[LEVELS.index(50.0)], np.zeros(5))  # of two the lower, a value
@@ -294,10 +294,12 @@ def test_dispersion_of_few_trials():
 
 def test_errors_far_beyond_expectation_leave_the_frame_and_the_panel_says_so():
     name = "checker.normalised_error_square"
-    quantity = Quantity(name, name.rpartition(".")[2], None, "consistency", (name,), lambda signals: signals[name])
+    quantity = FlightQuantity(
+        name, name.rpartition(".")[2], None, "consistency", (name,), lambda signals: signals[name]
+    )
     values = np.array([1300.0, 5.0, 6.0, 7.0])
-    wild = bands_of(quantity, [Flight(0, True, np.arange(4.0), {name: values}, False)])
-    calm = bands_of(quantity, [Flight(0, True, np.arange(4.0), {name: np.minimum(values, 9.0)}, False)])
+    wild = bands_of(quantity, [ComparedFlight(0, True, np.arange(4.0), {name: values}, False)])
+    calm = bands_of(quantity, [ComparedFlight(0, True, np.arange(4.0), {name: np.minimum(values, 9.0)}, False)])
     plain = Look("#000000", "-", "o")
     clipped, whole = band_figures(quantity, {"wild": wild, "calm": calm}, {"wild": plain, "calm": plain}, "x")
     assert [note.text for note in clipped.chart.notes] == ["clipped; full range 5 to 1300"]

@@ -17,7 +17,7 @@ from ....interactive.charts import NO_BOX, Area, Chart, Curve
 from ....interactive.measures import FAILED_DASHES
 from ....pictures import Figure
 from .bands import Bands, expectation
-from .recorded import ALL, Quantity
+from .recorded import ALL, FlightQuantity
 
 REACH = 1.0  # widths of the expected band that are shown on either side of it at most
 HEIGHT = 2.1  # in
@@ -25,7 +25,7 @@ FAINT_BAND = 0.09  # opacity of the 90 % bands where those of all variants overl
 
 
 @dataclass(frozen=True)
-class Frame:
+class QuantityFrame:
     """Scale of all figures of a quantity: factor and unit displayed, limits in SI, percentiles that are expected."""
 
     factor: float
@@ -52,7 +52,7 @@ class Frame:
         )
 
 
-def frame_of(quantity: Quantity, bands: Mapping[str, Bands]) -> Frame:
+def frame_of(quantity: FlightQuantity, bands: Mapping[str, Bands]) -> QuantityFrame:
     """Return one scale for all, which failed flights may leave, and errors over sigma far beyond expectation."""
     expected = expectation(quantity)
     everything = np.concatenate([band.finite_values() for band in bands.values()] + [np.asarray(expected)])
@@ -65,10 +65,12 @@ def frame_of(quantity: Quantity, bands: Mapping[str, Bands]) -> Frame:
         low, high = max(low, expected[0] - room), min(high, expected[-1] + room)
     start = min(band.time[0] for band in bands.values())
     end = max(time[-1] for band in bands.values() for time, _ in [(band.time, None), *band.singles])
-    return Frame(factor, unit, (float(start), float(end)), low, high, expected, quantity.held)
+    return QuantityFrame(factor, unit, (float(start), float(end)), low, high, expected, quantity.held)
 
 
-def band_figures(quantity: Quantity, bands: Mapping[str, Bands], styles: Mapping[str, Look], name: str) -> list[Figure]:
+def band_figures(
+    quantity: FlightQuantity, bands: Mapping[str, Bands], styles: Mapping[str, Look], name: str
+) -> list[Figure]:
     """Return a figure for each variant, all to one scale; a note states the range of one that exceeds it."""
     frame = frame_of(quantity, bands)
     return [
@@ -85,7 +87,7 @@ def band_figures(quantity: Quantity, bands: Mapping[str, Bands], styles: Mapping
     ]
 
 
-def band_chart(quantity: Quantity, band: Bands, colour: str, frame: Frame) -> Chart:
+def band_chart(quantity: FlightQuantity, band: Bands, colour: str, frame: QuantityFrame) -> Chart:
     """Return the median of a contender's flights over time with the bands of 50 and 90 %, and some flights."""
     rows, steps = frame.factor * band.percentiles, quantity.held
     areas = [
@@ -107,7 +109,7 @@ def band_chart(quantity: Quantity, band: Bands, colour: str, frame: Frame) -> Ch
 
 
 def overlaid_bands(
-    quantity: Quantity, bands: Mapping[str, Bands], styles: Mapping[str, Look], name: str
+    quantity: FlightQuantity, bands: Mapping[str, Bands], styles: Mapping[str, Look], name: str
 ) -> list[Figure]:
     """Return medians with the bands of nine tenths, to the scale of each variant's figure; nothing of a single one.
 

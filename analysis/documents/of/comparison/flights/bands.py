@@ -10,7 +10,7 @@ from scipy.stats import chi2, norm
 
 from .....campaigns.verdicts.order_statistics import quantiles
 from ...campaign.recorded_names import RATIO
-from .recorded import Flight, Quantity, doubling
+from .recorded import ComparedFlight, FlightQuantity, doubling
 
 LEVELS = (5.0, 25.0, 50.0, 75.0, 95.0)  # %
 MOST_TIMES = 300  # of a band
@@ -40,7 +40,7 @@ class Bands:
         return values[np.isfinite(values)]
 
 
-def bands_of(quantity: Quantity, flights: Sequence[Flight]) -> Bands | None:
+def bands_of(quantity: FlightQuantity, flights: Sequence[ComparedFlight]) -> Bands | None:
     """Return percentiles over the flights that last until a time; None without a flight that has the quantity.
 
     Times are rows of the longest flight, which are rows of the others too as long as they last; where not, a
@@ -64,11 +64,11 @@ def bands_of(quantity: Quantity, flights: Sequence[Flight]) -> Bands | None:
     return Bands(grid[enough], percentiles, len(histories), histories[:SINGLES], failed)
 
 
-def _has(flight: Flight, quantity: Quantity) -> bool:
+def _has(flight: ComparedFlight, quantity: FlightQuantity) -> bool:
     return flight.time.size > 1 and set(quantity.names) <= set(flight.signals)
 
 
-def _history(quantity: Quantity, flight: Flight) -> History:
+def _history(quantity: FlightQuantity, flight: ComparedFlight) -> History:
     rows = slice(0, -1 if quantity.kind == "commands" and flight.is_whole else None)
     return flight.time[rows], quantity.values(flight.signals)[rows]
 
@@ -84,7 +84,7 @@ def _resample(grid: np.ndarray, time: np.ndarray, values: np.ndarray, held: bool
     return np.where(inside, samples, np.nan)
 
 
-def expectation(quantity: Quantity) -> tuple[float, ...]:
+def expectation(quantity: FlightQuantity) -> tuple[float, ...]:
     """Return the outer and the middle one of LEVELS for errors of a consistent filter; empty for others."""
     variable = quantity.variable
     if variable == "normalised_error_square":

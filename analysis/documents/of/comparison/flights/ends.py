@@ -68,7 +68,7 @@ RADII = (0.5, 0.99)  # fractions of the trials that end within the distances sho
 
 
 @dataclass(frozen=True)
-class Dispersion:
+class EndDispersion:
     """Statistics of the ends of one variant, of the successful trials only; SI.
 
     ``mean`` and ``std`` are of the three elements, ``axes`` the semi-axes of the horizontal 1-sigma
@@ -83,18 +83,18 @@ class Dispersion:
     radii: list[float] | None
 
 
-def dispersion(ends: Ends) -> Dispersion:
+def dispersion(ends: Ends) -> EndDispersion:
     """Return the statistics of a variant's ends."""
     good = ends.errors[ends.success & np.all(np.isfinite(ends.errors), axis=1)]
     if not good.size:
-        return Dispersion(0, None, None, None, None)
+        return EndDispersion(0, None, None, None, None)
     miss = np.hypot(good[:, 0], good[:, 1])
     radii = [*quantiles(miss, RADII).tolist(), float(miss.max())]
     mean = good.mean(axis=0).tolist()
     if len(good) < 2:
-        return Dispersion(len(good), mean, None, None, radii)
+        return EndDispersion(len(good), mean, None, None, radii)
     axes = np.sqrt(np.maximum(np.linalg.eigvalsh(covariance(good)), 0.0))[::-1].tolist()
-    return Dispersion(len(good), mean, good.std(axis=0, ddof=1).tolist(), axes, radii)
+    return EndDispersion(len(good), mean, good.std(axis=0, ddof=1).tolist(), axes, radii)
 
 
 def covariance(good: np.ndarray) -> np.ndarray:

@@ -11,28 +11,28 @@ import numpy as np
 from .....campaigns.compare.comparison import Comparison
 from ...campaign.recorded_names import names_of_record
 from .bands import Bands, bands_of
-from .recorded import Flight, Quantity, quantities, read_flights, trials_with_traces
-from .trajectories import Bundle, bundle_of
+from .recorded import ComparedFlight, FlightQuantity, quantities, read_flights, trials_with_traces
+from .trajectories import VariantPaths, bundle_of
 
 
 @dataclass(frozen=True)
 class History:
     """A quantity over time with its percentiles by variant; ``constant`` is its value if it is the same throughout."""
 
-    quantity: Quantity
+    quantity: FlightQuantity
     bands: Mapping[str, Bands]
     name: str
     constant: float | None
 
 
 @dataclass(frozen=True)
-class Flights:
+class FlightHistories:
     """Recorded simulations by variant, their paths and quantities."""
 
     comparison: Comparison
 
     @cached_property
-    def by_label(self) -> dict[str, list[Flight]]:
+    def by_label(self) -> dict[str, list[ComparedFlight]]:
         """The simulations that are displayed."""
         trials = trials_with_traces(self.comparison.contenders.values())
         return {
@@ -41,7 +41,7 @@ class Flights:
         }
 
     @cached_property
-    def bundles(self) -> dict[str, Bundle]:
+    def bundles(self) -> dict[str, VariantPaths]:
         """Paths of the variants that have positions."""
         bundles = {
             label: bundle_of(self.comparison.contenders[label], flights) for label, flights in self.by_label.items()

@@ -9,14 +9,14 @@ from ...campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, variable_
 from ..distributions import MASS
 from ..sigma import is_over_sigma
 from .ends import UNITS
-from .recorded import Flight
+from .recorded import ComparedFlight
 
 PATH = frozenset(KNOWN) - {*DIRECTIONS, *CONSISTENCY}  # variables of what moves
 
 
 def missing_statements(
     comparison: Comparison,
-    flights: Mapping[str, list[Flight]],
+    flights: Mapping[str, list[ComparedFlight]],
     *,
     trajectories: bool,
     kinds: Collection[str],
@@ -60,7 +60,7 @@ def missing_statements(
     return reasons
 
 
-def is_biased(comparison: Comparison, flights: Mapping[str, list[Flight]]) -> bool:
+def is_biased(comparison: Comparison, flights: Mapping[str, list[ComparedFlight]]) -> bool:
     """Return True if the trials displayed over time differ between variants, or are failed ones only."""
     trials = {tuple(flight.trial for flight in retained) for retained in flights.values() if retained}
     records = [batch.document["record"] for batch in comparison.batches.values()]

@@ -35,7 +35,7 @@ MOST_ROWS = 500  # of a flight that are kept
 
 
 @dataclass(frozen=True)
-class Quantity:
+class FlightQuantity:
     """A number over time: computed from ``names`` by ``values``, in SI. ``held`` between rows if not Real."""
 
     label: str
@@ -48,7 +48,7 @@ class Quantity:
 
 
 @dataclass(frozen=True)
-class Flight:
+class ComparedFlight:
     """Recorded signals of a flight. ``success`` is the trial's; ``is_whole`` if the last row is the flight's last."""
 
     trial: int
@@ -58,27 +58,29 @@ class Flight:
     is_whole: bool
 
 
-def quantities(document: Provenance) -> list[Quantity]:
+def quantities(document: Provenance) -> list[FlightQuantity]:
     """Return every quantity over time that can be drawn, in order of their signals."""
     names = names_of_record(document)
-    listed: list[Quantity] = []
+    listed: list[FlightQuantity] = []
     selected: set[str] = set()
     altitude = any(variable_of(document, name) == "altitude" for name in names)
     for base, elements in vectors(names).items():
         variable = variable_of(document, base)
         if variable in DIRECTIONS:
             listed.append(
-                Quantity(f"{base} above the horizontal", variable, "rad", "commands", elements, _elevation(elements))
+                FlightQuantity(
+                    f"{base} above the horizontal", variable, "rad", "commands", elements, _elevation(elements)
+                )
             )
         elif variable == "velocity":
             listed.append(
-                Quantity(
+                FlightQuantity(
                     f"{base}, magnitude", variable, unit_of(document, elements[0]), "motion", elements, _norm(elements)
                 )
             )
         elif variable == "position" and not altitude:
             unit = unit_of(document, elements[2])
-            listed.append(Quantity(elements[2], variable, unit, "motion", elements[2:], _element(elements[2])))
+            listed.append(FlightQuantity(elements[2], variable, unit, "motion", elements[2:], _element(elements[2])))
         elif variable != "position":
             continue
         selected |= set(elements)
@@ -88,7 +90,7 @@ def quantities(document: Provenance) -> list[Quantity]:
             held = not is_real(document, name)
             unit = unit_of(document, name)
             kind = "consistency" if variable.endswith(RATIO) else KINDS.get(variable, "other")
-            listed.append(Quantity(name, variable, unit, kind, (name,), _element(name), held))
+            listed.append(FlightQuantity(name, variable, unit, kind, (name,), _element(name), held))
     return sorted(listed, key=lambda quantity: names.index(quantity.names[0]))
 
 
@@ -130,7 +132,7 @@ def doubling(ratio: float) -> int:
     return step
 
 
-def read_flights(contender: Contender, trials: Iterable[int], names: Sequence[str]) -> list[Flight]:
+def read_flights(contender: Contender, trials: Iterable[int], names: Sequence[str]) -> list[ComparedFlight]:
     """Return the traces of some trials with those of ``names`` that they have, thinned where rows are many."""
     number = {int(trial): row for row, trial in enumerate(contender.trials.trial)}
     flights = []
@@ -142,5 +144,5 @@ def read_flights(contender: Contender, trials: Iterable[int], names: Sequence[st
         time = thinned.pop("time")
         row = number[trial]
         whole = bool(time.size) and bool(time[-1] >= contender.trials.end_time[row])
-        flights.append(Flight(trial, bool(contender.trials.success[row]), time, thinned, whole))
+        flights.append(ComparedFlight(trial, bool(contender.trials.success[row]), time, thinned, whole))
     return flights

@@ -9,7 +9,7 @@ from ....cell import Inline, Quantity, Rich
 from ....model import Group, Missing, Node, Note, Section, Text
 from ....pictures import Figure, Figures
 from ...campaign.recorded_names import LETTERS
-from ..content import Content
+from ..content import ComparisonContent
 from ..distributions import all_values, metric_figures, overlaid_figures, sort_metrics
 from ..sigma import is_over_sigma, sigma_rows, sigma_table
 from .end_figures import BULK, UNEVEN, dispersion_figures, overlaid_ends
@@ -23,12 +23,12 @@ SIGMA = "\N{GREEK SMALL LETTER SIGMA}"
 OVER_TIME = ("commands", "motion", "other")
 
 
-def missing_nodes(content: Content, *keys: str) -> list[Node]:
+def missing_nodes(content: ComparisonContent, *keys: str) -> list[Node]:
     """Return statements of what the results lack."""
     return [Missing(content.missing[key]) for key in keys if key in content.missing]
 
 
-def trajectory_section(content: Content) -> list[Section]:
+def trajectory_section(content: ComparisonContent) -> list[Section]:
     """Return trajectories from the side and in plan, and what of them is missing."""
     nodes = missing_nodes(content, "trajectories", "traces")
     if is_biased(content.comparison, content.flights.by_label):
@@ -48,7 +48,7 @@ def trajectory_section(content: Content) -> list[Section]:
     return [Section("Trajectories", nodes)] if nodes else []
 
 
-def _trajectory_note(content: Content) -> Note:
+def _trajectory_note(content: ComparisonContent) -> Note:
     bundles = content.flights.bundles.values()
     radius = next((each.radius for each in bundles if each.radius is not None), None)
     axes = next((each.axes for each in bundles), LETTERS)
@@ -71,7 +71,7 @@ def _trajectory_note(content: Content) -> Note:
     )
 
 
-def end_section(content: Content) -> list[Section]:
+def end_section(content: ComparisonContent) -> list[Section]:
     """Return the ends of all variants in a figure for each variable."""
     ends = content.ends
     nodes = missing_nodes(content, "ends")
@@ -85,7 +85,7 @@ def end_section(content: Content) -> list[Section]:
     return [Section("At the end", nodes)] if nodes else []
 
 
-def _overlaid(content: Content) -> list[Figure]:
+def _overlaid(content: ComparisonContent) -> list[Figure]:
     return [
         figure
         for variable, of_all in content.ends.items()
@@ -93,7 +93,7 @@ def _overlaid(content: Content) -> list[Figure]:
     ]
 
 
-def time_sections(content: Content) -> list[Section]:
+def time_sections(content: ComparisonContent) -> list[Section]:
     """Return commands and motion over time, all variants in a figure and each variant."""
     histories = content.flights.of_kinds(*OVER_TIME)
     overlaid = overlaid_histories(histories, content.styles)
@@ -110,7 +110,7 @@ def time_sections(content: Content) -> list[Section]:
     return sections
 
 
-def _bands_text(content: Content) -> Text:
+def _bands_text(content: ComparisonContent) -> Text:
     numbers = {label: len(flights) for label, flights in content.flights.by_label.items()}
     counts: Rich
     if len(set(numbers.values())) == 1:
@@ -127,7 +127,7 @@ def _bands_text(content: Content) -> Text:
     ])  # fmt: skip
 
 
-def ends_by_variant_section(content: Content) -> list[Section]:
+def ends_by_variant_section(content: ComparisonContent) -> list[Section]:
     """Return the ends of each variant with their statistics, folded where a figure has those of all."""
     nodes: list[Node] = []
     for variable, of_all in content.ends.items():
@@ -153,7 +153,7 @@ ENDS = (
 )
 
 
-def error_section(content: Content) -> list[Section]:
+def error_section(content: ComparisonContent) -> list[Section]:
     """Return errors over the filter's standard deviation, at the end and over time."""
     compared, styles = content.comparison, content.styles
     nodes = missing_nodes(content, "consistency")
@@ -181,7 +181,7 @@ CONSISTENT = (
 )
 
 
-def _error_distributions(content: Content) -> Sequence[Node]:
+def _error_distributions(content: ComparisonContent) -> Sequence[Node]:
     compared, styles = content.comparison, content.styles
     errors = {metric: all_values(compared, metric) for metric in compared.metrics if is_over_sigma(metric)}
     varying, _, _ = sort_metrics(errors)

@@ -21,13 +21,13 @@ from ...campaign.recorded_names import (
     variable_of,
 )
 from .ends import target_of
-from .recorded import Flight
+from .recorded import ComparedFlight
 
 DRAWN = 40  # flights of a figure
 
 
 @dataclass(frozen=True)
-class Path:
+class FlightPath:
     """A flight in space: ``along`` (m from the target along the ground or, where that is not known to be round, along
     the horizontal line from the start to it, negative before it), ``height`` (m), and ``plan`` (x and y by rows, m)."""
 
@@ -38,14 +38,14 @@ class Path:
 
 
 @dataclass(frozen=True)
-class Bundle:
+class VariantPaths:
     """Paths of one variant, the horizontal position of its target, the name of its height.
 
     ``radius`` (m) is that of the body over whose ground downrange is; None where no altitude shows that it is round.
     ``axes`` are those of the frame of positions.
     """
 
-    paths: list[Path]
+    paths: list[FlightPath]
     target: np.ndarray
     height: str
     radius: float | None
@@ -57,7 +57,7 @@ class Bundle:
         return self.height.rpartition(".")[2] == "altitude"
 
 
-def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
+def bundle_of(contender: Contender, flights: Sequence[ComparedFlight]) -> VariantPaths | None:
     """Return the paths of a variant's flights, to their ends where final values are recorded; None without any."""
     document = contender.stored.document
     names = names_of_record(document)
@@ -86,11 +86,11 @@ def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
     paths = []
     for success, path, heights, aim in plotted:
         along = _along(path[:2], aim[:2]) if radius is None else downrange(path, radius, aim)
-        paths.append(Path(success, along, heights, path[:2]))
+        paths.append(FlightPath(success, along, heights, path[:2]))
     if not paths:
         return None
     title = displayed_name(height, {name: axis for name in position if (axis := axis_of(document, name))})
-    return Bundle(paths, target.values[0, :2], title, radius, axes_of(document, position))
+    return VariantPaths(paths, target.values[0, :2], title, radius, axes_of(document, position))
 
 
 def _along(plan: np.ndarray, target: np.ndarray) -> np.ndarray:

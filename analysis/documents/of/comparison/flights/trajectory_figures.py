@@ -20,14 +20,14 @@ from ....interactive.charts import NO_BOX, Axis, Chart, Curve
 from ....interactive.measures import FAILED_DASHES
 from ....pictures import Figure
 from .end_figures import TARGET
-from .trajectories import Bundle, Path
+from .trajectories import FlightPath, VariantPaths
 
 STRETCH = 4.0  # a plan whose sides differ by less is drawn to one scale both ways
 Polyline = tuple[np.ndarray, np.ndarray, bool]  # abscissas and ordinates of a path as displayed, True if it succeeded
 ROOM = 0.12  # of the successful flights' extent, around them; failed flights may leave it
 
 
-def side_figures(bundles: Mapping[str, Bundle], styles: Mapping[str, Look]) -> list[Figure]:
+def side_figures(bundles: Mapping[str, VariantPaths], styles: Mapping[str, Look]) -> list[Figure]:
     """Return height over downrange distance, one scale in all, with the surface below altitudes; not to scale."""
     framed = _frame(bundles)
     has_ground = all(bundle.over_ground for bundle in bundles.values())
@@ -63,7 +63,7 @@ def side_chart(paths: Sequence[Polyline], colour: str, x: Axis, y: Axis, *, has_
     )
 
 
-def plan_figures(bundles: Mapping[str, Bundle], styles: Mapping[str, Look]) -> list[Figure]:
+def plan_figures(bundles: Mapping[str, VariantPaths], styles: Mapping[str, Look]) -> list[Figure]:
     """Return paths from above with the target, one scale in all."""
     plans = [path.plan for path in _frame(bundles)]
     x, y = np.concatenate(plans + [bundle.target[:, np.newaxis] for bundle in bundles.values()], axis=1)
@@ -100,7 +100,7 @@ def _line(path: Polyline, colour: str) -> Curve:
     return line(x, y, INK, width=0.8, dashes=FAILED_DASHES, opacity=0.8)
 
 
-def _frame(bundles: Mapping[str, Bundle]) -> list[Path]:
+def _frame(bundles: Mapping[str, VariantPaths]) -> list[FlightPath]:
     """Return the paths that decide the scale: of successful flights, or all where none succeeded."""
     paths = [path for bundle in bundles.values() for path in bundle.paths]
     return [path for path in paths if path.success] or paths

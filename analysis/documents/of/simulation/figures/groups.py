@@ -26,7 +26,7 @@ from ....figures.scene.declared import SceneFigure
 from ....model import Group, Table
 from .band_figure import band_section, inside, settling_text
 from .history_figures import curve_section, error_section
-from .limits import Verdict, evaluate, limit_rows
+from .limits import LimitVerdict, evaluate, limit_rows
 from .path_figure import path_section
 from .phase_figure import budget_section, phase_section
 from .pulse_figure import pulse_section
@@ -118,7 +118,7 @@ def joint_findings(figures: Sequence[FigureDeclaration], result: Result) -> list
 
 def limit_section(limits: LimitsFigure, result: Result, is_counted: bool) -> Group:
     """Return the table of limits, how many are met and which not if ``is_counted``, or why none is evaluated."""
-    violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is Verdict.VIOLATED]
+    violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is LimitVerdict.VIOLATED]
     obstacle = limits.obstacle(result)
     total = len(limits.limits)
     verdicts = f"{total - len(violated)} of {total} limits met"

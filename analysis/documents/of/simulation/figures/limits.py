@@ -15,7 +15,7 @@ from ....render.words import cell_text
 from .words import value_range
 
 
-class Verdict(StrEnum):
+class LimitVerdict(StrEnum):
     """Verdict on a run against a limit."""
 
     MET = "met"
@@ -23,15 +23,19 @@ class Verdict(StrEnum):
     NOT_EVALUATED = "not evaluated"
 
 
-LABELS = {Verdict.MET: "PASS", Verdict.VIOLATED: "FAIL", Verdict.NOT_EVALUATED: "not evaluated"}
-GRADES: dict[Verdict, Grade] = {Verdict.MET: "pass", Verdict.VIOLATED: "fail", Verdict.NOT_EVALUATED: "not-applicable"}
+LABELS = {LimitVerdict.MET: "PASS", LimitVerdict.VIOLATED: "FAIL", LimitVerdict.NOT_EVALUATED: "not evaluated"}
+GRADES: dict[LimitVerdict, Grade] = {
+    LimitVerdict.MET: "pass",
+    LimitVerdict.VIOLATED: "fail",
+    LimitVerdict.NOT_EVALUATED: "not-applicable",
+}
 
 
-def evaluate(limits: LimitsFigure, result: Flight) -> list[tuple[Limit, Verdict]]:
+def evaluate(limits: LimitsFigure, result: Flight) -> list[tuple[Limit, LimitVerdict]]:
     """Return the limits in their order, each with its verdict."""
     if limits.obstacle(result):
-        return [(limit, Verdict.NOT_EVALUATED) for limit in limits.limits]
-    return [(limit, Verdict.MET if is_met(limit, result) else Verdict.VIOLATED) for limit in limits.limits]
+        return [(limit, LimitVerdict.NOT_EVALUATED) for limit in limits.limits]
+    return [(limit, LimitVerdict.MET if is_met(limit, result) else LimitVerdict.VIOLATED) for limit in limits.limits]
 
 
 def is_met(limit: Limit, result: Flight) -> bool:
@@ -63,7 +67,7 @@ def limit_document(figures: Sequence[FigureDeclaration], result: Flight) -> list
             document += limit_entries(figure, result)
         elif isinstance(figure, UnavailableFigure) and figure.has_limits:
             document += [
-                {"name": figure.title, "verdict": Verdict.NOT_EVALUATED, "reason": note} for note in figure.notes
+                {"name": figure.title, "verdict": LimitVerdict.NOT_EVALUATED, "reason": note} for note in figure.notes
             ]
     return document
 
@@ -85,11 +89,11 @@ def limit_entries(limits: LimitsFigure, result: Flight) -> list[dict[str, Any]]:
     ]
 
 
-def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Cell, ...]:
+def _row(limit: Limit, verdict: LimitVerdict, result: Flight) -> tuple[Cell, ...]:
     unit = limit.signal.unit_name
     return (
         limit.name,
-        NONE if verdict is Verdict.NOT_EVALUATED else Quantity(limit.value(result), unit, is_bare=True),
+        NONE if verdict is LimitVerdict.NOT_EVALUATED else Quantity(limit.value(result), unit, is_bare=True),
         value_range(limit.least, limit.most, unit),
         display_unit(unit),
         Judged(LABELS[verdict], GRADES[verdict]),

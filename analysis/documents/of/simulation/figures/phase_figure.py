@@ -15,7 +15,7 @@ from ....chart.marks import SQUARE, instant
 from ....common.colours import BLUE, INK, VERMILION
 from ....common.quantities import display_unit, label_with_unit, number
 from ....figures.declared import BoundValues, BudgetFigure, BudgetItem, PhasesFigure, SequencerPhase
-from ....interactive.charts import NO_BOX, Area, Chart, Note
+from ....interactive.charts import NO_BOX, Area, Chart, ChartNote
 from ....interactive.measures import TICK_SIZE
 from ....model import Group, Table
 from ....pictures import Figure
@@ -24,7 +24,7 @@ from .words import seconds
 
 
 @dataclass(frozen=True)
-class Span:
+class PhaseSpan:
     """A phase from ``begin`` to ``end`` (s); ``spent`` is its consumption, None where that is not declared."""
 
     name: str
@@ -33,7 +33,7 @@ class Span:
     spent: float | None
 
 
-def spans_of(phases: PhasesFigure, flight: Flight) -> list[Span]:
+def spans_of(phases: PhasesFigure, flight: Flight) -> list[PhaseSpan]:
     """Return the phases in the order of the flight; a value without a name is its own name.
 
     A phase lasts from its first sample to the first sample of the next one, the last phase to the end.
@@ -48,7 +48,7 @@ def spans_of(phases: PhasesFigure, flight: Flight) -> list[Span]:
     spent = None if phases.spent is None else phases.spent.values(flight)[0]
     lasts = [row for row, _ in firsts[1:]] + [values.size - 1]
     return [
-        Span(
+        PhaseSpan(
             name=name,
             begin=float(flight.time[first]),
             end=float(flight.time[last]),
@@ -112,7 +112,7 @@ def phase_section(phases: PhasesFigure, result: Result, name: str) -> Group:
     )
 
 
-def _windows(spans: Sequence[Span], statuses: Sequence[tuple[int, float]]) -> list[Window]:
+def _windows(spans: Sequence[PhaseSpan], statuses: Sequence[tuple[int, float]]) -> list[Window]:
     """Return the time windows of the plot: the flight, or what is before and after a long interval without an event."""
     begin, end = spans[0].begin, spans[-1].end
     events = sorted({begin, end, *(span.begin for span in spans), *(time for _, time in statuses)})
@@ -125,7 +125,9 @@ def _windows(spans: Sequence[Span], statuses: Sequence[tuple[int, float]]) -> li
     return [(begin, left + margin), (right - margin, end)]
 
 
-def phase_chart(spans: Sequence[Span], statuses: Sequence[tuple[int, float]], window: Window, intervals: int) -> Chart:
+def phase_chart(
+    spans: Sequence[PhaseSpan], statuses: Sequence[tuple[int, float]], window: Window, intervals: int
+) -> Chart:
     """Return the chart of what is within a window of time: a bar for each phase, a line for each time of a status."""
     lanes = list(dict.fromkeys(span.name for span in spans))
     begin, end = window
@@ -158,23 +160,23 @@ def phase_chart(spans: Sequence[Span], statuses: Sequence[tuple[int, float]], wi
     )
 
 
-def _duration(span: Span, at: float, lane: int, *, before: bool) -> Note:
+def _duration(span: PhaseSpan, at: float, lane: int, *, before: bool) -> ChartNote:
     """Return the duration of a phase, after its bar or ``before`` it."""
     offset, side = (-GAP, "right") if before else (GAP, "left")
     text = number(span.end - span.begin, 4)
-    return Note(text, (at, float(lane)), (False, False), (offset, 0.0), (side, "center"), INK, TICK_SIZE)
+    return ChartNote(text, (at, float(lane)), (False, False), (offset, 0.0), (side, "center"), INK, TICK_SIZE)
 
 
-def _status(time: float, numbers: str) -> Note:
+def _status(time: float, numbers: str) -> ChartNote:
     """Return the numbers of statuses above the axes."""
-    return Note(
+    return ChartNote(
         numbers, (time, 1.0), (False, True), (0.0, 3.0), ("center", "baseline"), VERMILION.lower(), TICK_SIZE, bold=True
     )
 
 
 def _figures(
     phases: PhasesFigure,
-    spans: Sequence[Span],
+    spans: Sequence[PhaseSpan],
     statuses: Sequence[tuple[int, float]],
     windows: Sequence[Window],
     name: str,
@@ -193,14 +195,14 @@ def _figures(
     return figures
 
 
-def _table(phases: PhasesFigure, spans: Sequence[Span]) -> Table:
+def _table(phases: PhasesFigure, spans: Sequence[PhaseSpan]) -> Table:
     heads = ["phase", "start, s", "duration, s"]
     unit = None if phases.spent is None else phases.spent.unit_name
     if phases.spent is not None:
         is_mass = phases.spent.label.rpartition(".")[2] == "mass"
         heads.append(label_with_unit("propellant" if is_mass else "consumption", unit))
     spent = [span.spent for span in spans if span.spent is not None]
-    rows = [*spans, Span("total", spans[0].begin, spans[-1].end, sum(spent) if spent else None)]
+    rows = [*spans, PhaseSpan("total", spans[0].begin, spans[-1].end, sum(spent) if spent else None)]
     columns: list[Sequence[Cell]] = [
         [span.name for span in rows],
         [Quantity(span.begin, digits=6) for span in rows],

@@ -15,7 +15,7 @@ from ....chart.symbols import mark, marks
 from ....chart.ticks import axis_ends
 from ....common.colours import BLUE, FAINT, INK, VERMILION
 from ....common.quantities import number
-from ....interactive.charts import NO_BOX, Axis, Chart, Curve, Note, Rule
+from ....interactive.charts import NO_BOX, Axis, Chart, ChartNote, Curve, Rule
 from .frequency import (
     BEHIND,
     DOTS,
@@ -56,7 +56,7 @@ def _gain_chart(loop: LoopReport, crossings: Classical) -> Chart:
     curve, gain, limit = loop.curve, crossings.gain_margin, limits_of(loop).gain
     abscissa = frequency_axis(float(curve.frequency[0]), float(curve.frequency[-1]))
     curves = [line(curve.frequency, in_db(curve.value), BLUE)]
-    notes: list[Note] = []
+    notes: list[ChartNote] = []
     if gain is not None and limit is not None:
         height = -limit if gain.value >= 1.0 else limit
         words = f"{number(limit)} dB"
@@ -86,7 +86,7 @@ def _phase_chart(loop: LoopReport, crossings: Classical) -> Chart:
     degrees = phase_of(curve, None if centre is None else centre.frequency)
     abscissa = frequency_axis(float(curve.frequency[0]), float(curve.frequency[-1]))
     curves = [line(curve.frequency, degrees, BLUE)]
-    notes: list[Note] = []
+    notes: list[ChartNote] = []
     plotted = [degrees]
     if phase is not None:
         at = float(np.interp(phase.frequency, curve.frequency, degrees))
@@ -129,7 +129,7 @@ def _within(axis: Axis, frequency: float) -> float:
     return min(max(frequency, axis.ends[0]), axis.ends[1])
 
 
-def _requirement(axis: Axis, frequency: float, height: float, words: str, *, to_right: bool) -> tuple[Curve, Note]:
+def _requirement(axis: Axis, frequency: float, height: float, words: str, *, to_right: bool) -> tuple[Curve, ChartNote]:
     """Return a required margin as a short dashed line at its crossover, with its size on the right or the left.
 
     A response falls: where it lies below the line it has passed it on the left, where above it does so on the right.
@@ -145,7 +145,7 @@ def _requirement(axis: Axis, frequency: float, height: float, words: str, *, to_
         else math.log10(ends[0]) < low + ROOM * (high - low)
     )
     at, offset, side = (ends[1], 3.0, "left") if is_right else (ends[0], -3.0, "right")
-    return dashed, Note(
+    return dashed, ChartNote(
         words, (at, height), (False, False), (offset, 0.0), (side, "center"), VERMILION.lower(), 8.0, backing=BEHIND
     )
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .....stability.loops.margin_values import Quantity
-from .....stability.loops.readings import Classical, Curve, decibel_size, decibels, degree_size
+from .....stability.loops.readings import Classical, FrequencyResponse, decibel_size, decibels, degree_size
 from .....stability.results.report import LoopReport
 from ....chart.axes import fine_axis, linear_axis
 from ....chart.lines import line
@@ -42,14 +42,14 @@ def in_db(values: np.ndarray) -> np.ndarray:
     return decibels(np.maximum(np.abs(values), FLOOR))
 
 
-def phase_of(curve: Curve, at: float | None) -> np.ndarray:
+def phase_of(curve: FrequencyResponse, at: float | None) -> np.ndarray:
     """Return the unwrapped phase (deg) of a curve, on the branch that at the frequency ``at`` is in (-360, 0]."""
     phase = np.degrees(np.unwrap(np.angle(curve.value)))
     reference = phase[len(phase) // 2] if at is None else float(np.interp(at, curve.frequency, phase))
     return phase - 360.0 * math.ceil(reference / 360.0)
 
 
-def nearest_phase(curve: Curve, phase: np.ndarray, measured: Curve) -> np.ndarray:
+def nearest_phase(curve: FrequencyResponse, phase: np.ndarray, measured: FrequencyResponse) -> np.ndarray:
     """Return the phase (deg) of measured points, each on the branch nearest to the curve's."""
     expected = np.interp(measured.frequency, curve.frequency, phase)
     degrees = np.degrees(np.angle(measured.value))
@@ -71,7 +71,7 @@ def phase_mark(*, is_decisive: bool) -> Marker:
     return marker("s", DECISIVE, VERMILION) if is_decisive else marker("s", MARK, VERMILION, fill=WHITE)
 
 
-def has_measurement(loop: LoopReport) -> Curve | None:
+def has_measurement(loop: LoopReport) -> FrequencyResponse | None:
     """Return the response of the frequency-response test where the curve is the linearisation's."""
     if loop.linearised is None or loop.measured_response is None:
         return None

@@ -17,7 +17,7 @@ from ....chart.marks import hatch, instant, level, outline
 from ....chart.symbols import BARB, arrow, mark, marker, marks
 from ....common.colours import BLUE, GREEN, INK, PURPLE, VERMILION
 from ....common.quantities import MINUS, number
-from ....interactive.charts import NO_BOX, Area, Chart, Curve, Note
+from ....interactive.charts import NO_BOX, Area, Chart, ChartNote, Curve
 from .frequency import (
     BEHIND,
     COMPLEMENTARY,
@@ -149,7 +149,7 @@ def nichols_chart(loop: LoopReport) -> Chart:
     )
 
 
-def _zone(limits: LimitLines) -> tuple[list[Area], list[Note]]:
+def _zone(limits: LimitLines) -> tuple[list[Area], list[ChartNote]]:
     """Return a diamond with corners at the required margins (dB, deg), and their sizes, empty where one is missing."""
     gain, phase = limits.gain, limits.phase
     if gain is None or phase is None:
@@ -158,11 +158,11 @@ def _zone(limits: LimitLines) -> tuple[list[Area], list[Note]]:
     y = gain * np.array([0.0, 1.0, 0.0, -1.0, 0.0])
     fill = Area(x, y, (False, False), FORBIDDEN, 1.0, 0.0)
     areas = [fill, hatch(x, y, VERMILION, 1.0), outline(x, y, VERMILION, 1.0)]
-    top = Note(
+    top = ChartNote(
         f"{number(gain)} dB", (-186.0, gain), (False, False), (0.0, 0.0), ("right", "bottom"), VERMILION.lower(), 8.0,
         backing=BEHIND,
     )  # fmt: skip
-    side = Note(
+    side = ChartNote(
         f"{number(phase)}°", (-184.0 - phase, 0.0), (False, False), (0.0, 0.0), ("right", "center"), VERMILION.lower(),
         8.0, backing=BEHIND,
     )  # fmt: skip

@@ -12,7 +12,7 @@ from ....chart.axes import linear_axis
 from ....chart.lines import line
 from ....chart.symbols import marker, marks
 from ....common.colours import BLUE, FAINT, INK, VERMILION
-from ....interactive.charts import NO_BOX, Backing, Chart, Curve, Note
+from ....interactive.charts import NO_BOX, Backing, Chart, ChartNote, Curve
 from .frequency import WHITE, faint_line
 
 DAMPINGS = (0.2, 0.5, 0.8)
@@ -87,7 +87,7 @@ def thin(poles: np.ndarray, extent: float) -> np.ndarray:
     return poles
 
 
-def _plane(curves: Sequence[Curve], centre: float, half: float, shape: float, notes: Sequence[Note]) -> Chart:
+def _plane(curves: Sequence[Curve], centre: float, half: float, shape: float, notes: Sequence[ChartNote]) -> Chart:
     """Return the plane about a centre on the real axis, with its grid and the ``notes`` of that."""
     return Chart(
         NO_BOX,
@@ -111,17 +111,19 @@ def _grid() -> list[Curve]:
     return curves
 
 
-def _damping_notes(poles: np.ndarray) -> list[Note]:
+def _damping_notes(poles: np.ndarray) -> list[ChartNote]:
     return [_damping_note(damping, poles) for damping in DAMPINGS]
 
 
-def _damping_note(damping: float, poles: np.ndarray) -> Note:
+def _damping_note(damping: float, poles: np.ndarray) -> ChartNote:
     """Return the number of a line of constant damping, at the first of some angles at which it covers no pole."""
     positions = np.exp((1j - damping / math.sqrt(1.0 - damping**2)) * np.pi * NOTES)
     distances = np.abs(poles[np.newaxis] - positions[:, np.newaxis]).min(axis=1, initial=np.inf)
     at = complex(positions[int(np.argmax(distances > CLEAR))])
     centred, backing = ("center", "center"), Backing(WHITE, 1.0, 0.6)
-    return Note(f"{damping:g}", (at.real, at.imag), (False, False), (0.0, 0.0), centred, FAINT, 8.0, backing=backing)
+    return ChartNote(
+        f"{damping:g}", (at.real, at.imag), (False, False), (0.0, 0.0), centred, FAINT, 8.0, backing=backing
+    )
 
 
 def intervals(width: float) -> int:
