@@ -1,4 +1,4 @@
-# make demo | test | quick | check ROOM=... | long | long-campaigns | build | web | docs | wheel | release | notebooks | explore | gains | checks | figures | screenshots | bench | sizes | bench-basilisk | crosscheck | basilisk | sanitize | fuzz | lowest | newest | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | check ROOM=... | long | coverage | long-campaigns | build | web | docs | wheel | release | notebooks | explore | gains | checks | figures | screenshots | bench | sizes | bench-basilisk | crosscheck | basilisk | sanitize | fuzz | lowest | newest | elementary | processors | browser | browser-firefox | emulator | windows | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # Basilisk: an environment of its own for cross-checks, and a folder next to ours for a plant.
@@ -36,6 +36,16 @@ check: build
 # The checks that take their whole size: every published start, system and noise, of which `make test` takes a part.
 long: build
 	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $$(grep -rlE 'support.lengths|mark.slow' tests --include='test_*.py')
+
+# Lines and branches of the product that the suite executes, children too: half an hour to an hour. A failure changes
+# little of the figures, which are printed all the same.
+coverage: export COVERAGE_FILE = $(CURDIR)/build/coverage/data
+coverage: build
+	rm -rf build/coverage && mkdir build/coverage
+	-$(BIN)/python -m coverage run -m pytest -n 2 --dist loadfile
+	$(BIN)/python -m coverage combine --quiet
+	$(BIN)/python -m coverage json --quiet -o build/coverage/report.json
+	$(BIN)/python -m tests.times.covered build/coverage/report.json
 
 # The same of campaigns alone: rare failures, worst cases beside a hundred thousand random trials, what drives metrics,
 # verdicts, campaigns that end early and go on; a quarter of an hour to an hour on two cores.
@@ -239,4 +249,4 @@ INSTALL = $(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --no
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick check long long-campaigns build web docs wheel release notebooks explore gains checks figures screenshots bench font sizes guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz lowest newest processors emulator windows browser browser-firefox lint clean
+.PHONY: demo test quick check coverage long long-campaigns build web docs wheel release notebooks explore gains checks figures screenshots bench font sizes guidance-cost bench-basilisk large importers crosscheck basilisk sanitize fuzz lowest newest processors emulator windows browser browser-firefox lint clean
