@@ -57,26 +57,26 @@ class JetAllocation(Block, interface=True):
     start_time = sampling.START_TIME.state()
     strength = State(JetStrength)
     attitude = State([1.0, 0.0, 0.0, 0.0], unit="1", description="normalised attitude quaternion")
-    wanted = State(Wrench)
+    demand = State(Wrench)
     new_thrust = State([0.0] * 8, unit="N", description="jet thrusts of the newest command")
     waiting = State(False, description="true: new_thrust has not been applied yet")
     due_time = State(0.0, unit="s", description="time at which new_thrust is applied")
     counted = State(0, description="command_count of the newest command")
 
     def allocate(self) -> None:
-        """Set new_thrust (N) and status from ``wanted``."""
+        """Set new_thrust (N) and status from ``demand``."""
 
-    def want(self) -> bool:
-        """Set attitude and the demand in body axes from the command; return if it is finite."""
+    def read_demand(self) -> bool:
+        """Set attitude and the demand in body axes from the command; return True if it is finite."""
         finite = self.translation_period > 0.0 and self.translation_period < LARGEST
         q = self.quaternion
         length = abs(q.w) + abs(q.x) + abs(q.y) + abs(q.z)
         if not length < LARGEST:
             finite = False
         self.attitude = normalise(q)
-        self.wanted = Wrench(force=to_body(self.attitude, self.force_command), torque=self.torque_command)
+        self.demand = Wrench(force=to_body(self.attitude, self.force_command), torque=self.torque_command)
         for k in range(3):
-            if not (abs(self.wanted.force[k]) < LARGEST and abs(self.wanted.torque[k]) < LARGEST):
+            if not (abs(self.demand.force[k]) < LARGEST and abs(self.demand.torque[k]) < LARGEST):
                 finite = False
         return finite
 
@@ -84,7 +84,7 @@ class JetAllocation(Block, interface=True):
         """Share out the command of ``time`` (s)."""
         self.counted = self.command_count
         self.waiting = True
-        finite = self.want()
+        finite = self.read_demand()
         if finite and is_attitude(self.quaternion):
             self.status = JetAllocationStatus.GOOD
             self.due_time = time + self.delay_fraction * self.translation_period

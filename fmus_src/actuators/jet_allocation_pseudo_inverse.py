@@ -16,7 +16,7 @@ class JetAllocationPseudoInverse(JetAllocation):
     """
 
     def allocate(self) -> None:
-        possible = pseudo_inverse(self.strength, self.wanted, self.new_thrust)
+        possible = pseudo_inverse(self.strength, self.demand, self.new_thrust)
         if not possible:
             self.status = JetAllocationStatus.TORQUE_LEFT_OUT
         scale = shift_and_scale(self.new_thrust, self.maximum_thrust)

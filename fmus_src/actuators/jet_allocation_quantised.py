@@ -32,20 +32,20 @@ class JetAllocationQuantised(JetAllocation):
     )
 
     def allocate(self) -> None:
-        owed = to_body(self.attitude, self.owed_impulse)
+        owed_body = to_body(self.attitude, self.owed_impulse)
         for i in range(3):
-            cannot = self.strength.force[i] == 0.0 and self.wanted.force[i] != 0.0
-            if cannot or self.wanted.torque[i] != 0.0:
+            cannot = self.strength.force[i] == 0.0 and self.demand.force[i] != 0.0
+            if cannot or self.demand.torque[i] != 0.0:
                 self.status = JetAllocationStatus.TORQUE_LEFT_OUT
-        force = self.wanted.force + owed / self.translation_period
+        force_body = self.demand.force + owed_body / self.translation_period
         highest = float(math.floor(self.maximum_thrust / self.thrust_quantum + 1e-9))
-        levels, scale = nearest_levels(self.strength.force, force, self.thrust_quantum, highest)
+        levels, scale = nearest_levels(self.strength.force, force_body, self.thrust_quantum, highest)
         if scale < 1.0:
             self.status = JetAllocationStatus.SATURATED
         thrust_of_levels(levels, self.thrust_quantum, self.new_thrust)
-        left = [0.0] * 3
+        left_body = [0.0] * 3
         for i in range(3):
             if self.strength.force[i] != 0.0:
-                given = 2.0 * self.thrust_quantum * self.strength.force[i] * levels[i]
-                left[i] = (scale * force[i] - given) * self.translation_period
-        self.owed_impulse = to_reference(self.attitude, vector(*left))
+                applied = 2.0 * self.thrust_quantum * self.strength.force[i] * levels[i]
+                left_body[i] = (scale * force_body[i] - applied) * self.translation_period
+        self.owed_impulse = to_reference(self.attitude, vector(*left_body))

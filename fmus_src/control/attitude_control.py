@@ -118,18 +118,18 @@ class AttitudeControl(Block):
         self.status = AttitudeControlStatus.GOOD
         half = 0.5 * self.period
         planned = self.to_true_axes(self.planned_angular_velocity)
-        wanted = self.to_true_axes(self.planned_angular_acceleration)
+        acceleration = self.to_true_axes(self.planned_angular_acceleration)
         m = self.correction()
         jets = vector(0.0, 0.0, 0.0)
         if self.feed_forward:
             jets = self.jet_torque + self.inertia * self.disturbance
         rate = planned + self.rate_error
-        wanted = wanted + cross(planned, rate) - m
+        acceleration = acceleration + cross(planned, rate) - m
         momentum = self.inertia * rate + self.gyro_momentum
         # half a period later: the momentum in axes of the turning body, and its angular velocity
         momentum = momentum + half * (jets - cross(rate, momentum))
-        rate = rate + half * wanted
-        self.torque_command = cross(rate, momentum) + self.inertia * wanted - jets
+        rate = rate + half * acceleration
+        self.torque_command = cross(rate, momentum) + self.inertia * acceleration - jets
 
     def step(self, t: float, h: float) -> None:
         self.period = self.sample_period

@@ -42,12 +42,12 @@ class OrbitalArrivalControl(OrbitalControl):
         if left < self.least_time:
             left = self.least_time
         beyond = abs(error) - self.band[k]
-        wanted = led
+        required_rate = led
         if beyond > 0.0:
-            wanted = led - math.copysign(beyond, error) / left
-        change = wanted - rate
+            required_rate = led - math.copysign(beyond, error) / left
+        change = required_rate - rate
         mobility = self.inverse_inertia[k, k]
-        worth = WORTHWHILE * abs(wanted)
+        worth = WORTHWHILE * abs(required_rate)
         minimum = mobility * self.jet_torque[k] * self.shortest_pulse
         if worth < minimum:
             worth = minimum

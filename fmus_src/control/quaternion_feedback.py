@@ -112,11 +112,13 @@ class QuaternionFeedback(Block):
         rotation = difference(normalise(self.reference.reference_quaternion), normalise(self.estimated_quaternion))
         self.attitude_error = 2.0 * rotation[1:4]
         w = self.estimated_angular_velocity
-        wanted_rate = to_body(rotation, self.reference.reference_angular_velocity)
-        wanted = to_body(rotation, self.reference.reference_angular_acceleration) + cross(wanted_rate, w)
-        correction = self.correction(self.attitude_error, w - wanted_rate)
-        wanted = wanted - correction
-        self.torque_command = cross(w, self.inertia @ w + self.wheel_momentum) + self.inertia @ wanted
+        reference_rate_body = to_body(rotation, self.reference.reference_angular_velocity)
+        acceleration_body = to_body(rotation, self.reference.reference_angular_acceleration) + cross(
+            reference_rate_body, w
+        )
+        correction = self.correction(self.attitude_error, w - reference_rate_body)
+        acceleration_body = acceleration_body - correction
+        self.torque_command = cross(w, self.inertia @ w + self.wheel_momentum) + self.inertia @ acceleration_body
         if norm(self.feedforward_torque) > 0.0:
             self.torque_command = self.torque_command + self.feedforward_torque
 

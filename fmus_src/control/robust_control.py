@@ -40,12 +40,12 @@ class RobustControl(EntryControl):
         s0 = sin(self.trim_attack)
         along = w.x * c0 - w.y * s0
         across = w.x * s0 + w.y * c0
-        wanted = (
+        acceleration = (
             self.reference.bank_acceleration
             - self.bank_damping * (along - self.reference.bank_rate)
             - self.bank_stiffness * self.bank_error()
         )
-        wanted = clip(wanted, -self.largest_acceleration, self.largest_acceleration)
+        acceleration = clip(acceleration, -self.largest_acceleration, self.largest_acceleration)
         damped = -self.sideslip_damping * across
-        turn = vector(c0 * wanted + s0 * damped, c0 * damped - s0 * wanted, -self.pitch_damping * w.z)
+        turn = vector(c0 * acceleration + s0 * damped, c0 * damped - s0 * acceleration, -self.pitch_damping * w.z)
         return self.inertia @ turn

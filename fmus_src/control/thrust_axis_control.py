@@ -99,8 +99,8 @@ class ThrustAxisControl(Block):
 
     def control(self, time: float) -> None:
         """Set the command for ``time`` (s)."""
-        wanted = self.command_rate(time)
-        demanded = self.angular_acceleration_feed + self.rate_gain * (wanted - self.angular_rate)
+        commanded_rate = self.command_rate(time)
+        demanded = self.angular_acceleration_feed + self.rate_gain * (commanded_rate - self.angular_rate)
         self.angular_acceleration = demanded
         self.status = ThrustAxisStatus.GOOD
         if self.maximum_angular_acceleration > 0.0 and norm(demanded) > self.maximum_angular_acceleration:

@@ -64,13 +64,13 @@ class SpaceEnvironment(SpaceModel):
             self.status = EnvironmentStatus.OUTSIDE_YEARS
         if self.is_below_air(r):
             self.status = EnvironmentStatus.BELOW_AIR
-        to_sun = self.sun - r
-        field = self.flux_density(t, r)
-        self.environment.sun_distance = norm(to_sun)
-        self.environment.sun_direction = to_sun / norm(to_sun)
+        sun_inertial = self.sun - r
+        field_inertial = self.flux_density(t, r)
+        self.environment.sun_distance = norm(sun_inertial)
+        self.environment.sun_direction = sun_inertial / norm(sun_inertial)
         self.environment.moon_position = self.moon()
         self.environment.illumination = self.light(r)
-        self.environment.magnetic_field = field
-        self.environment.magnetic_field_body = to_body(normalise(q), field)
+        self.environment.magnetic_field = field_inertial
+        self.environment.magnetic_field_body = to_body(normalise(q), field_inertial)
         self.environment.density = self.air_density(t, r)
         self.environment.planet_angle = self.planet_angle_at(t)

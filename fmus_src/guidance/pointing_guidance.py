@@ -128,11 +128,11 @@ class PointingGuidance(Block):
         if q.w < 0.0:
             q = -q
         square = dot(r, r)
-        w = h / square + dot(self.oblate_acceleration(r), h) / (momentum * momentum) * r
-        w = to_body(q, w)
+        w_inertial = h / square + dot(self.oblate_acceleration(r), h) / (momentum * momentum) * r
+        w_body = to_body(q, w_inertial)
         self.reference.reference_quaternion = q
-        self.reference.reference_angular_velocity = w
-        self.reference.reference_angular_acceleration = -2.0 * dot(r, v) / square * w
+        self.reference.reference_angular_velocity = w_body
+        self.reference.reference_angular_acceleration = -2.0 * dot(r, v) / square * w_body
 
     def point_to_sun(self) -> None:
         """Set the reference of SUN."""

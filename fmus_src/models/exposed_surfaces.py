@@ -83,16 +83,18 @@ class ExposedSurfaces(SpaceModel, interface=True):
             return SurfaceLoad(force=force, torque=torque)
         density = self.air_density(t, r)
         if density > 0.0:
-            wind = to_body(q, v - self.air_velocity(r))
-            drag = plate_drag(self.surfaces, density, wind)
-            force = drag.force + sphere_drag(self.sphere_area, self.sphere_drag, density, wind)
+            wind_body = to_body(q, v - self.air_velocity(r))
+            drag = plate_drag(self.surfaces, density, wind_body)
+            force = drag.force + sphere_drag(self.sphere_area, self.sphere_drag, density, wind_body)
             torque = drag.torque
         light = self.light(r)
         if light > 0.0:
-            away = self.sun - r
-            pressure = pressure_at(norm(away), light)
-            sun = to_body(q, away / norm(away))
-            solar = plate_pressure(self.surfaces, pressure, sun)
-            force = force + solar.force + sphere_pressure(self.sphere_area, self.sphere_reflectivity, pressure, sun)
+            sun_inertial = self.sun - r
+            pressure = pressure_at(norm(sun_inertial), light)
+            sun_body = to_body(q, sun_inertial / norm(sun_inertial))
+            solar = plate_pressure(self.surfaces, pressure, sun_body)
+            force = (
+                force + solar.force + sphere_pressure(self.sphere_area, self.sphere_reflectivity, pressure, sun_body)
+            )
             torque = torque + solar.torque
         return SurfaceLoad(force=force, torque=torque)

@@ -142,14 +142,14 @@ class AttitudeFilter(Block):
 
     def predict(self, h: float) -> None:
         """Move estimate and covariance by h (s): the total momentum stays in inertial axes but for the jets."""
-        momentum = self.inertia * self.angular_velocity + self.last_momentum
+        momentum_body = self.inertia * self.angular_velocity + self.last_momentum
         # half of what jets and disturbance give over h, and the angular velocity in the middle
-        impulse = 0.5 * h * (self.jet_torque + self.inertia * self.disturbance)
-        selected = 0.5 * (h * cross(self.angular_velocity, momentum) + self.gyro_momentum - self.last_momentum)
-        turned = from_rotation_vector(h * (self.angular_velocity + (impulse - selected) / self.inertia))
-        self.quaternion = normalise(multiply(self.quaternion, turned))
-        momentum = to_body(turned, momentum + impulse) + impulse
-        self.angular_velocity = (momentum - self.gyro_momentum) / self.inertia
+        impulse_body = 0.5 * h * (self.jet_torque + self.inertia * self.disturbance)
+        selected = 0.5 * (h * cross(self.angular_velocity, momentum_body) + self.gyro_momentum - self.last_momentum)
+        rotation = from_rotation_vector(h * (self.angular_velocity + (impulse_body - selected) / self.inertia))
+        self.quaternion = normalise(multiply(self.quaternion, rotation))
+        momentum_body = to_body(rotation, momentum_body + impulse_body) + impulse_body
+        self.angular_velocity = (momentum_body - self.gyro_momentum) / self.inertia
         self.widen()
         self.covariance = predict_triple(self.covariance, self.process_noise, self.disturbance_noise, h)
 
@@ -211,8 +211,8 @@ class AttitudeFilter(Block):
             self.quaternion = multiply(self.planned_quaternion, from_rotation_vector(self.attitude_error))
             return
         self.attitude_error = angle_error(self.planned_quaternion, self.quaternion)
-        turned = difference(self.planned_quaternion, self.quaternion)
-        self.rate_error = self.angular_velocity - to_body(turned, self.planned_angular_velocity)
+        rotation = difference(self.planned_quaternion, self.quaternion)
+        self.rate_error = self.angular_velocity - to_body(rotation, self.planned_angular_velocity)
         self.attitude_error_sigma = math.sqrt(self.covariance[TRACKED, TRACKED])
         self.rate_error_sigma = math.sqrt(self.covariance[RATE, RATE])
 

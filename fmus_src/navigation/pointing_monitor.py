@@ -66,9 +66,11 @@ class PointingMonitor(Block):
         self.attitude_error = to_rotation_vector(difference(self.reference_quaternion, self.quaternion))
         self.pointing_error = norm(to_rotation_vector(difference(self.target_quaternion, self.quaternion)))
         self.knowledge_error = to_rotation_vector(difference(self.quaternion, self.estimated_quaternion))
-        aim = to_reference(self.quaternion, self.boresight)
-        reference = to_reference(self.reference_quaternion, self.boresight)
-        self.half_cone = atan2(norm(cross(aim, reference)), dot(aim, reference))
+        aim_inertial = to_reference(self.quaternion, self.boresight)
+        reference_aim_inertial = to_reference(self.reference_quaternion, self.boresight)
+        self.half_cone = atan2(
+            norm(cross(aim_inertial, reference_aim_inertial)), dot(aim_inertial, reference_aim_inertial)
+        )
         self.rate = norm(self.angular_velocity)
         within = self.pointing_error <= self.angle_limit and self.rate <= self.rate_limit
         if not (within and self.pointing):

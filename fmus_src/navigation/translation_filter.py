@@ -125,11 +125,11 @@ class TranslationFilter(Block):
         middle = normalise(self.last_quaternion)
         if is_attitude(self.quaternion):
             middle = normalise(self.last_quaternion + self.quaternion)
-        force = to_reference(middle, self.allocated_force)
-        uncertain = self.force_error * norm(force) / self.mass
+        force_inertial = to_reference(middle, self.allocated_force)
+        uncertain = self.force_error * norm(force_inertial) / self.mass
         density = self.process_noise + uncertain * uncertain * self.force_error_time
         self.covariance = predict_pair(self.covariance, density, h)
-        gained = force / self.mass * h - (self.planned_velocity - self.last_velocity)
+        gained = force_inertial / self.mass * h - (self.planned_velocity - self.last_velocity)
         self.position_error = self.position_error + h * (self.velocity_error + 0.5 * gained)
         self.velocity_error = self.velocity_error + gained
 

@@ -240,19 +240,21 @@ class EntryCapsule(Block):
         """Return rates of the state under a torque of the jets (N m, body): docs/systems/entry_attitude.md, motion."""
         functions = evaluate_path(s)
         axes = body_axes(s.attitude)
-        v = in_body(axes, vector(s.speed, 0.0, 0.0) - self.wind)
+        air_velocity_body = in_body(axes, vector(s.speed, 0.0, 0.0) - self.wind)
         standard = self.standard_air(s.radius - self.earth_radius)
         gas = replace(standard, density=standard.density * self.density_factor)
-        force = self.air_force(v, gas)
-        speed = norm(v)
+        force_body = self.air_force(air_velocity_body, gas)
+        speed = norm(air_velocity_body)
         length = self.reference_length
         damping = 0.5 * self.damping_coefficient * gas.density * speed * self.reference_area * length * length
         w = s.angular_velocity
-        moment = cross(self.pressure_arm, force) + damping * w + torque
-        acceleration = (force.x * axes.x + force.y * axes.y + force.z * axes.z) / self.mass
-        acceleration = acceleration + earth_forces(s, functions, self.gravitational_parameter, self.earth_rate)
-        path = path_rate(s, functions, acceleration)
-        relative = w - in_body(axes, velocity_axes_rate(s, functions, path, self.earth_rate))
+        moment_body = cross(self.pressure_arm, force_body) + damping * w + torque
+        acceleration_velocity = (force_body.x * axes.x + force_body.y * axes.y + force_body.z * axes.z) / self.mass
+        acceleration_velocity = acceleration_velocity + earth_forces(
+            s, functions, self.gravitational_parameter, self.earth_rate
+        )
+        path = path_rate(s, functions, acceleration_velocity)
+        relative_rate_body = w - in_body(axes, velocity_axes_rate(s, functions, path, self.earth_rate))
         return EntryState(
             radius=path.radius,
             longitude=path.longitude,
@@ -260,8 +262,8 @@ class EntryCapsule(Block):
             speed=path.speed,
             flight_path_angle=path.flight_path_angle,
             heading=path.heading,
-            attitude=attitude_rates(s.attitude, relative),
-            angular_velocity=self.inverse_inertia @ (cross(self.inertia @ w, w) + moment),
+            attitude=attitude_rates(s.attitude, relative_rate_body),
+            angular_velocity=self.inverse_inertia @ (cross(self.inertia @ w, w) + moment_body),
         )
 
     def jet(self, positive: int, negative: int, length: float, time: float) -> float:

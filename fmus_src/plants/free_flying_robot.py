@@ -102,16 +102,16 @@ class FreeFlyingRobot(Block):
         self.angular_velocity = self.initial_angular_velocity
         self.gimbal_angles = self.initial_gimbal_angles
         self.measure_gyros()
-        body = self.inertia * self.angular_velocity + self.gyro_momentum
-        self.angular_momentum = to_reference(self.quaternion, body)
+        momentum_body = self.inertia * self.angular_velocity + self.gyro_momentum
+        self.angular_momentum = to_reference(self.quaternion, momentum_body)
 
     def measure_gyros(self) -> None:
         """Set gyro_momentum from the gimbal angles."""
         self.gyro_momentum = self.rotor_momentum * cluster_momentum(self.gimbal_angles)
 
-    def rate(self, q: Vector4, momentum: Vector3) -> Vector3:
+    def rate(self, q: Vector4, momentum_inertial: Vector3) -> Vector3:
         """Return angular velocity (rad/s, body) for attitude and momentum G at the gyros' present state."""
-        return (to_body(q, momentum) - self.gyro_momentum) / self.inertia
+        return (to_body(q, momentum_inertial) - self.gyro_momentum) / self.inertia
 
     def turn_gimbals(self, h: float) -> None:
         """Turn the gimbals for h (s)."""

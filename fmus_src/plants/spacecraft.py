@@ -168,8 +168,8 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         inverse_whole, _ = inverse(self.inertia)
         self.fastest = self.largest_frequency(self.mass, inverse_whole)
         self.modal_momenta = self.rotation.T @ self.angular_velocity
-        momentum = self.inertia @ self.angular_velocity + self.wheel_momentum
-        self.angular_momentum = to_reference(self.quaternion, momentum)
+        momentum_body = self.inertia @ self.angular_velocity + self.wheel_momentum
+        self.angular_momentum = to_reference(self.quaternion, momentum_body)
         self.locate(self.start_time)
         if not norm(self.position) > 0.0 or self.height(self.position) < 0.0:
             self.status = SpacecraftStatus.BELOW_SURFACE
@@ -184,14 +184,14 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
     def loads(self, t: float, s: SpacecraftMotion, inputs: StepInputs) -> Loads:
         """Return what acts but for gravity."""
         surface = self.surface_load(t, s.position, s.velocity, s.quaternion)
-        down = to_body(s.quaternion, s.position)
-        disturbance = surface.torque + gravity_gradient_torque(down, self.inertia, self.gravity_parameter())
+        position_body = to_body(s.quaternion, s.position)
+        disturbance = surface.torque + gravity_gradient_torque(position_body, self.inertia, self.gravity_parameter())
         disturbance = disturbance + self.further_torque(t, s)
         commanded = inputs.torque + cross(self.force_point, inputs.force)
         if norm(inputs.dipole) > 0.0 or norm(self.residual_dipole) > 0.0:
-            field = to_body(s.quaternion, self.flux_density(t, s.position))
-            disturbance = disturbance + cross(self.residual_dipole, field)
-            commanded = commanded + cross(inputs.dipole, field)
+            field_body = to_body(s.quaternion, self.flux_density(t, s.position))
+            disturbance = disturbance + cross(self.residual_dipole, field_body)
+            commanded = commanded + cross(inputs.dipole, field_body)
         return Loads(force=surface.force + inputs.force, torque=disturbance + commanded, disturbance=disturbance)
 
     def rate(self, s: SpacecraftMotion) -> Vector3:
@@ -203,18 +203,18 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         """Return the rates of the motion."""
         w = self.rate(s)
         loads = self.loads(t, s, inputs)
-        acceleration = loads.force / self.mass
+        acceleration_body = loads.force / self.mass
         velocities = self.modal_velocities(s.momenta, w)
         centre = self.displaced_centre(s.displacements, self.mass)
         fall = self.gravity(t, s.position) + self.third_body_gravity(s.position) + inputs.acceleration
         return SpacecraftMotion(
             position=s.velocity,
-            velocity=fall + to_reference(s.quaternion, acceleration),
+            velocity=fall + to_reference(s.quaternion, acceleration_body),
             quaternion=multiply(s.quaternion, quaternion(0.0, 0.5 * w)),
             angular_momentum=to_reference(s.quaternion, loads.torque - cross(centre, loads.force)),
             spin=inputs.motors + self.drags(self.speeds(s.spin, w)),
             displacements=velocities,
-            momenta=self.modal_forces(s.displacements, velocities, acceleration),
+            momenta=self.modal_forces(s.displacements, velocities, acceleration_body),
         )
 
     def limit_inputs(self) -> StepInputs:

@@ -85,8 +85,8 @@ class WheelSatellite(SpinningWheels):
         if not (invertible and is_positive_definite(locked)):
             self.status = WheelSatelliteStatus.NO_INERTIA
         self.quaternion = normalise(self.initial_quaternion)
-        momentum = self.inertia @ self.angular_velocity + self.wheel_momentum
-        self.angular_momentum = to_reference(self.quaternion, momentum)
+        momentum_body = self.inertia @ self.angular_velocity + self.wheel_momentum
+        self.angular_momentum = to_reference(self.quaternion, momentum_body)
 
     def rate(self, s: SatelliteMotion) -> Vector3:
         """Return angular velocity (rad/s, body)."""

@@ -108,22 +108,22 @@ class StarInertial(RandomSensor):
             rotation = across(rotation, self.axis) + self.roll_sigma * dot(numbers, self.axis) * self.axis
         return rotation
 
-    def is_within(self, aim: Vector3, direction: Vector3, angle: float) -> bool:
-        """Return True if a direction is within an angle (rad) of the unit vector aim."""
+    def is_within(self, aim_inertial: Vector3, direction: Vector3, angle: float) -> bool:
+        """Return True if a direction is within an angle (rad) of the unit vector ``aim_inertial``."""
         if angle > 0.0:
-            return dot(aim, direction) > cos(angle) * norm(direction)
+            return dot(aim_inertial, direction) > cos(angle) * norm(direction)
         return False
 
     def assess(self) -> None:
         """Set the status of a sample that is taken now."""
-        aim = to_reference(normalise(self.quaternion), self.axis)
-        dazzled = self.is_within(aim, self.sun_direction, self.sun_exclusion)
-        if self.is_within(aim, self.moon_position - self.position, self.moon_exclusion):
+        aim_inertial = to_reference(normalise(self.quaternion), self.axis)
+        dazzled = self.is_within(aim_inertial, self.sun_direction, self.sun_exclusion)
+        if self.is_within(aim_inertial, self.moon_position - self.position, self.moon_exclusion):
             dazzled = True
         distance = norm(self.position)
         if self.limb_exclusion > 0.0 and distance > self.body_radius:
             disk = asin(self.body_radius / distance)
-            if self.is_within(aim, -self.position, disk + self.limb_exclusion):
+            if self.is_within(aim_inertial, -self.position, disk + self.limb_exclusion):
                 dazzled = True
         self.status = StarTrackerStatus.GOOD
         if dazzled:

@@ -133,28 +133,28 @@ class SunSensors(RandomSensor):
         if not (finite and math.isfinite(q.w) and is_finite(q[1:4]) and is_attitude(q)):
             return
         q = normalise(q)
-        sun = to_body(q, self.sun_direction)
-        down = vector(0.0, 0.0, 0.0)
+        sun_body = to_body(q, self.sun_direction)
+        nadir_body = vector(0.0, 0.0, 0.0)
         if norm(self.position) > 0.0:
-            down = to_body(q, -self.position / norm(self.position))
-        total = vector(0.0, 0.0, 0.0)
+            nadir_body = to_body(q, -self.position / norm(self.position))
+        sum_body = vector(0.0, 0.0, 0.0)
         for k in range(HEADS):
             noise = first[k % 3]
             if k > 2:
                 noise = second[k % 3]
-            normal = self.normals_of_heads[k, 0:3]
-            self.currents[k] = self.current(normal, self.scales[k], sun, down) + self.sigma * noise
-            total = total + self.currents[k] * normal
-        length = norm(total)
-        direction = total
+            normal_body = self.normals_of_heads[k, 0:3]
+            self.currents[k] = self.current(normal_body, self.scales[k], sun_body, nadir_body) + self.sigma * noise
+            sum_body = sum_body + self.currents[k] * normal_body
+        length = norm(sum_body)
+        direction_body = sum_body
         aim = norm(self.boresight)
-        in_field = aim > 0.0 and dot(sun, self.boresight) >= aim * cos(self.fine_field)
+        in_field = aim > 0.0 and dot(sun_body, self.boresight) >= aim * cos(self.fine_field)
         if self.fine_sigma > 0.0 and in_field and self.illumination > BRIGHTNESS:
-            direction = to_reference(from_rotation_vector(self.fine_sigma * turn), sun)
+            direction_body = to_reference(from_rotation_vector(self.fine_sigma * turn), sun_body)
             length = 1.0
         self.status = SunSensorStatus.NO_SUN
         if length > self.threshold:
             self.status = SunSensorStatus.GOOD
             self.valid = True
-            self.measured_direction = direction / norm(direction)
+            self.measured_direction = direction_body / norm(direction_body)
             self.sample_count = self.sample_count + 1

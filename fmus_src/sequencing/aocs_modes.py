@@ -110,9 +110,9 @@ class AocsModes(Block):
         """Return True if the condition for the next mode holds."""
         if self.mode == AocsMode.DETUMBLE:
             return norm(self.estimated_angular_velocity) < self.calm_rate
-        sun = to_body(normalise(self.estimated_quaternion), self.sun_direction)
-        sine = norm(cross(self.panel_normal, sun))
-        cosine = dot(self.panel_normal, sun)
+        sun_body = to_body(normalise(self.estimated_quaternion), self.sun_direction)
+        sine = norm(cross(self.panel_normal, sun_body))
+        cosine = dot(self.panel_normal, sun_body)
         return self.knows_attitude() and sine + abs(cosine) > 0.0 and atan2(sine, cosine) < self.sun_error
 
     def set_mode(self, t: float) -> None:

@@ -76,29 +76,29 @@ def jet_wrench(strength: JetStrength, thrust: list) -> Wrench:
     )
 
 
-def add_component(signs: tuple, strength: float, wanted: float, thrust: list) -> bool:
+def add_component(signs: tuple, strength: float, demand: float, thrust: list) -> bool:
     """Add to thrust the part that gives a force or torque along an axis; return if the geometry can give it."""
     if strength == 0.0:
-        return wanted == 0.0
-    fraction = wanted / (8.0 * strength)
+        return demand == 0.0
+    fraction = demand / (8.0 * strength)
     for p in range(JETS):
         thrust[p] = thrust[p] + signs[p] * fraction
     return True
 
 
-def pseudo_inverse(strength: JetStrength, wanted: Wrench, thrust: list) -> bool:
-    """Set thrust to the shortest solution of B thrust = wanted, negative thrusts included.
+def pseudo_inverse(strength: JetStrength, demand: Wrench, thrust: list) -> bool:
+    """Set thrust to the shortest solution of B thrust = demand, negative thrusts included.
 
     Returns whether the geometry can give the wrench; a component that it cannot give is left out.
     """
     for p in range(JETS):
         thrust[p] = 0.0
-    fx = add_component(X, strength.force.x, wanted.force.x, thrust)
-    fy = add_component(Y, strength.force.y, wanted.force.y, thrust)
-    fz = add_component(Z, strength.force.z, wanted.force.z, thrust)
-    mx = add_component(YZ, strength.torque.x, wanted.torque.x, thrust)
-    my = add_component(ZX, strength.torque.y, wanted.torque.y, thrust)
-    mz = add_component(XY, strength.torque.z, wanted.torque.z, thrust)
+    fx = add_component(X, strength.force.x, demand.force.x, thrust)
+    fy = add_component(Y, strength.force.y, demand.force.y, thrust)
+    fz = add_component(Z, strength.force.z, demand.force.z, thrust)
+    mx = add_component(YZ, strength.torque.x, demand.torque.x, thrust)
+    my = add_component(ZX, strength.torque.y, demand.torque.y, thrust)
+    mz = add_component(XY, strength.torque.z, demand.torque.z, thrust)
     return fx and fy and fz and mx and my and mz
 
 
@@ -206,10 +206,10 @@ def nearest_levels(strength: Vector3, force: Vector3, quantum: float, highest: f
         minimum = math.inf
         total = 0.0
         for i in range(3):
-            wanted = scale * exact[i]
-            trial[i] = 2.0 * float(math.floor(0.5 * (wanted - odd))) + odd + 2.0 * float(above % 2)
+            level = scale * exact[i]
+            trial[i] = 2.0 * float(math.floor(0.5 * (level - odd))) + odd + 2.0 * float(above % 2)
             above = above // 2
-            miss = strength[i] * (trial[i] - wanted)
+            miss = strength[i] * (trial[i] - level)
             cost = cost + miss * miss
             total = total + abs(trial[i])
             if abs(trial[i]) < minimum:

@@ -18,9 +18,9 @@ def sensitivity(predicted: Vector3) -> Matrix:
     return h
 
 
-def innovation(q: Vector4, reference: Vector3, measured: Vector3) -> Vector3:
+def innovation(q: Vector4, reference_inertial: Vector3, measured_body: Vector3) -> Vector3:
     """Return a measured direction less the predicted one, both of length one; neither may be 0."""
-    return measured / norm(measured) - to_body(q, reference / norm(reference))
+    return measured_body / norm(measured_body) - to_body(q, reference_inertial / norm(reference_inertial))
 
 
 def squared_distance(p: Matrix, h: Matrix, variances: Vector3, z: Vector3) -> float:
