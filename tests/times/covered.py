@@ -10,6 +10,7 @@ import sys
 from collections import Counter
 from pathlib import Path
 
+COUNTED = ("covered_lines", "num_statements", "covered_branches", "num_branches")
 TOPS = ("analysis", "common", "fmus_src")
 
 
@@ -17,12 +18,13 @@ def table(report: Path) -> str:
     """Return a Markdown table with the percentage of lines and of branches executed in each top folder."""
     counts: dict[str, Counter[str]] = {top: Counter() for top in TOPS}
     for path, file in json.loads(report.read_text(encoding="utf-8"))["files"].items():
-        counts[path.split("/")[0]].update({key: value for key, value in file["summary"].items() if "display" not in key})
+        counts[path.split("/")[0]].update({key: file["summary"][key] for key in COUNTED})
     rows = ["| Folder | Lines | Branches |", "| --- | --- | --- |"]
     for top, each in counts.items():
         lines = each["covered_lines"] / each["num_statements"]
         branches = each["covered_branches"] / each["num_branches"]
-        rows.append(f"| `{top}` | {lines:.1%} of {each['num_statements']:,} | {branches:.1%} of {each['num_branches']:,} |")
+        totals = each["num_statements"], each["num_branches"]
+        rows.append(f"| `{top}` | {lines:.1%} of {totals[0]:,} | {branches:.1%} of {totals[1]:,} |")
     return "\n".join(rows)
 
 

@@ -159,8 +159,8 @@ def robust_rates(
     """Return rates (rad/s) W A' (A W A' + k E)^-1 momentum_rate, bounded everywhere, exact where k = 0; and m.
 
     k = damping lack^2 with lack = 1 - m/threshold where the singularity measure m is below the threshold, else 0
-    (Nakamura and Hanafusa 1986). E and W are unit matrices but for elements that lead out of states in which the required
-    torque is the one that cannot be given (Wie 2005): E has off-diagonal elements swing sin(pi/2 time + phase), which
+    (Nakamura and Hanafusa 1986). E and W are unit matrices but for elements that lead out of states in which the
+    required torque cannot be produced (Wie 2005): E has off-diagonal elements swing sin(pi/2 time + phase), which
     move the gimbals to and fro, and W = 1 + swing lack for the first rotor of each pair and 1 - swing lack for the
     second, without which rotors side by side would stay so. A swing below 0.5 keeps both positive definite.
     """
