@@ -9,7 +9,7 @@ from typing import Any
 
 from ..campaigns.definition.file import parse_campaign
 from ..campaigns.definition.source import read_source
-from ..campaigns.definition.table import Table
+from ..campaigns.definition.table import TomlTable
 from ..runtime.ssp.archive import open_system
 
 PLAIN_KEY = re.compile(r"[A-Za-z0-9_-]+")
@@ -48,7 +48,7 @@ def toml_value(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else repr(value)
 
 
-def _values(table: Table, content: Mapping[str, Any], path: str, name: str) -> Iterator[dict[str, Any]]:
+def _values(table: TomlTable, content: Mapping[str, Any], path: str, name: str) -> Iterator[dict[str, Any]]:
     for key, value in content.items():
         inner, full = f"{path}.{key}" if path else key, f"{name}.{_key(key)}" if name else _key(key)
         if isinstance(value, Mapping) and value:

@@ -10,7 +10,7 @@ import numpy as np
 from ...common.to_json import optional
 from .definition.requirements import SUCCESS, Requirement
 from .trials import TrialTable
-from .verdicts.acceptance import FURTHER, FixedSize, Verdict
+from .verdicts.acceptance import FURTHER, AcceptanceVerdict, FixedSize
 from .verdicts.order_statistics import tolerance_bound
 from .verdicts.stopping import StoppingRule, stopping_rule
 
@@ -51,7 +51,7 @@ class RequirementVerdict:
     flights: int
     failures: int
     consumer_risk: float
-    verdict: Verdict
+    verdict: AcceptanceVerdict
     decided_after: int | None
     flights_to_decide: Mapping[int, int | None]
     bound: ToleranceBound | None
@@ -82,7 +82,7 @@ def requirement_verdict(
     satisfied = satisfies(requirement, trials)
     flights, failures = len(satisfied), int(np.count_nonzero(~satisfied))
     decision = rule.decision(satisfied)
-    is_decided = decision.verdict is not Verdict.UNDECIDED
+    is_decided = decision.verdict is not AcceptanceVerdict.UNDECIDED
     return RequirementVerdict(
         text=str(requirement),
         share=requirement.share,
@@ -133,6 +133,6 @@ def trials_to_decision(requirements: Sequence[Requirement], trials: Mapping[str,
         for columns in trials.values()
         for requirement, satisfied in zip(requirements, columns, strict=True)
     ]
-    if not decisions or any(decision.verdict is Verdict.UNDECIDED for decision in decisions):
+    if not decisions or any(decision.verdict is AcceptanceVerdict.UNDECIDED for decision in decisions):
         return None
     return max(decision.flights for decision in decisions)

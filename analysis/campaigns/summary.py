@@ -12,7 +12,7 @@ import numpy as np
 import scipy
 
 from ...common.to_json import optional, to_json
-from .definition.campaign import Group
+from .definition.campaign import TrialGroup
 from .definition.requirements import Requirement
 from .requirement_verdicts import RequirementVerdict, requirement_verdict
 from .statistics import IN_MEMORY, QUANTILES, MetricStatistics, statistics
@@ -107,7 +107,7 @@ def _summary(trials: TrialTable, members: Sequence[Member] = ()) -> VariantSumma
 
 def summarise(
     variants: Mapping[str, TrialTable],
-    groups: Sequence[Group] = (),
+    groups: Sequence[TrialGroup] = (),
     by: str = "",
     *,
     requirements: Sequence[Requirement] = (),

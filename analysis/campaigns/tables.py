@@ -6,7 +6,7 @@ from ...common.percent import percent
 from .plain_text import align_columns, ordinal, short
 from .requirement_verdicts import RequirementVerdict
 from .summary import Summary, SummaryRow
-from .verdicts.acceptance import Verdict
+from .verdicts.acceptance import AcceptanceVerdict
 
 
 def who_heads(group: str | None) -> list[str]:
@@ -63,7 +63,7 @@ def unmet_lines(summary: Summary) -> list[str]:
         f"{variant}: requirement {name}: {result.text}: {verdict_text(result)}"
         for variant, entry in summary.items()
         for name, result in entry.requirements.items()
-        if result.verdict is not Verdict.MET
+        if result.verdict is not AcceptanceVerdict.MET
     ]
 
 
@@ -72,7 +72,7 @@ def verdict_text(result: RequirementVerdict) -> str:
     if result.unevaluated:
         return f"{result.verdict}: {unevaluated_text(result)}"
     text = f"{result.verdict}: {result.failures} of {result.flights} flights fail it"
-    if result.verdict is not Verdict.UNDECIDED:
+    if result.verdict is not AcceptanceVerdict.UNDECIDED:
         return text
     more = result.flights_to_decide
     trials = f"{more[0]}, {more[1]} or {more[2]} additional trials"

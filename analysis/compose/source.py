@@ -13,7 +13,7 @@ from ...common.regular import read_input
 from ...fmus_src.export.ssp_package import SYSTEM_FILE
 from ...fmus_src.units import BASE_UNITS
 from ..campaigns.definition.source import key_lines, parse_toml
-from ..campaigns.definition.table import Table, integer, names, number, text
+from ..campaigns.definition.table import TomlTable, integer, names, number, text
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.given_values import ParameterValue
 
@@ -100,7 +100,7 @@ def read_source(path: Path) -> tuple[SystemSource, bytes]:
     """
     label = str(path)
     raw = read_input(path, "give the path of a system.toml", CAMPAIGN_BYTES)
-    table = Table(parse_toml(raw, label), label)
+    table = TomlTable(parse_toml(raw, label), label)
     lines = _Lines(raw.decode("utf-8"))
     table.only(TOP)
     system = table.table("system")
@@ -148,15 +148,15 @@ class _Lines:
             yield Entry(each, f"{key} (line {index + 1})")
 
 
-def _entries(table: Table, key: str, lines: _Lines) -> tuple[Entry, ...]:
+def _entries(table: TomlTable, key: str, lines: _Lines) -> tuple[Entry, ...]:
     return tuple(lines.of_entries(f"{table.element}.{key}".lstrip("."), _list(table, key)))
 
 
-def _list(table: Table, key: str) -> tuple[str, ...]:
+def _list(table: TomlTable, key: str) -> tuple[str, ...]:
     return table.get(key, names) if key in table.content else ()
 
 
-def _components(table: Table, lines: _Lines) -> Iterator[tuple[str, ComponentSource]]:
+def _components(table: TomlTable, lines: _Lines) -> Iterator[tuple[str, ComponentSource]]:
     if not table.content:
         raise table.error("", "no components", 'write [components], and NAME = "FMU" below it')
     for name, stated in table.content.items():
@@ -172,7 +172,7 @@ def _components(table: Table, lines: _Lines) -> Iterator[tuple[str, ComponentSou
             yield name, ComponentSource(table.get(name, text), where=where)
 
 
-def _connectors(table: Table) -> dict[str, str]:
+def _connectors(table: TomlTable) -> dict[str, str]:
     kinds: dict[str, str] = {}
     for kind in KINDS:
         for name in _list(table, kind):
@@ -182,7 +182,7 @@ def _connectors(table: Table) -> dict[str, str]:
     return kinds
 
 
-def _set(table: Table) -> Iterator[tuple[str, SetValue]]:
+def _set(table: TomlTable) -> Iterator[tuple[str, SetValue]]:
     for name, setting in table.flat():
         rows = setting if isinstance(setting, list) else [setting]
         for each in (each for row in rows for each in (row if isinstance(row, list) else [row])):
@@ -192,7 +192,7 @@ def _set(table: Table) -> Iterator[tuple[str, SetValue]]:
         yield name, setting  # type: ignore[misc]
 
 
-def _units(table: Table) -> Iterator[tuple[str, Unit]]:
+def _units(table: TomlTable) -> Iterator[tuple[str, Unit]]:
     for name in table.content:
         entry = table.table(name)
         entry.only((*BASE_UNITS, "factor", "offset"))
@@ -203,7 +203,7 @@ def _units(table: Table) -> Iterator[tuple[str, Unit]]:
         yield name, unit
 
 
-def _positive(table: Table, key: str, value: object) -> float:
+def _positive(table: TomlTable, key: str, value: object) -> float:
     read = number(table, key, value)
     if read <= 0.0:
         raise table.error(key, f"{value!r} is not a positive number of seconds", "give more than 0")

@@ -15,7 +15,7 @@ from ...common.visible import first_ones
 from ...fmus_src.evidence.manifest import STABILITY
 from ..campaigns.definition.plan import read_plan
 from ..campaigns.execute.campaign import open_campaign
-from ..campaigns.execute.results import BatchResult
+from ..campaigns.execute.results import CampaignResult
 from ..campaigns.execute.runner import fly_campaign
 from ..commands.stability import study_command
 from ..runtime.ssp.archive import SystemArchive
@@ -72,7 +72,7 @@ def _verdicts(system: Path, name: str, options: SystemOptions, timeout: float | 
     plan = read_plan(system, name, options, watch=Watch(timeout))
     with chdir(Path.cwd()):  # an FMU may change the folder
         campaign = open_campaign(plan, None)
-        made = BatchResult.finish(campaign, fly_campaign(campaign, campaign.missing())).content()
+        made = CampaignResult.finish(campaign, fly_campaign(campaign, campaign.missing())).content()
     return {"campaign": name, **{key: made[key] for key in ("trials", "seed", "success", "metrics", "variants")}}
 
 

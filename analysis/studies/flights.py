@@ -10,7 +10,7 @@ import numpy as np
 
 from ...common.errors import InputError
 from ...common.progress import progress_bar
-from ..campaigns.definition.campaign import Record
+from ..campaigns.definition.campaign import TrialRecord
 from ..campaigns.definition.checks import check_draws, check_plan
 from ..campaigns.definition.plan import BatchPlan
 from ..campaigns.draws.declared import Columns
@@ -19,7 +19,7 @@ from ..campaigns.execute.flights import task_size
 from ..campaigns.execute.flyer import Flyer
 from ..campaigns.execute.metadata import provenance
 from ..campaigns.execute.workers import FlyerPool, worker_count
-from ..campaigns.folder.provenance import Provenance
+from ..campaigns.folder.provenance import CampaignProvenance
 from ..campaigns.lost_trials import count_lost
 from ..campaigns.trials import TrialTable, join_trials
 from ..runtime.system.prepared import PreparedSystem
@@ -88,11 +88,11 @@ def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> TrialTable | None:  # o
 
 def plan_of_samples(plan: BatchPlan, first: Columns) -> BatchPlan:
     """Return a plan of draws ``first``, without the campaign's records, groups and scatters."""
-    campaign = replace(plan.campaign, record=Record(), group=None, scatters=())
+    campaign = replace(plan.campaign, record=TrialRecord(), group=None, scatters=())
     return replace(plan, campaign=campaign).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
 
 
-class StudyProvenance(Provenance, total=False):
+class StudyProvenance(CampaignProvenance, total=False):
     """Inputs of the numbers of a study; ``loop``, ``point`` and ``time`` (s) are those of a margin."""
 
     loop: str

@@ -91,7 +91,7 @@ class Flown:
         return pyarrow.table(columns | {value_name: self.values})
 
 
-class Commands(NamedTuple):
+class StudyCommands(NamedTuple):
     """Commands: ``replay`` repeats a trial of a file of draws, ``monte_carlo`` simulates a
     number of trials of the campaign."""
 
@@ -116,7 +116,7 @@ class StudyResult:
     noise: Noise
     units: Mapping[str, str]
     lost: Mapping[str, int] = field(default_factory=dict)
-    commands: Commands | None = None
+    commands: StudyCommands | None = None
 
     @property
     def flights(self) -> int:

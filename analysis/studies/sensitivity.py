@@ -31,7 +31,7 @@ def sensitivity(
     noise_trial: int | None = None,
     workers: int | None = None,
     tell: Callable[[str], object] = lambda price: None,
-) -> SensitivityResult:
+) -> SensitivityOutcome:
     """Compute first-order and total Sobol' indices of every metric and of success, by ``base`` * (draws + 3) flights.
 
     The noise of all components is one input in addition to the draws, unless ``noise_trial`` fixes it for all flights:
@@ -68,7 +68,7 @@ def sensitivity(
         ranks = rank_correlations(sampled, {name: values[independent] for name, values in metrics.items()})
         flown = Flown()
         flown.add(points, draws, trials.metrics, metrics[SUCCESS])
-        return SensitivityResult(
+        return SensitivityOutcome(
             base=base,
             space=space,
             with_indices=tuple(reported),
@@ -105,7 +105,7 @@ class InputIndices(TypedDict, total=False):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class SensitivityResult(StudyResult):
+class SensitivityOutcome(StudyResult):
     """Sobol' ``indices`` of metrics and success, in the order of ``with_indices``; None where no number has any.
 
     ``without_indices`` has the reason of each number without them.

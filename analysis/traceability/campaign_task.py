@@ -8,9 +8,16 @@ from pathlib import Path
 
 from ...common.atomic import write_atomically
 from ...fmus_src.evidence.manifest import mime_type
-from ..campaigns.execute.results import BatchResult
+from ..campaigns.execute.results import CampaignResult
 from ..campaigns.folder.files import DRAWS, FOLDER, SUMMARY
-from ..campaigns.folder.manifest import CONTENTS, FILE, CampaignDocument, Manifest, SourceDocument, read_manifest
+from ..campaigns.folder.manifest import (
+    CONTENTS,
+    FILE,
+    CampaignDocument,
+    CampaignManifest,
+    SourceDocument,
+    read_manifest,
+)
 from ..commands.campaigns import campaign_command
 from .elements import Task
 
@@ -18,7 +25,7 @@ PARQUET, JSON = mime_type(DRAWS), mime_type(SUMMARY)
 KINDS = {".fmu": "model", ".ssd": "system", ".ssv": "parameter", ".ssm": "parameter", ".ssb": "parameter"}
 
 
-def write_task(made: BatchResult, path: Path) -> None:
+def write_task(made: CampaignResult, path: Path) -> None:
     """Write the task of a finished campaign with a folder to ``path`` (.stmd). Raises OSError."""
     assert made.folder is not None  # the option has no effect without one
     folder, campaign = made.folder.absolute(), made.plan.campaign
@@ -75,7 +82,7 @@ def _sources(campaign: CampaignDocument | SourceDocument) -> Iterator[tuple[str,
         yield from _sources(extended)
 
 
-def _system_files(manifest: Manifest) -> Iterator[tuple[str, str]]:
+def _system_files(manifest: CampaignManifest) -> Iterator[tuple[str, str]]:
     """Yield name and content of the system's files, and of external FMUs and parameter sets."""
     yield from manifest.system["files"].items()
     for key, content in manifest.elsewhere.items():

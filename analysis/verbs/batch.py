@@ -33,7 +33,7 @@ if TYPE_CHECKING:  # plots and pages are imported where they are created
 
 
 @dataclass(repr=False)
-class BatchResult(Documented, results.BatchResult):
+class BatchResult(Documented, results.CampaignResult):
     """Result of a campaign: ``summary`` has rates and statistics by variant, ``trials`` the underlying numbers.
 
     ``requirements`` are the expressions of the option ``require``, ``displayed`` the metrics of the option ``metrics``.

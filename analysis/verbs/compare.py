@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, repr=False)
-class Comparison(Documented, comparison.Comparison):
+class Comparison(Documented, comparison.CampaignComparison):
     """Comparison of variants on the same trials: ``summary`` by label, ``pairs`` of labels.
 
     `compare_rates` and `compare_values` compare a pair.

@@ -14,7 +14,7 @@ from ...common.errors import InputError, suggestion
 from ..campaigns.definition.campaign import Metric
 from ..campaigns.definition.expressions import Expression
 from ..campaigns.execute.campaign import read_folder
-from ..campaigns.execute.results import BatchResult
+from ..campaigns.execute.results import CampaignResult
 from ..campaigns.folder.opened import OpenedResults
 from ..documents.common.colours import look
 from ..documents.of.campaign.distributions import distribution_plot
@@ -25,7 +25,7 @@ from ..runtime.flight.results import require_pandas
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Plot
 
-Results = OpenedResults | BatchResult
+Results = OpenedResults | CampaignResult
 
 
 def plot_results(results: Mapping[str, FilePath | Results], metrics: Sequence[str] | None = None) -> Plot:
@@ -67,7 +67,7 @@ def distributions(results: Mapping[str, Results], metrics: Sequence[str] | None)
 
 
 def _metrics(results: Results) -> dict[str, Metric]:
-    if isinstance(results, BatchResult):
+    if isinstance(results, CampaignResult):
         return {metric.name: metric for metric in results.plan.campaign.metrics}
     facts = results.provenance["metrics"]
     return {
@@ -88,7 +88,7 @@ def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Met
 
 def _lines(label: str, results: Results, metric: str) -> list[tuple[str, np.ndarray]]:
     """Return the values of a metric by the name of the line: the label, the variant, or both."""
-    if isinstance(results, BatchResult):
+    if isinstance(results, CampaignResult):
         lines = {variant: rows.column(f"metric.{metric}") for variant, rows in results.rows.items()}
     else:
         table = results.arrow(["variant", f"metric.{metric}"])

@@ -22,7 +22,7 @@ NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # on which r
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class RareResult(Required, outcome.RareResult):
+class RareResult(Required, outcome.RareOutcome):
     """Probability of a rare failure: ``probability``, ``interval``, ``flights`` (simulations), ``failures``,
     conditions.
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes a
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SensitivityResult(Stored, study.SensitivityResult):
+class SensitivityResult(Stored, study.SensitivityOutcome):
     """Sobol' indices of metrics and success: `of` returns those of one, ``ranks`` are the rank correlations."""
 
     def document(self) -> Document:

@@ -17,7 +17,7 @@ from ..options.declared.studies import WORST, WorstOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..runtime.system.options import system_options
-from ..studies.flown import Commands
+from ..studies.flown import StudyCommands
 from ..studies.worst import outcome
 from ..studies.worst.request import MarginAsked, check_options, margin_asked
 from ..studies.worst.study import MARGIN, worst_case, worst_margin
@@ -29,7 +29,7 @@ NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on 
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class WorstResult(Required, outcome.WorstResult):
+class WorstResult(Required, outcome.WorstOutcome):
     """Result of a worst-case search: ``worst`` and ``worst_random`` with samples and metrics, every simulation in
     ``flown``.
 
@@ -50,7 +50,7 @@ class WorstResult(Required, outcome.WorstResult):
         super().write(Path(folder))
 
 
-class Search(Conditions, total=False):
+class SearchConditions(Conditions, total=False):
     """Arguments of a search."""
 
     sigmas: float
@@ -80,7 +80,7 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
     loop = options["loop"]
     check_options(loop, options)
     requirements = read_requirements(options["require"], NUMBERS)
-    search: Search = {
+    search: SearchConditions = {
         **conditions(options),
         "sigmas": options["sigmas"],
         "realisations": options["realisations"],
@@ -110,10 +110,10 @@ def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions])
     return store_result(WorstResult, result, folder, plan=plan, requirements=requirements)
 
 
-def _commands_of_margin(search: MarginAsked) -> Commands:
+def _commands_of_margin(search: MarginAsked) -> StudyCommands:
     """Return the writers of commands for the studies of a search for the worst margin."""
 
     def replay(draws: Path, trial: int) -> str:
         return study_command(replace(search.request, draws=draws), search.loop.name, trial)
 
-    return Commands(replay)
+    return StudyCommands(replay)

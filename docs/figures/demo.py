@@ -9,7 +9,7 @@ from pathlib import Path
 
 from perilune import simulate
 from perilune.analysis.campaigns.definition.plan import BatchPlan, read_plan
-from perilune.analysis.campaigns.execute.results import BatchResult
+from perilune.analysis.campaigns.execute.results import CampaignResult
 from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.documents.of.batch.batch import batch_document
 from perilune.analysis.documents.of.simulation.run import RunContext, run_document
@@ -73,7 +73,7 @@ def fly_sample(plan: BatchPlan) -> tuple[Result, list[Result]]:
     return flights[0], flights[1:]
 
 
-def write_files(landing: Result, sample: list[Result], batch: BatchResult, output: Path) -> Path:
+def write_files(landing: Result, sample: list[Result], batch: CampaignResult, output: Path) -> Path:
     """Write the raw landing, the two full reports and the page; those of the batch are there already."""
     print("Writing pages ...", flush=True)
     landing.write(output / "landing.csv")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from perilune.analysis.campaigns.execute.results import BatchResult
+from perilune.analysis.campaigns.execute.results import CampaignResult
 from perilune.analysis.documents.common.page import write_page
 from perilune.analysis.documents.common.panels import swatch
 from perilune.analysis.documents.of.batch.content import BatchContent
@@ -42,7 +42,7 @@ PUBLISHED = {
 COMPARED = ("position_error", "velocity_error")
 
 
-def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, path: Path) -> None:
+def write_demo_page(landing: Result, sample: list[Result], batch: CampaignResult, path: Path) -> None:
     """Write the page. Raises KeyError for a variant that the publication does not have."""
     target = np.array([landing.provenance["parameters"][f"guidance.target_position[{i}]"] for i in (1, 2, 3)])
     campaign, content = batch.plan.campaign, BatchContent(batch)

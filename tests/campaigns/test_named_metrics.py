@@ -12,7 +12,7 @@ import pytest
 from perilune.analysis.campaigns.columns import describe_column, describe_metric
 from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.plan import BatchPlan
-from perilune.analysis.campaigns.definition.table import Table
+from perilune.analysis.campaigns.definition.table import TomlTable
 from perilune.analysis.campaigns.execute.metadata import campaign_metadata
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
@@ -44,7 +44,7 @@ final = ["plant.velocity[1]", "plant.mass"]
 
 @pytest.mark.usefixtures("fmus")
 def test_a_metric_that_is_an_element_is_called_by_its_axis():
-    campaign = parse_campaign(Table(tomllib.loads(CAMPAIGN), "test.toml"))
+    campaign = parse_campaign(TomlTable(tomllib.loads(CAMPAIGN), "test.toml"))
     metadata = campaign_metadata(BatchPlan(NAME, campaign, SystemOptions()), {"default": prepare_system(NAME)})
     metrics = metadata["metrics"]
     assert {name: fact.get("axis") for name, fact in metrics.items()} == {"sink": "up", "drift": "west", "speed": None}

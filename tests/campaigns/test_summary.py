@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.campaigns import summary as summaries
-from perilune.analysis.campaigns.definition.campaign import Group
+from perilune.analysis.campaigns.definition.campaign import TrialGroup
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.summary import requirement_values, success_interval, summarise
 from perilune.analysis.campaigns.trials import TrialTable
@@ -76,7 +76,7 @@ def test_requirements_see_what_is_infinite():
 
 
 CASES = np.array([0.5, 2.0, 2.0, 0.5])
-GROUPS = [Group("0.5", 0.5), Group("2", 2.0)]
+GROUPS = [TrialGroup("0.5", 0.5), TrialGroup("2", 2.0)]
 PARTED = trial_table(GOOD.statuses, GOOD.success, GOOD.metrics, {"case": CASES})
 
 

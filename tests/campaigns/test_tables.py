@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from perilune.analysis.campaigns.definition.campaign import Group
+from perilune.analysis.campaigns.definition.campaign import TrialGroup
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.definition.requirements import Requirement
 from perilune.analysis.campaigns.statistics import STATISTICS
@@ -46,7 +46,7 @@ def test_without_metrics():
 
 
 def test_a_line_per_group_beside_the_whole():
-    groups = [Group("1", 1.0), Group("2.5", 2.5)]
+    groups = [TrialGroup("1", 1.0), TrialGroup("2.5", 2.5)]
     good = trial_table(GOOD.statuses, GOOD.success, GOOD.metrics, {"case": np.array([1.0, 2.5, 2.5, 1.0])})
     lines = summary_text(summarise({"good": good}, groups, "case"), "case").splitlines()
     assert lines[0].split()[:3] == ["variant", "case", "trials"]

@@ -11,7 +11,7 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.campaigns.execute.campaign import PreparedCampaign, open_folder
+from perilune.analysis.campaigns.execute.campaign import LoadedCampaign, open_folder
 from perilune.analysis.campaigns.execute.runner import merge_rows
 from perilune.analysis.campaigns.folder.manifest import FILE
 from perilune.analysis.cli import main
@@ -41,7 +41,7 @@ def merge(folder: Path) -> str | None:
     return refusal(lambda: merge_campaign(open_folder(folder)))
 
 
-def merge_campaign(campaign: PreparedCampaign) -> None:
+def merge_campaign(campaign: LoadedCampaign) -> None:
     """Read all trials of a campaign. Raises InputError."""
     for rows in merge_rows(campaign).values():
         rows.whole()

@@ -12,7 +12,7 @@ import pytest
 import perilune
 from perilune.analysis.authoring.campaign import toml_value
 from perilune.analysis.campaigns.definition.file import parse_campaign, read_campaign
-from perilune.analysis.campaigns.definition.table import Table
+from perilune.analysis.campaigns.definition.table import TomlTable
 from perilune.analysis.cli import main
 from perilune.common.paths import SYSTEMS
 
@@ -25,7 +25,7 @@ def test_the_printed_values_are_the_campaign(system, path):
     """As TOML without ``extends`` they give an equal campaign, and each stands in the line that is named."""
     described = perilune.describe(system, campaign=path.stem)
     text = "\n".join(f"{each['name']} = {toml_value(each['value'])}" for each in described["values"])
-    resolved = parse_campaign(Table(tomllib.loads(text), str(path)))
+    resolved = parse_campaign(TomlTable(tomllib.loads(text), str(path)))
     expected = read_campaign(path)
     assert repr(resolved).replace(str(path), "") == repr(expected).replace(str(path), "")
     for each in described["values"]:

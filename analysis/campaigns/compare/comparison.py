@@ -12,7 +12,7 @@ import numpy as np
 from ....common.percent import percent
 from ....common.to_json import to_json
 from ..columns import describe_metrics
-from ..definition.campaign import Group, Metric
+from ..definition.campaign import Metric, TrialGroup
 from ..definition.expressions import Expression
 from ..folder.stored import StoredBatch
 from ..plain_text import faults_line
@@ -42,7 +42,7 @@ class Contender:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class CampaignComparison:
     """Contenders by label and batches by their folders' names, all flown on the same draws.
 
     ``reference`` is the variant that others are put against; ``notes`` say where the batches differ
@@ -70,7 +70,7 @@ class Comparison:
         return None if self._grouping is None else self._grouping.group
 
     @property
-    def groups(self) -> list[Group]:
+    def groups(self) -> list[TrialGroup]:
         return [] if self._grouping is None else self._grouping.groups
 
     @cached_property

@@ -13,7 +13,7 @@ import numpy as np
 from ....common.errors import InputError, suggestion
 from ..folder.stored import StoredBatch, read_batch
 from ..lost_trials import lost_lines
-from .comparison import Comparison, Contender
+from .comparison import CampaignComparison, Contender
 
 DIFFERENCES = {
     "system": "fly different systems",
@@ -25,12 +25,12 @@ DIFFERENCES = {
 DEFINITION = ("expression", "reduction", "condition", "delay")  # of a metric
 
 
-Result = TypeVar("Result", bound=Comparison)
+Result = TypeVar("Result", bound=CampaignComparison)
 
 
-def compare(folders: Sequence[Path], reference: str | None = None) -> Comparison:
+def compare(folders: Sequence[Path], reference: str | None = None) -> CampaignComparison:
     """See `compare_folders`."""
-    return compare_folders(Comparison, folders, reference)
+    return compare_folders(CampaignComparison, folders, reference)
 
 
 def compare_folders(make: type[Result], folders: Sequence[Path], reference: str | None = None) -> Result:

@@ -48,7 +48,7 @@ class Metric:
 
 
 @dataclass(frozen=True)
-class Record:
+class TrialRecord:
     """Stored values of a trial apart from its metrics: final values, every n-th row of signals, full traces.
 
     ``trials`` keeps the sampled signals of that many trials, the first ones, only.
@@ -117,7 +117,7 @@ class Campaign:
     configurations: tuple[Variant, ...] = ()
     selected: str | None = None
     parameters: tuple[str, ...] = ()
-    record: Record = Record()
+    record: TrialRecord = TrialRecord()
     description: str = ""
     group: str | None = None
     faults: tuple[CampaignFault, ...] = ()
@@ -217,7 +217,7 @@ MAXIMUM_GROUPS = 100  # groups of a campaign
 
 
 @dataclass(frozen=True)
-class Group:
+class TrialGroup:
     """Trials that share one ``value``; ``label`` is that as a text, different for each."""
 
     label: str
@@ -228,7 +228,7 @@ class Group:
         return values == self.value
 
 
-def groups_of(parts: Iterable[np.ndarray], where: tuple[str, str]) -> list[Group]:
+def groups_of(parts: Iterable[np.ndarray], where: tuple[str, str]) -> list[TrialGroup]:
     """Return the groups of trials by their finite values, in blocks (trials,); in ascending order.
 
     ``where`` (file, element) is what an error points to. Raises InputError for more than `MAXIMUM_GROUPS` groups.
@@ -245,4 +245,4 @@ def groups_of(parts: Iterable[np.ndarray], where: tuple[str, str]) -> list[Group
     labels = [f"{value:.10g}" for value in plain]
     if len(set(labels)) < len(labels):
         labels = [repr(value) for value in plain]
-    return [Group(label, value) for label, value in zip(labels, plain, strict=True)]
+    return [TrialGroup(label, value) for label, value in zip(labels, plain, strict=True)]

@@ -16,7 +16,7 @@ from ...runtime.loop.elementary import elementary
 from ..draws.declared import Columns, Continuous, Design, Distribution, Draw, Independent
 from ..draws.generators import generator
 from .normals import CorrelatedNormal, Normal
-from .table import Table, choice_of, integer, names, number, numbers
+from .table import TomlTable, choice_of, integer, names, number, numbers
 
 normal_distribution, normal_quantile = elementary("normal_distribution"), elementary("normal_quantile")
 
@@ -30,7 +30,7 @@ class _Interval(Continuous):
     keys: ClassVar = ("low", "high")
 
     @classmethod
-    def read(cls, table: Table) -> Self:
+    def read(cls, table: TomlTable) -> Self:
         """Read it from its table of a campaign. Raises InputError."""
         table.only(["distribution", *cls.keys])
         return cls(*read_ends(table))
@@ -119,7 +119,7 @@ class Sobol(_UniformDesign):
         return [points[:, index] for index in range(len(draws))]
 
 
-def read_ends(table: Table) -> tuple[float, float]:
+def read_ends(table: TomlTable) -> tuple[float, float]:
     """Read the ends of an interval. Raises InputError."""
     low, high = table.get("low", number), table.get("high", number)
     if not math.isfinite(high - low):
@@ -145,7 +145,7 @@ class Choice(Discrete, Independent):
     keys: ClassVar = ("values", "weights")
 
     @classmethod
-    def read(cls, table: Table) -> Self:
+    def read(cls, table: TomlTable) -> Self:
         table.only(["distribution", *cls.keys])
         values = table.get("values", numbers)
         weights = table.get("weights", numbers, (1.0,) * len(values))
@@ -170,7 +170,7 @@ class Grid(Discrete, Design):
     is_periodic: ClassVar[bool] = True
 
     @classmethod
-    def read(cls, table: Table) -> Self:
+    def read(cls, table: TomlTable) -> Self:
         """Read it from its table of a campaign: its values, or ``count`` of them from low to high. Raises
         InputError."""
         table.only(["distribution", *cls.keys])
@@ -203,7 +203,7 @@ KINDS = (Uniform, Normal, CorrelatedNormal, Choice, Grid, LatinHypercube, Sobol)
 DISTRIBUTIONS = {kind.keyword: kind for kind in KINDS}
 
 
-def read_draw(name: str, table: Table) -> Draw:
+def read_draw(name: str, table: TomlTable) -> Draw:
     """Read the draw declared in the table [draw.NAME]. Raises InputError."""
     kind = DISTRIBUTIONS[table.get("distribution", choice_of(*DISTRIBUTIONS))]
     distribution = kind.read(table)

@@ -14,7 +14,7 @@ from ...runtime.system.checks import changeable, check_value
 from ...runtime.system.network import Network
 from ...runtime.system.passing.flight_table import FaultColumns
 from .expressions import Expression
-from .table import REQUIRED, Table, choice_of, expression, text
+from .table import REQUIRED, TomlTable, choice_of, expression, text
 
 KEYS = ("connector", "kind", "value", "start", "end", "when")
 
@@ -55,7 +55,7 @@ def _write_number(part: Expression | bool) -> str:
     return str(part).lower() if isinstance(part, bool) else part.text
 
 
-def read_fault(name: str, table: Table) -> CampaignFault:
+def read_fault(name: str, table: TomlTable) -> CampaignFault:
     """Read the fault declared in the table [fault.NAME]. Raises InputError."""
     table.only(KEYS)
     kind = table.get("kind", choice_of(*KINDS))
@@ -73,11 +73,11 @@ def read_fault(name: str, table: Table) -> CampaignFault:
     )
 
 
-def _value(table: Table, key: str, value: object) -> Expression | bool:
+def _value(table: TomlTable, key: str, value: object) -> Expression | bool:
     return value if isinstance(value, bool) else _formula(table, key, value)
 
 
-def _formula(table: Table, key: str, value: object) -> Expression:
+def _formula(table: TomlTable, key: str, value: object) -> Expression:
     """Read a finite number, or a text that is an expression."""
     if isinstance(value, str):
         return expression(table, key, value)

@@ -9,14 +9,14 @@ from ....common.errors import InputError, suggestion
 from ..draws.declared import Draw
 from ..draws.given import stream_component
 from ..draws.lookup import Lookup
-from .campaign import SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting, Variant
+from .campaign import SCHEMES, TRACES, Campaign, Metric, Scatter, Setting, TrialRecord, Variant
 from .distributions import read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
 from .reductions import REDUCTIONS
 from .requirements import read_requirements
 from .source import read_source_file
-from .table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, sequence, text
+from .table import REQUIRED, TomlTable, bound, choice_of, expression, integer, names, number, sequence, text
 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 # of records, of the results' table and of files of draws
@@ -29,7 +29,7 @@ TABLE = (
 SCATTER = ("x", "y", "circle", "title")
 
 
-def _check_name(table: Table, name: str, taken: Iterable[str]) -> None:
+def _check_name(table: TomlTable, name: str, taken: Iterable[str]) -> None:
     """Refuse a drawn, derived or metric name that is malformed, reserved or already ``taken``."""
     if not is_name(name):
         remedy = 'use letters, digits and _; for a parameter "component.variable" or "component.variable[1]"'
@@ -40,13 +40,13 @@ def _check_name(table: Table, name: str, taken: Iterable[str]) -> None:
         raise table.error(name, f"{name!r} is declared twice", "give each value one declaration and one name")
 
 
-def _draws(table: Table) -> tuple[Draw, ...]:
+def _draws(table: TomlTable) -> tuple[Draw, ...]:
     draws: list[Draw] = []
     selected: list[str] = []
     for name, content in table.flat(of_tables=True):
         if not isinstance(content, dict):
             raise table.error(name, "not a table", f'write [draw."{name}"] with distribution = ... below it')
-        draw = read_draw(name, Table(content, table.file, table.place(name), table.origins))
+        draw = read_draw(name, TomlTable(content, table.file, table.place(name), table.origins))
         for filled in draw.names:
             _check_name(table, filled, selected)
             selected.append(filled)
@@ -54,7 +54,7 @@ def _draws(table: Table) -> tuple[Draw, ...]:
     return tuple(draws)
 
 
-def _read_derived(table: Table, draws: tuple[Draw, ...]) -> dict[str, Expression]:
+def _read_derived(table: TomlTable, draws: tuple[Draw, ...]) -> dict[str, Expression]:
     known = [name for draw in draws for name in draw.names]
     derived: dict[str, Expression] = {}
     for name, value in table.flat():
@@ -65,7 +65,7 @@ def _read_derived(table: Table, draws: tuple[Draw, ...]) -> dict[str, Expression
     return derived
 
 
-def _lookup(name: str, table: Table, others: Iterable[str]) -> Lookup:
+def _lookup(name: str, table: TomlTable, others: Iterable[str]) -> Lookup:
     _check_name(table, name, others)
     table.only(("file", "column", "inputs"))
     file = table.get("file", text)
@@ -82,7 +82,7 @@ def _as_list(entry: object) -> list[object]:
     return entry if isinstance(entry, list) else [entry]
 
 
-def _formula(table: Table, key: str, entry: object) -> Expression:
+def _formula(table: TomlTable, key: str, entry: object) -> Expression:
     return expression(table, key, entry if isinstance(entry, str) else repr(number(table, key, entry)))
 
 
@@ -91,14 +91,14 @@ def _check_names_in(formula: Expression, known: Iterable[str], kind: str) -> Non
         raise InputError(*formula.where, f"{unknown!r} is not {kind}", suggestion(unknown, known))
 
 
-def _pair(table: Table, key: str, value: object) -> tuple[float, float]:
+def _pair(table: TomlTable, key: str, value: object) -> tuple[float, float]:
     ends = sequence(bound)(table, key, value)
     if len(ends) != 2 or not ends[0] < ends[1]:
         raise table.error(key, f"{value!r} is not an interval", "write [low, high] with low < high")
     return ends[0], ends[1]
 
 
-def _metric(name: str, table: Table) -> Metric:
+def _metric(name: str, table: TomlTable) -> Metric:
     table.only(["expression", "reduction", *REDUCTION_OF, "window", "unit", "description"])
     reduction = table.get("reduction", choice_of(*REDUCTIONS))
     for key, owner in REDUCTION_OF.items():
@@ -117,14 +117,14 @@ def _metric(name: str, table: Table) -> Metric:
     )
 
 
-def _seconds_later(table: Table, key: str, value: object) -> float:
+def _seconds_later(table: TomlTable, key: str, value: object) -> float:
     seconds = number(table, key, value)
     if seconds < 0.0:
         raise table.error(key, f"{value!r} is before the condition", "give seconds, 0 or more")
     return seconds
 
 
-def _metrics(table: Table, drawn: list[str]) -> tuple[Metric, ...]:
+def _metrics(table: TomlTable, drawn: list[str]) -> tuple[Metric, ...]:
     for name in table.content:
         _check_name(table, name, drawn)
         if not name.isidentifier():
@@ -132,7 +132,7 @@ def _metrics(table: Table, drawn: list[str]) -> tuple[Metric, ...]:
     return tuple(_metric(name, table.table(name)) for name in table.content)
 
 
-def _record(table: Table) -> Record:
+def _record(table: TomlTable) -> TrialRecord:
     table.only(["final", "every", "signals", "trials", "traces"])
     every = table.get("every", integer, None)
     if every is not None and every < 1:
@@ -148,10 +148,10 @@ def _record(table: Table) -> Record:
     if trials is not None and every is None:
         raise table.error("trials", "nothing is sampled", "give every = n and signals = [...] too, or drop trials")
     traces = table.get("traces", choice_of(*TRACES), "none")
-    return Record(table.get("final", names, nothing), every, signals, traces, trials)
+    return TrialRecord(table.get("final", names, nothing), every, signals, traces, trials)
 
 
-def _faults(table: Table, drawn: list[str]) -> tuple[CampaignFault, ...]:
+def _faults(table: TomlTable, drawn: list[str]) -> tuple[CampaignFault, ...]:
     faults = tuple(read_fault(name, each) for name, each in table.subtables())
     for fault in faults:
         for formula in fault.formulas:
@@ -159,7 +159,7 @@ def _faults(table: Table, drawn: list[str]) -> tuple[CampaignFault, ...]:
     return faults
 
 
-def _group(table: Table, drawn: list[str]) -> str:
+def _group(table: TomlTable, drawn: list[str]) -> str:
     table.only(["by"])
     name = table.get("by", text)
     if name not in drawn:
@@ -167,14 +167,14 @@ def _group(table: Table, drawn: list[str]) -> str:
     return name
 
 
-def _success(table: Table, metrics: tuple[Metric, ...]) -> Expression:
+def _success(table: TomlTable, metrics: tuple[Metric, ...]) -> Expression:
     table.only(["expression"])
     success = table.get("expression", expression)
     _check_names_in(success, [metric.name for metric in metrics], "a metric")
     return success
 
 
-def _scatter(name: str, table: Table, metrics: tuple[Metric, ...]) -> Scatter:
+def _scatter(name: str, table: TomlTable, metrics: tuple[Metric, ...]) -> Scatter:
     table.only(SCATTER)
     units = {metric.name: metric.unit for metric in metrics}
     x, y = table.get("x", text), table.get("y", text)
@@ -189,7 +189,7 @@ def _scatter(name: str, table: Table, metrics: tuple[Metric, ...]) -> Scatter:
     return Scatter(name, x, y, circle, table.get("title", text, ""))
 
 
-def parse_campaign(table: Table) -> Campaign:
+def parse_campaign(table: TomlTable) -> Campaign:
     """Parse the campaign in a table read from a file or created in memory. Raises InputError."""
     if SYNTHESIS in table.content:
         remedy = "search with perilune design search, then fly the law with a campaign without this table"
@@ -232,7 +232,7 @@ def read_campaign(path: Path) -> Campaign:
 KEYS = ("use", "parameters", "set")
 
 
-def read_settings(table: Table, dispersed: Sequence[str]) -> dict[str, Setting]:
+def read_settings(table: TomlTable, dispersed: Sequence[str]) -> dict[str, Setting]:
     """Read the values of [set]. Raises InputError."""
     settings: dict[str, Setting] = {}
     for name, value in table.flat():
@@ -251,7 +251,7 @@ def read_settings(table: Table, dispersed: Sequence[str]) -> dict[str, Setting]:
     return settings
 
 
-def read_configurations(campaign: Table, dispersed: Sequence[str]) -> tuple[Variant, ...]:
+def read_configurations(campaign: TomlTable, dispersed: Sequence[str]) -> tuple[Variant, ...]:
     """Read the configurations of a campaign, in the order of its file. Raises InputError."""
     declared = campaign.table("configuration")
     if declared.content and campaign.table("compare").content:
@@ -263,7 +263,7 @@ def read_configurations(campaign: Table, dispersed: Sequence[str]) -> tuple[Vari
     return tuple(_configuration(name, declared.table(name), dispersed) for name in declared.content)
 
 
-def _configuration(name: str, table: Table, dispersed: Sequence[str]) -> Variant:
+def _configuration(name: str, table: TomlTable, dispersed: Sequence[str]) -> Variant:
     table.only(KEYS)
     use = table.table("use")
     return Variant(

@@ -8,7 +8,7 @@ import numpy as np
 
 from .campaign import Metric
 from .expressions import Expression
-from .reductions import EVER, REDUCTIONS, Rule, reduce_rows
+from .reductions import EVER, REDUCTIONS, ReductionRule, reduce_rows
 
 TIME = "time"  # the name under which expressions see the record's times, s
 
@@ -34,7 +34,7 @@ def evaluate_metric(
     signal = rows_of(metric.expression)
     condition = signal if metric.condition is None else rows_of(metric.condition)
     window, band = metric.window or EVER, metric.band or EVER
-    rule = Rule(
+    rule = ReductionRule(
         REDUCTIONS.index(metric.reduction),
         (float(window[0]), float(window[1])),
         (float(band[0]), float(band[1])),

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..draws.declared import Continuous, Independent
 from ..draws.generators import standard_normals
-from .table import Table, names, number, numbers, sequence
+from .table import TomlTable, names, number, numbers, sequence
 
 FLAT = 1e-12  # of the largest eigenvalue of a covariance, below which nothing varies
 
@@ -64,7 +64,7 @@ class Normal(_Jointly):
     keys: ClassVar = ("mean", "sigma")
 
     @classmethod
-    def read(cls, table: Table) -> Self:
+    def read(cls, table: TomlTable) -> Self:
         table.only(["distribution", *cls.keys])
         mean, sigma = table.get("mean", number), table.get("sigma", number)
         if not sigma > 0.0:
@@ -93,7 +93,7 @@ class CorrelatedNormal(_Jointly):
     keys: ClassVar = ("names", "mean", "covariance")
 
     @classmethod
-    def read(cls, table: Table) -> Self:
+    def read(cls, table: TomlTable) -> Self:
         table.only(["distribution", *cls.keys])
         size = len(table.get("names", names))
         mean, covariance = table.get("mean", numbers), table.get("covariance", sequence(numbers))

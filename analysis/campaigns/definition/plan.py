@@ -20,7 +20,7 @@ from ...runtime.system.series import InputSeries
 from ..draws.generators import stream_numbers
 from ..draws.given import GivenDraws, read_given
 from ..draws.table import CountedDraws, Draws, DrawTable, draw_parts, draw_table, split_trials, table_of
-from .campaign import Campaign, Group, Variant, groups_of
+from .campaign import Campaign, TrialGroup, Variant, groups_of
 from .faults import DrawnFault, fault_columns, fault_of_trials
 from .file import parse_campaign
 from .home import is_called
@@ -163,7 +163,7 @@ class BatchPlan:
         return replace(self, campaign=campaign, given=given, known_draws=None)
 
     @cached_property
-    def groups(self) -> list[Group]:
+    def groups(self) -> list[TrialGroup]:
         """The groups of trials that results are summed up by; none without [group]. Raises InputError."""
         if self.campaign.group is None:
             return []

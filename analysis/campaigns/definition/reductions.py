@@ -14,7 +14,7 @@ MAX = REDUCTIONS.index("max")
 EVER = (-np.inf, np.inf)  # a window, or a band
 
 
-class Rule(NamedTuple):
+class ReductionRule(NamedTuple):
     """Reduction of rows to a number; entries that a reduction does not use are ignored. Times in s."""
 
     kind: int  # place in REDUCTIONS
@@ -24,7 +24,7 @@ class Rule(NamedTuple):
 
 
 def reduce_rows(
-    rule: Rule, times: np.ndarray, values: np.ndarray, condition: np.ndarray, ends: np.ndarray
+    rule: ReductionRule, times: np.ndarray, values: np.ndarray, condition: np.ndarray, ends: np.ndarray
 ) -> np.ndarray:
     """Return a number (flights,) for each flight, whose rows end before ``ends`` (int64).
 
@@ -50,4 +50,4 @@ def reduce_rows(
 
 def largest(times: np.ndarray, values: np.ndarray, ends: np.ndarray) -> np.ndarray:
     """Return the largest value of each flight (flights,), 0 for one without rows."""
-    return np.nan_to_num(reduce_rows(Rule(MAX, EVER, EVER, 0.0), times, values, values, ends))
+    return np.nan_to_num(reduce_rows(ReductionRule(MAX, EVER, EVER, 0.0), times, values, values, ends))

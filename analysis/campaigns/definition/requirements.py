@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ....common.errors import suggestion
 from ..draws.declared import Design, Draw
 from .expressions import Expression
-from .table import REQUIRED, Table, choice_of, expression, number, text
+from .table import REQUIRED, TomlTable, choice_of, expression, number, text
 
 KEYS = ("expression", "share", "confidence", "metric", "bound", "description")
 SIDES = ("upper", "lower")
@@ -36,7 +36,7 @@ class Requirement:
         return f"{self.expression.text}, {probability} probability at {confidence} confidence"
 
 
-def read_requirements(table: Table, metrics: Collection[str], draws: Iterable[Draw]) -> tuple[Requirement, ...]:
+def read_requirements(table: TomlTable, metrics: Collection[str], draws: Iterable[Draw]) -> tuple[Requirement, ...]:
     """Read the requirements of the table [requirement]; ``metrics`` are the campaign's by name. Raises InputError.
 
     Verdicts are on independent trials, so draws that are designed for all trials together are refused.
@@ -49,7 +49,7 @@ def read_requirements(table: Table, metrics: Collection[str], draws: Iterable[Dr
     return tuple(_requirement(name, each, metrics) for name, each in table.subtables())
 
 
-def _requirement(name: str, table: Table, metrics: Collection[str]) -> Requirement:
+def _requirement(name: str, table: TomlTable, metrics: Collection[str]) -> Requirement:
     table.only(KEYS)
     requested = table.get("expression", expression)
     known = [*metrics, SUCCESS]
@@ -71,7 +71,7 @@ def _requirement(name: str, table: Table, metrics: Collection[str]) -> Requireme
     )
 
 
-def _share(table: Table, key: str, value: object) -> float:
+def _share(table: TomlTable, key: str, value: object) -> float:
     """Read a number between 0 and 1, or a text in per cent: "99.87 %"."""
     written = value.strip() if isinstance(value, str) else ""
     percent = written.endswith("%")
@@ -82,7 +82,7 @@ def _share(table: Table, key: str, value: object) -> float:
     return fraction
 
 
-def _confidence(table: Table, key: str, value: object) -> float:
+def _confidence(table: TomlTable, key: str, value: object) -> float:
     confidence = _share(table, key, value)
     if confidence < 0.5:
         raise table.error(key, f"{value!r}: below a half, met and not met could both be shown", 'write 0.9, or "90 %"')

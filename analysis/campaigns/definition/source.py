@@ -15,7 +15,7 @@ from ....common.bounds import CAMPAIGN_BYTES, CAMPAIGN_FILES, INPUT_BYTES
 from ....common.errors import InputError
 from ....common.regular import names_file, read_input
 from ...runtime.ssp.archive import SystemArchive
-from .table import Table
+from .table import TomlTable
 
 LOOKUP, FILE = "lookup", "file"  # tables of which each refers to a file
 EXTENDS = "extends"
@@ -54,7 +54,7 @@ class CampaignSource:
         for part in self.extends:
             yield from part.files()
 
-    def table(self) -> Table:
+    def table(self) -> TomlTable:
         """Return the merged content. A later file's entry replaces an earlier one of the same name.
 
         The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables, those of
@@ -71,7 +71,7 @@ class CampaignSource:
                 _merge(content, inherited.content, part.label)
                 origins |= inherited.origins
         attached = {(file.label, name): each for file in self.files() for name, each in file.attached.items()}
-        return Table(content, self.label, origins=origins, attached=attached)
+        return TomlTable(content, self.label, origins=origins, attached=attached)
 
     def _add_own(self, content: dict[str, object], origins: dict[str, Origin]) -> None:
         own = parse_toml(self.raw, self.label)
@@ -202,7 +202,7 @@ def _merge(content: dict[str, object], later: Mapping[str, object], label: str) 
         content.pop(VARIANTS[1 - VARIANTS.index(variants[0])], None)
     for key, value in later.items():
         if isinstance(value, Mapping):
-            table = Table(value, label, key)
+            table = TomlTable(value, label, key)
             entries = dict(table.flat(of_tables=True) if key == "draw" else table.flat() if key in FLAT else value)
             earlier = content.get(key)
             content[key] = _join(earlier, entries, deep=key == LOOKUP) if isinstance(earlier, Mapping) else entries

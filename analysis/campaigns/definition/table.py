@@ -14,7 +14,7 @@ T = TypeVar("T")
 REQUIRED: Any = object()
 
 
-class Table:
+class TomlTable:
     """One table of a TOML file; ``element`` is its place in the file, as in ``metric.position_error``.
 
     ``origins`` has file and line of values by their place, where they are written in several files; ``attached`` the
@@ -59,7 +59,7 @@ class Table:
             if key not in names:
                 raise self.error(key, "unknown key", f"allowed here: {', '.join(names)}")
 
-    def get(self, key: str, kind: Callable[[Table, str, object], T], default: T = REQUIRED) -> T:
+    def get(self, key: str, kind: Callable[[TomlTable, str, object], T], default: T = REQUIRED) -> T:
         """Return the value of ``key`` read by ``kind`` (`text`, `number`, ...), or ``default`` where it is absent."""
         if key in self.content:
             return kind(self, key, self.content[key])
@@ -67,14 +67,14 @@ class Table:
             raise self.error(key, "missing", f"add {key} = ... to the {self.element or 'top of the file'}")
         return default
 
-    def table(self, key: str) -> Table:
+    def table(self, key: str) -> TomlTable:
         """Return the subtable ``key``; an empty one where it is absent."""
         value = self.content.get(key, {})
         if not isinstance(value, dict):
             raise self.error(key, "not a table", f"write [{self.place(key)}] and its keys below it")
-        return Table(value, self.file, self.place(key), self.origins, self.attached)
+        return TomlTable(value, self.file, self.place(key), self.origins, self.attached)
 
-    def subtables(self) -> list[tuple[str, Table]]:
+    def subtables(self) -> list[tuple[str, TomlTable]]:
         """Name and table of every entry; names are identifiers."""
         for name in self.content:
             if not name.isidentifier():
@@ -103,20 +103,20 @@ class Table:
             yield name, value
 
 
-def text(table: Table, key: str, value: object) -> str:
+def text(table: TomlTable, key: str, value: object) -> str:
     """Read a string that is not empty."""
     if not isinstance(value, str) or not value.strip():
         raise table.error(key, f"{value!r} is not a text", 'write it in quotes: "..."')
     return value.strip()
 
 
-def integer(table: Table, key: str, value: object) -> int:
+def integer(table: TomlTable, key: str, value: object) -> int:
     if isinstance(value, bool) or not isinstance(value, int):
         raise table.error(key, f"{value!r} is not a whole number", "write an integer")
     return value
 
 
-def bound(table: Table, key: str, value: object) -> float:
+def bound(table: TomlTable, key: str, value: object) -> float:
     """Read a number, infinite ones included, or a text that is a constant expression, such as "-pi/4"."""
     if isinstance(value, str):
         formula = Expression(value, table.where(key))
@@ -128,7 +128,7 @@ def bound(table: Table, key: str, value: object) -> float:
     return float(value)
 
 
-def number(table: Table, key: str, value: object) -> float:
+def number(table: TomlTable, key: str, value: object) -> float:
     """Read a finite number, or a text that is a constant expression."""
     read = bound(table, key, value)
     if not math.isfinite(read):
@@ -136,10 +136,10 @@ def number(table: Table, key: str, value: object) -> float:
     return read
 
 
-def sequence(kind: Callable[[Table, str, object], T]) -> Callable[[Table, str, object], tuple[T, ...]]:
+def sequence(kind: Callable[[TomlTable, str, object], T]) -> Callable[[TomlTable, str, object], tuple[T, ...]]:
     """Return a reader of an array of at least one value, each of one kind."""
 
-    def read(table: Table, key: str, value: object) -> tuple[T, ...]:
+    def read(table: TomlTable, key: str, value: object) -> tuple[T, ...]:
         if not isinstance(value, list) or not value:
             raise table.error(key, f"{value!r} is not a list of values", "write [a, b, ...] with one or more values")
         return tuple(kind(table, f"{key}[{index + 1}]", entry) for index, entry in enumerate(value))
@@ -147,12 +147,12 @@ def sequence(kind: Callable[[Table, str, object], T]) -> Callable[[Table, str, o
     return read
 
 
-def numbers(table: Table, key: str, value: object) -> tuple[float, ...]:
+def numbers(table: TomlTable, key: str, value: object) -> tuple[float, ...]:
     """Read an array of at least one finite number."""
     return sequence(number)(table, key, value)
 
 
-def names(table: Table, key: str, value: object) -> tuple[str, ...]:
+def names(table: TomlTable, key: str, value: object) -> tuple[str, ...]:
     """Read an array of at least one text, none of them twice."""
     listed = sequence(text)(table, key, value)
     for name in listed:
@@ -161,14 +161,14 @@ def names(table: Table, key: str, value: object) -> tuple[str, ...]:
     return listed
 
 
-def expression(table: Table, key: str, value: object) -> Expression:
+def expression(table: TomlTable, key: str, value: object) -> Expression:
     """Read a text that is an expression, see `Expression`."""
     return Expression(text(table, key, value), table.where(key))
 
 
-def choice_of(*allowed: str) -> Callable[[Table, str, object], str]:
+def choice_of(*allowed: str) -> Callable[[TomlTable, str, object], str]:
 
-    def read(table: Table, key: str, value: object) -> str:
+    def read(table: TomlTable, key: str, value: object) -> str:
         if value not in allowed:
             raise table.error(key, f"{value!r} is not known", f"use one of {', '.join(allowed)}")
         return value

@@ -20,9 +20,9 @@ from ..definition.plan import BatchPlan
 from ..folder.campaign_folder import CampaignFolder
 from ..folder.files import FOLDER, NEW_FOLDER, SUMMARY, shard_path
 from ..folder.lock import lock_folder
-from ..folder.manifest import FILE, WRITE, Manifest, read_manifest
+from ..folder.manifest import FILE, WRITE, CampaignManifest, read_manifest
 from ..folder.numbering import Numbering
-from ..folder.provenance import Provenance
+from ..folder.provenance import CampaignProvenance
 from ..folder.summary import read_summary
 from ..lost_trials import lost_status
 from ..trials import TrialTable
@@ -35,7 +35,7 @@ from .workers import in_threads, needs_children, worker_count
 
 
 @dataclass(frozen=True)
-class PreparedCampaign:
+class LoadedCampaign:
     """A campaign ready for simulation: every file of it read, in its folder if it has one (absolute).
 
     ``plan`` is the user's plan, ``flown`` the same with the files that are stored in the folder; ``named`` is the
@@ -45,11 +45,11 @@ class PreparedCampaign:
     plan: BatchPlan
     flown: BatchPlan
     systems: Mapping[str, PreparedSystem]
-    manifest: Manifest
+    manifest: CampaignManifest
     folder: Path | None
     named: Path | None = None
 
-    def of_first(self, trials: int) -> PreparedCampaign:
+    def of_first(self, trials: int) -> LoadedCampaign:
         """Return the campaign of the first trials, which end with a shard; its folder holds no more either."""
         if trials == self.manifest.trials:
             return self
@@ -59,7 +59,7 @@ class PreparedCampaign:
         return replace(self, plan=plan, manifest=cut(self.folder, self.manifest, plan))
 
     @property
-    def provenance(self) -> Provenance:
+    def provenance(self) -> CampaignProvenance:
         """Inputs that its numbers depend on, apart from the trials themselves."""
         is_earlier = self.manifest.identities is None
         entries = provenance(self.flown if is_earlier else self.plan, self.systems)
@@ -135,7 +135,7 @@ def open_campaign(
     engine: str | None = None,
     workers: int | None = None,
     elsewhere: str | None = None,
-) -> PreparedCampaign:
+) -> LoadedCampaign:
     """Check a plan and store it. Raises InputError before anything is written or flown.
 
     With ``output`` a campaign begins in that folder, in place of what is there, or goes on there with ``resume``; what
@@ -152,22 +152,22 @@ def open_campaign(
         check_fused(prepared, in_child=in_child or not may_load_here(prepared))
     manifest, contents = gather(plan, systems)
     if output is None:
-        return PreparedCampaign(plan, plan, systems, manifest, None)
+        return LoadedCampaign(plan, plan, systems, manifest, None)
     folder = output.absolute()  # FMUs may change the working folder
     with lock_folder(folder, alone=not resume):
         manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
     flown = restore(folder, manifest, plan.watch.log, trust=plan.options)
     flown = replace(flown, options=flown.options.but(flavour=plan.options.chosen["flavour"]))
     plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
-    return PreparedCampaign(plan, flown, systems, manifest, folder, output)
+    return LoadedCampaign(plan, flown, systems, manifest, folder, output)
 
 
-def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> PreparedCampaign:
+def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> LoadedCampaign:
     """Open the campaign whose manifest is in a folder; ``trust`` is what foreign FMUs may do. Raises InputError."""
     named, folder = folder, folder.absolute()
     manifest = read_manifest(folder)
     plan = restore(folder, manifest, trust=trust)  # whose draws were checked when the folder was created
-    return PreparedCampaign(plan, plan, prepare_variants(plan), manifest, folder, named)
+    return LoadedCampaign(plan, plan, prepare_variants(plan), manifest, folder, named)
 
 
 def read_folder(folder: Path) -> CampaignFolder:

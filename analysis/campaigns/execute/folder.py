@@ -12,12 +12,12 @@ from ....common.errors import InputError
 from ..definition.plan import BatchPlan
 from ..folder.draws import read_draws
 from ..folder.files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
-from ..folder.manifest import CONTENTS, FILE, Manifest, read_manifest, remove_contents, store_contents
+from ..folder.manifest import CONTENTS, FILE, CampaignManifest, read_manifest, remove_contents, store_contents
 from ..folder.numbering import Numbering
 from .identity import differences
 
 
-def begin(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> Manifest:
+def begin(folder: Path, manifest: CampaignManifest, contents: dict[str, bytes], plan: BatchPlan) -> CampaignManifest:
     """Write a folder with a campaign's manifest, contents and draws, and none of the trials of another."""
     for name in (FILE, SUMMARY):  # first, so that what is left of another campaign is no result any more
         (folder / name).unlink(missing_ok=True)
@@ -27,7 +27,9 @@ def begin(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: Ba
     return manifest
 
 
-def resume_folder(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> Manifest:
+def resume_folder(
+    folder: Path, manifest: CampaignManifest, contents: dict[str, bytes], plan: BatchPlan
+) -> CampaignManifest:
     """Resume a folder that holds this campaign already, or its first trials. Raises InputError for another one."""
     held = read_manifest(folder)
     manifest = replace(manifest, shard_size=held.shard_size)  # which followed from fewer trials
@@ -49,7 +51,7 @@ def resume_folder(folder: Path, manifest: Manifest, contents: dict[str, bytes], 
     return resumed
 
 
-def _check_draws(folder: Path, held: Manifest, plan: BatchPlan) -> None:
+def _check_draws(folder: Path, held: CampaignManifest, plan: BatchPlan) -> None:
     """Refuse a plan that does not draw for the first trials what is held for them."""
     names = plan.campaign.input_names()
     stored, first = read_draws(folder, held.trials, names), 0
@@ -64,7 +66,7 @@ def _check_draws(folder: Path, held: Manifest, plan: BatchPlan) -> None:
             return
 
 
-def cut(folder: Path, manifest: Manifest, plan: BatchPlan) -> Manifest:
+def cut(folder: Path, manifest: CampaignManifest, plan: BatchPlan) -> CampaignManifest:
     """Cut the folder to a campaign of fewer trials, those of the plan: whole shards, and the traces of these."""
     manifest = replace(manifest, trials=plan.campaign.trials)
     numbering = Numbering(manifest.trials, manifest.shard_size)
@@ -86,7 +88,7 @@ def tidy(folder: Path) -> None:
         remove_partial(place)
 
 
-def _write(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> None:
+def _write(folder: Path, manifest: CampaignManifest, contents: dict[str, bytes], plan: BatchPlan) -> None:
     store_contents(folder / CONTENTS, contents)
     write_draws(plan, folder, manifest.shard_size)
     manifest.write(folder)

@@ -9,7 +9,7 @@ from typing import Any
 
 from ....fmus_src.export.identity import guid_of_module
 from ...runtime.system.fmu import Fmu
-from ..folder.manifest import Manifest
+from ..folder.manifest import CampaignManifest
 
 LIMITS = ("call_timeout", "memory")  # options that end trials, and change none
 MOST_DIFFERENCES = 3  # named in one line
@@ -29,7 +29,7 @@ def identity_of(fmu: Fmu) -> str:
     return guid_of_module(fmu.name, module) or fmu.digest
 
 
-def campaign_key(manifest: Manifest) -> str:
+def campaign_key(manifest: CampaignManifest) -> str:
     """Return what tells a campaign from others, however many trials it has.
 
     It is the same whatever its system and its files are called, whoever simulates it, with which limits of wall-clock
@@ -41,7 +41,7 @@ def campaign_key(manifest: Manifest) -> str:
     return hashlib.sha256(json.dumps(document, sort_keys=True).encode()).hexdigest()
 
 
-def differences(stored: Manifest, requested: Manifest) -> str:
+def differences(stored: CampaignManifest, requested: CampaignManifest) -> str:
     """Return what two manifests differ in, as one phrase.
 
     It is empty where they differ in the number of trials, names and limits alone; of an earlier version limits count.

@@ -10,16 +10,16 @@ from ...runtime.system.arrays.axes import names_of_axes
 from ...runtime.system.prepared import PreparedSystem
 from ..definition.campaign import Metric
 from ..definition.plan import BatchPlan
-from ..folder.provenance import CampaignMetadata, MetricMetadata, Provenance, SignalMetadata
+from ..folder.provenance import CampaignMetadata, CampaignProvenance, MetricMetadata, SignalMetadata
 
 TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 
 
-def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Provenance:
+def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> CampaignProvenance:
     """Return the inputs of a batch's numbers; ``systems`` are the prepared ones by variant."""
     first = next(iter(systems.values()))
     options = plan.options
-    metadata: Provenance = {
+    metadata: CampaignProvenance = {
         "system": first.archive.name,
         "system_sha256": first.archive.digest,
         "campaign": plan.campaign.file,

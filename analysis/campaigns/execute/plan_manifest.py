@@ -36,7 +36,7 @@ from ..folder.manifest import (
     SAME_VERSION,
     AttachedDocument,
     CampaignDocument,
-    Manifest,
+    CampaignManifest,
     ResetDocument,
     SourceDocument,
     SystemDocument,
@@ -65,7 +65,7 @@ class _Contents(dict[str, bytes]):
         return {"label": label, "sha256": sha256, "content": self.keep(bytes(sink.getvalue()), ".parquet")}
 
 
-def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Manifest, dict[str, bytes]]:
+def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[CampaignManifest, dict[str, bytes]]:
     """Return the manifest of a plan that was read from a campaign's file, and the contents that it names.
 
     ``systems`` are those of `check_plan`, by variant. FMUs that are not ours have their reset tried here, at first use.
@@ -79,7 +79,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
             for prepared in systems.values()
             for requested, read in prepared.elsewhere.items()
         }
-    manifest = Manifest(
+    manifest = CampaignManifest(
         perilune=version("perilune"),
         system=system,
         elsewhere=elsewhere,
@@ -156,7 +156,12 @@ def _keep_series(series: InputSeries, contents: _Contents) -> TableDocument:
 
 
 def restore(
-    folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None, trust: Trust = UNTRUSTED
+    folder: Path,
+    manifest: CampaignManifest,
+    log: str | None = None,
+    *,
+    draws: Path | None = None,
+    trust: Trust = UNTRUSTED,
 ) -> BatchPlan:
     """Return the plan of a campaign's folder, with the draws that are stored there. Raises InputError.
 
@@ -192,7 +197,7 @@ def restore(
     return plan
 
 
-def _restore_campaign(source: CampaignSource, manifest: Manifest, folder: Path) -> Campaign:
+def _restore_campaign(source: CampaignSource, manifest: CampaignManifest, folder: Path) -> Campaign:
     """Return the campaign of a file with the changes of its manifest. Raises InputError."""
     parsed, compare = parse_campaign(source.table()), manifest.campaign["compare"]
     read = replace(
@@ -211,7 +216,7 @@ def _restore_campaign(source: CampaignSource, manifest: Manifest, folder: Path) 
     return campaign
 
 
-def _restore_series(contents: Path, manifest: Manifest) -> InputSeries | None:
+def _restore_series(contents: Path, manifest: CampaignManifest) -> InputSeries | None:
     """Return the inputs over time, None without."""
     if manifest.series is None:
         return None
@@ -235,7 +240,7 @@ def _restore_source(contents: Path, campaign: SourceDocument) -> CampaignSource:
     return CampaignSource(campaign["label"], data, extends, campaign.get("position", 0), attached)
 
 
-def _restore_archive(contents: Path, manifest: Manifest) -> SystemArchive:
+def _restore_archive(contents: Path, manifest: CampaignManifest) -> SystemArchive:
     system = manifest.system
     files = {name: content_path(contents, content) for name, content in system["files"].items()}
     return SystemArchive(

@@ -15,7 +15,7 @@ from ..definition.checks import check_plan
 from ..definition.plan import BatchPlan
 from ..folder.manifest import read_manifest
 from ..trials import TrialTable
-from .campaign import PreparedCampaign, open_folder
+from .campaign import LoadedCampaign, open_folder
 from .flyer import Flyer, TrialResult, result_of
 from .plan_manifest import restore
 
@@ -79,7 +79,7 @@ def replay_plan(plan: BatchPlan, trial: int, configuration: str | None = None) -
 
 
 def _replay(
-    plan: BatchPlan, prepared: PreparedSystem, variant: Variant, trial: int, campaign: PreparedCampaign | None
+    plan: BatchPlan, prepared: PreparedSystem, variant: Variant, trial: int, campaign: LoadedCampaign | None
 ) -> ReplayedTrial:
     """Repeat a trial; compare it with the stored one in the folder of ``campaign``, if there is one."""
     flight, outcome = Flyer(plan).replay(variant.name, trial)
@@ -112,7 +112,7 @@ def _variant_of(plan: BatchPlan, file: str | Path, name: str | None) -> Variant:
     return variants[name] if name is not None else next(iter(variants.values()))
 
 
-def _read_stored(campaign: PreparedCampaign, variant: Variant, trial: int) -> TrialResult | None:
+def _read_stored(campaign: LoadedCampaign, variant: Variant, trial: int) -> TrialResult | None:
     """Return the stored result of a trial; None where its shard is missing. Raises InputError for a damaged one."""
     shard = trial // campaign.numbering.size
     if not campaign.has(shard):

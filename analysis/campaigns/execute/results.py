@@ -19,18 +19,18 @@ from ..folder.campaign_folder import CampaignFolder
 from ..folder.files import SUMMARY, clear, trial_table, write_draws
 from ..folder.lock import lock_folder
 from ..folder.numbering import Numbering, shard_size
-from ..folder.provenance import Provenance
+from ..folder.provenance import CampaignProvenance
 from ..plain_text import assumption_lines, faults_line
 from ..plotted_sample import PlottedSample, select_trials
 from ..summary import Summary, summarise
 from ..summary_text import select_metrics, summary_text
 from ..trials import TrialTable
-from .campaign import PreparedCampaign
+from .campaign import LoadedCampaign
 from .folder import tidy
 
 
 @dataclass
-class BatchResult:
+class CampaignResult:
     """All trials of all variants, ``rows`` in order of trial, which may be stored in a folder and not in memory.
 
     ``folder`` is the campaign's, as its user names it, None where it has none.
@@ -38,7 +38,7 @@ class BatchResult:
 
     plan: BatchPlan
     rows: Mapping[str, TrialTable]
-    provenance: Provenance
+    provenance: CampaignProvenance
     folder: Path | None = None
 
     def __post_init__(self) -> None:
@@ -48,7 +48,7 @@ class BatchResult:
         return describe_column(name, self.provenance)
 
     @classmethod
-    def finish(cls, campaign: PreparedCampaign, rows: Mapping[str, TrialTable], **more: Any) -> Self:
+    def finish(cls, campaign: LoadedCampaign, rows: Mapping[str, TrialTable], **more: Any) -> Self:
         """Return the result of a campaign's first trials, by variant; its summary completes the campaign's folder.
 
         ``more`` are further fields of a derived class.

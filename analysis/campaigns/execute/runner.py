@@ -16,14 +16,14 @@ from ..folder.lock import lock_folder
 from ..folder.numbering import spans
 from ..requirement_verdicts import satisfies, trials_to_decision
 from ..trials import TrialTable
-from .campaign import PreparedCampaign, open_campaign
+from .campaign import LoadedCampaign, open_campaign
 from .flights import fly_shards, task_size
-from .results import BatchResult
+from .results import CampaignResult
 from .store import ShardStore
 from .workers import FlyerPool, in_threads, worker_count
 
 # What flies shards of a campaign: each one's trials by variant, as soon as all are there, in any order of shards.
-Elsewhere = Callable[[PreparedCampaign, Sequence[int]], Generator[tuple[int, dict[str, TrialTable]]]]
+Elsewhere = Callable[[LoadedCampaign, Sequence[int]], Generator[tuple[int, dict[str, TrialTable]]]]
 
 
 def run_batch(
@@ -34,7 +34,7 @@ def run_batch(
     resume: bool = False,
     engine: str | None = None,
     elsewhere: Elsewhere | None = None,
-) -> BatchResult:
+) -> CampaignResult:
     """Simulate every trial of every variant of a plan. Raises InputError before anything flies.
 
     ``workers`` is the number of parallel flights (default: one per processor), ``engine`` one of `ENGINES` (default:
@@ -44,10 +44,10 @@ def run_batch(
     """
     campaign = open_campaign(plan, output, resume=resume, engine=engine, workers=workers)
     rows = fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine, elsewhere=elsewhere)
-    return BatchResult.finish(campaign, rows)
+    return CampaignResult.finish(campaign, rows)
 
 
-def merge_rows(campaign: PreparedCampaign) -> Mapping[str, TrialTable]:
+def merge_rows(campaign: LoadedCampaign) -> Mapping[str, TrialTable]:
     """Return the trials by variant of a campaign whose shards are in its folder. Raises
     InputError where some are missing."""
     missing = campaign.missing()
@@ -60,7 +60,7 @@ def merge_rows(campaign: PreparedCampaign) -> Mapping[str, TrialTable]:
 
 
 def fly_campaign(
-    campaign: PreparedCampaign,
+    campaign: LoadedCampaign,
     shards: Sequence[int],
     *,
     workers: int | None = None,
@@ -92,7 +92,7 @@ def fly_campaign(
     return _rows(campaign, store, decision)
 
 
-def _decision(campaign: PreparedCampaign, missing: Collection[int]) -> CampaignDecision:
+def _decision(campaign: LoadedCampaign, missing: Collection[int]) -> CampaignDecision:
     """Return the decision by the shards in a campaign's folder."""
     decision, store, numbering = CampaignDecision(campaign.plan), campaign.store(), campaign.numbering
     if campaign.plan.until_decided and campaign.folder is not None:
@@ -101,7 +101,7 @@ def _decision(campaign: PreparedCampaign, missing: Collection[int]) -> CampaignD
     return decision
 
 
-def _rows(campaign: PreparedCampaign, store: ShardStore, decision: CampaignDecision) -> dict[str, TrialTable]:
+def _rows(campaign: LoadedCampaign, store: ShardStore, decision: CampaignDecision) -> dict[str, TrialTable]:
     """Return the trials of the shards that decide a campaign, or else of all, by variant."""
     numbering = campaign.numbering
     if decision.shards is not None:
@@ -110,7 +110,7 @@ def _rows(campaign: PreparedCampaign, store: ShardStore, decision: CampaignDecis
 
 
 def _fly_here(
-    campaign: PreparedCampaign, shards: Sequence[int], workers: int | None, engine: str | None
+    campaign: LoadedCampaign, shards: Sequence[int], workers: int | None, engine: str | None
 ) -> Generator[tuple[int, dict[str, TrialTable]]]:
     count = worker_count(workers)
     threads = in_threads(campaign.systems.values(), engine)

@@ -39,7 +39,7 @@ from .files import (
     write_parquet,
 )
 from .manifest import FILE as MANIFEST
-from .provenance import Provenance, batch_digest
+from .provenance import CampaignProvenance, batch_digest
 from .summary import SummaryDocument, without_summary
 
 
@@ -58,7 +58,7 @@ class CampaignFolder:
     """
 
     folder: Path
-    provenance: Provenance
+    provenance: CampaignProvenance
     summary: SummaryDocument | None = None
 
     @classmethod

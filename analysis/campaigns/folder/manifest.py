@@ -81,7 +81,7 @@ class CampaignDocument(SourceDocument, total=False):
 
 
 @dataclass(frozen=True)
-class Manifest:
+class CampaignManifest:
     """A campaign to be simulated in shards; every value can be written as JSON.
 
     ``elsewhere`` are contents outside of the ``system``, by the key of their use. ``options`` are the system options,
@@ -135,7 +135,7 @@ def _contents(campaign: SourceDocument) -> list[str]:
     return [campaign["content"], *attached, *(name for part in campaign.get("extends", []) for name in _contents(part))]
 
 
-def read_manifest(folder: Path) -> Manifest:
+def read_manifest(folder: Path) -> CampaignManifest:
     """Read the manifest in a folder, which anyone may have written. Raises InputError."""
     path = folder / FILE
     content = read_regular(path, WRITE, INPUT_BYTES.limit)
@@ -143,20 +143,20 @@ def read_manifest(folder: Path) -> Manifest:
         check_folder(written, "put a folder in its place")
     try:
         document = msgspec.json.decode(content, type=dict[str, msgspec.Raw])
-        manifest = msgspec.json.decode(content, type=Manifest)
+        manifest = msgspec.json.decode(content, type=CampaignManifest)
     except msgspec.ValidationError as error:
         problem, _, element = str(error).partition(" - at ")
         raise InputError(path, element.strip("`$."), f"{problem[:1].lower()}{problem[1:]}", SAME_VERSION) from error
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(path, "", f"not JSON: {error}", WRITE) from error
-    unknown = sorted(set(document) - {field.name for field in fields(Manifest)})
+    unknown = sorted(set(document) - {field.name for field in fields(CampaignManifest)})
     if unknown:
         raise InputError(path, unknown[0], "not as this version of perilune writes it", SAME_VERSION)
     _check_manifest(manifest, path)
     return manifest
 
 
-def _check_manifest(manifest: Manifest, path: Path) -> None:
+def _check_manifest(manifest: CampaignManifest, path: Path) -> None:
     """Refuse numbers out of bounds, and contents that are named by anything but their hashes."""
     for name, number in (("trials", manifest.trials), ("shard_size", manifest.shard_size)):
         TRIALS.check(number, path, name)

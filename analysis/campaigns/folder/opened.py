@@ -19,7 +19,7 @@ from ..columns import Column, describe_column
 from ..statistics import quantile
 from .campaign_folder import CampaignFolder
 from .files import read_table
-from .provenance import Provenance
+from .provenance import CampaignProvenance
 from .traces import trace_dataset
 
 UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # what Arrow says of a column that there is not
@@ -32,7 +32,7 @@ class OpenedResults:
         self.source = source
 
     @property
-    def provenance(self) -> Provenance:
+    def provenance(self) -> CampaignProvenance:
         """Inputs that the numbers depend on, as in summary.json: system, campaign, seed, hashes."""
         return self.source.provenance
 

@@ -59,7 +59,7 @@ class CampaignMetadata(TypedDict, total=False):
     targets: dict[str, dict[str, float]]
 
 
-class Provenance(CampaignMetadata, total=False):
+class CampaignProvenance(CampaignMetadata, total=False):
     """Return what a batch's numbers depend on, apart from the trials themselves.
 
     ``batch`` tells it from others; folders of earlier versions have a key of their ``manifest`` instead.

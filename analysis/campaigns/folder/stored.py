@@ -13,14 +13,14 @@ import pyarrow
 
 from ....common.errors import InputError
 from ....common.regular import check_folder
-from ..definition.campaign import Group, Metric, groups_of
+from ..definition.campaign import Metric, TrialGroup, groups_of
 from ..definition.expressions import Expression
 from ..trials import TrialTable, join_trials
 from .campaign_folder import CampaignFolder, Shard
 from .files import DRAWS, FLIGHT, FOLDER, NEW_FOLDER, NUMBER_PREFIXES, SUMMARY, numbers, read_table, trace_files
 from .manifest import FILE as MANIFEST
 from .manifest import WRITE
-from .provenance import Provenance
+from .provenance import CampaignProvenance
 from .summary import SummaryDocument, read_metrics, read_summary
 
 RESUME = "resume it: the batch's command with `resume`"
@@ -46,7 +46,7 @@ class StoredBatch:
         return self.source.folder
 
     @property
-    def provenance(self) -> Provenance:
+    def provenance(self) -> CampaignProvenance:
         """Inputs that the campaign's numbers depend on."""
         return self.source.provenance
 
@@ -77,7 +77,7 @@ class StoredBatch:
         return [Expression(text) for text in dict.fromkeys([self.document["success"], *required])]
 
     @cached_property
-    def groups(self) -> list[Group]:
+    def groups(self) -> list[TrialGroup]:
         """The groups of trials; none where the campaign does not ask for them. Raises InputError."""
         where = (str(self.folder / "summary.json"), "group")
         if self.group is None:

@@ -14,10 +14,10 @@ from ..definition.campaign import Metric
 from ..definition.expressions import Expression
 from .files import NEW_FOLDER
 from .manifest import WRITE
-from .provenance import Provenance
+from .provenance import CampaignProvenance
 
 
-class SummaryDocument(Provenance, total=False):
+class SummaryDocument(CampaignProvenance, total=False):
     """summary.json: the provenance, and the summary by variant."""
 
     variants: Mapping[str, object]
@@ -29,7 +29,7 @@ FACTS = (
 )  # fmt: skip
 
 
-def without_summary(document: SummaryDocument) -> Provenance:
+def without_summary(document: SummaryDocument) -> CampaignProvenance:
     """Return summary.json without the summary: the inputs of the batch's numbers."""
     entries = document.copy()
     del entries["variants"]

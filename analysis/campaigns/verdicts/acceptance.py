@@ -20,7 +20,7 @@ ROUNDING = 1e-12  # of a risk, relative: 1 - 0.9 is less than 0.1
 FURTHER = (0, 1, 2)  # numbers of further failures for which the required flights are reported
 
 
-class Verdict(StrEnum):
+class AcceptanceVerdict(StrEnum):
     """Verdict of a campaign on a requirement."""
 
     MET = "met"
@@ -35,7 +35,7 @@ class Decision:
     ``consumer_risk`` is the probability, at the required share, of meeting the requirement with no more than that.
     """
 
-    verdict: Verdict
+    verdict: AcceptanceVerdict
     flights: int
     failures: int
     consumer_risk: float
@@ -62,7 +62,7 @@ def producer_risk(flights: int, failures: int, share: float) -> float:
     return float(scipy.stats.binom.sf(failures - 1, flights, 1.0 - share))
 
 
-def decide_by_size(flights: int, failures: int, share: float, confidence: float) -> Verdict:
+def decide_by_size(flights: int, failures: int, share: float, confidence: float) -> AcceptanceVerdict:
     """Decide a campaign whose size did not depend on its outcome.
 
     Met where the consumer's risk is at most 1 - ``confidence``, not met where the producer's is: Clopper and Pearson's
@@ -73,8 +73,8 @@ def decide_by_size(flights: int, failures: int, share: float, confidence: float)
         raise ValueError(f"a confidence of {confidence:g} is not in 0.5 to 1")
     risk = risk_limit(confidence)
     if consumer_risk(flights, failures, share) <= risk:
-        return Verdict.MET
-    return Verdict.NOT_MET if producer_risk(flights, failures, share) <= risk else Verdict.UNDECIDED
+        return AcceptanceVerdict.MET
+    return AcceptanceVerdict.NOT_MET if producer_risk(flights, failures, share) <= risk else AcceptanceVerdict.UNDECIDED
 
 
 def acceptance_number(flights: int, share: float, confidence: float) -> int:

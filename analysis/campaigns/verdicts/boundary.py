@@ -26,7 +26,7 @@ def spending(flights: int, risk: float, half: int) -> float:
 
 
 @dataclass(frozen=True)
-class Look:
+class InterimLook:
     """One look: counts up to ``most`` stop.
 
     ``spent`` is the probability of having stopped at an earlier look, ``probabilities`` are of the counts from
@@ -53,11 +53,11 @@ class Boundary:
     def __init__(self, rate: float, spend: Callable[[int], float]) -> None:
         self.rate = rate
         self.spend = spend
-        self.looks: list[Look] = []
+        self.looks: list[InterimLook] = []
 
-    def add(self, flights: int) -> Look:
+    def add(self, flights: int) -> InterimLook:
         """Return the next look, after ``flights`` flights in all."""
-        last = self.looks[-1] if self.looks else Look(0, -1, 0.0, 0, np.ones(1))
+        last = self.looks[-1] if self.looks else InterimLook(0, -1, 0.0, 0, np.ones(1))
         start = max(last.lowest, last.most + 1)
         flown = flights - last.flights
         new = scipy.stats.binom(flown, self.rate)
@@ -71,5 +71,5 @@ class Boundary:
         probabilities, lowest = probabilities[low:high], lowest + low
         left = self.spend(flights) - spent
         maximum = lowest + int(np.searchsorted(np.cumsum(probabilities), left, side="right")) - 1
-        self.looks.append(Look(flights, maximum, spent, lowest, probabilities))
+        self.looks.append(InterimLook(flights, maximum, spent, lowest, probabilities))
         return self.looks[-1]

@@ -13,8 +13,8 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from .acceptance import FURTHER, Decision, Verdict, flights_needed, risk_limit
-from .boundary import Boundary, Look, spending
+from .acceptance import FURTHER, AcceptanceVerdict, Decision, flights_needed, risk_limit
+from .boundary import Boundary, InterimLook, spending
 
 FINEST = 32  # looks at one distance; then the distance doubles whenever the flights do
 FIRST_LOOKS = 16  # looks or a few more, until a campaign of one size without failures would be done
@@ -59,11 +59,11 @@ class StoppingRule:
         where no number is enough. ValueError where there is no look."""
         return flights - self._look(self._not_met, flights).most
 
-    def decide(self, flights: int, failures: int) -> Verdict:
+    def decide(self, flights: int, failures: int) -> AcceptanceVerdict:
         """Return the verdict at a look that none came before; ValueError where there is no look."""
         if failures <= self.acceptance_number(flights):
-            return Verdict.MET
-        return Verdict.NOT_MET if failures >= self.rejection_number(flights) else Verdict.UNDECIDED
+            return AcceptanceVerdict.MET
+        return AcceptanceVerdict.NOT_MET if failures >= self.rejection_number(flights) else AcceptanceVerdict.UNDECIDED
 
     def decision(self, kept: np.ndarray) -> Decision:
         """Return the first verdict on flights in order of trial, True where the requirement was kept; the rest is
@@ -77,9 +77,9 @@ class StoppingRule:
         for flights in self.looks(len(kept)):
             last, failures = flights, int(np.searchsorted(failed, flights))
             verdict = self.decide(flights, failures)
-            if verdict is not Verdict.UNDECIDED:
+            if verdict is not AcceptanceVerdict.UNDECIDED:
                 return self._decision(verdict, flights, failures)
-        return self._decision(Verdict.UNDECIDED, last, failures)
+        return self._decision(AcceptanceVerdict.UNDECIDED, last, failures)
 
     def count_permitted(self, flights: int) -> tuple[int, int]:
         """Return the last look in ``flights`` flights, and the failures with which it meets the
@@ -96,11 +96,11 @@ class StoppingRule:
             by_failures[more] = enough - flights
         return by_failures
 
-    def _decision(self, verdict: Verdict, flights: int, failures: int) -> Decision:
+    def _decision(self, verdict: AcceptanceVerdict, flights: int, failures: int) -> Decision:
         risk = self._look(self._met, flights).risk(failures) if flights else 1.0
         return Decision(verdict, flights, failures, risk)
 
-    def _look(self, boundary: Boundary, flights: int) -> Look:
+    def _look(self, boundary: Boundary, flights: int) -> InterimLook:
         self._extend(flights)
         if flights not in self._places:
             raise ValueError(f"no look after {flights} flights")

@@ -15,7 +15,7 @@ from ...campaigns.definition.expressions import Expression
 from ...campaigns.definition.file import SYNTHESIS, parse_campaign
 from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.definition.source import read_source_file
-from ...campaigns.definition.table import Table, expression, integer, number, text
+from ...campaigns.definition.table import TomlTable, expression, integer, number, text
 from ...runtime.system.options import SystemOptions
 from ..laws.law import Law, find_law, law_parameters, read_law
 from .search_settings import SearchSettings
@@ -86,7 +86,7 @@ def read_synthesis(path: Path) -> Synthesis:
         if key in whole.content:
             raise whole.error(key, f"not for a synthesis: {reason}", "drop it; perilune batch flies what was found")
     remainder = {key: value for key, value in whole.content.items() if key != SYNTHESIS}
-    campaign = parse_campaign(Table(remainder, whole.file, origins=whole.origins, attached=whole.attached))
+    campaign = parse_campaign(TomlTable(remainder, whole.file, origins=whole.origins, attached=whole.attached))
     table = whole.table(SYNTHESIS)
     settings_keys = [field.name for field in fields(SearchSettings)]
     table.only([*OWN_KEYS, *settings_keys])
@@ -111,11 +111,11 @@ def read_synthesis(path: Path) -> Synthesis:
     )
 
 
-def _settings(table: Table) -> SearchSettings:
+def _settings(table: TomlTable) -> SearchSettings:
     values: dict[str, Any] = {}
     for field in fields(SearchSettings):
         if field.name in table.content:
-            kind: Callable[[Table, str, object], float] = {"int": integer, "float": number, "bool": _truth}[
+            kind: Callable[[TomlTable, str, object], float] = {"int": integer, "float": number, "bool": _truth}[
                 str(field.type)
             ]
             values[field.name] = table.get(field.name, kind)
@@ -131,7 +131,7 @@ def _settings(table: Table) -> SearchSettings:
     return settings
 
 
-def _objectives(table: Table, campaign: Campaign) -> dict[str, Expression]:
+def _objectives(table: TomlTable, campaign: Campaign) -> dict[str, Expression]:
     metrics = {metric.name for metric in campaign.metrics}
     objectives: dict[str, Expression] = {}
     for name in table.content:
@@ -162,13 +162,13 @@ def _check_basic(law: Law, settings: SearchSettings, path: Path) -> None:
         ) from error
 
 
-def _truth(table: Table, key: str, value: object) -> bool:
+def _truth(table: TomlTable, key: str, value: object) -> bool:
     if not isinstance(value, bool):
         raise table.error(key, f"{value!r} is neither true nor false", "write true or false")
     return value
 
 
-def _positive(table: Table, key: str, value: object) -> float:
+def _positive(table: TomlTable, key: str, value: object) -> float:
     positive = number(table, key, value)
     if positive <= 0.0:
         raise table.error(key, f"{positive:g} s", "give more than 0 s")

@@ -222,7 +222,7 @@ class Refused(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 
 
 class CellList(msgspec.Struct, tag=True, forbid_unknown_fields=True):
-    """Answer with the fields of each `Cell` of the memory."""
+    """Answer with the fields of each `MemoryCell` of the memory."""
 
     entries: list[tuple[str, str | None, str | None, int]]
 

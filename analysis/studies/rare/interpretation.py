@@ -8,10 +8,10 @@ import numpy as np
 
 from ...campaigns.summary import success_interval
 from ...campaigns.verdicts.order_statistics import quantiles
-from .outcome import RareResult
+from .outcome import RareOutcome
 
 
-class Span(NamedTuple):
+class LevelSpan(NamedTuple):
     """The simulations ``first`` to ``last`` of a level, their limit state ``threshold``, and that of the next level.
 
     ``reached`` is the probability of the level itself, None where its chains are not trusted: no level follows then.
@@ -25,10 +25,10 @@ class Span(NamedTuple):
     reached: float | None
 
 
-def level_spans(result: RareResult) -> list[Span]:
+def level_spans(result: RareOutcome) -> list[LevelSpan]:
     """Return the levels by the numbers of their simulations, counted from 1: a chain's seed
     belongs to the level before."""
-    spans: list[Span] = []
+    spans: list[LevelSpan] = []
     levels = result.simulation.levels
     first, seeds, reached = 1, 0, 1.0
     for index, level in enumerate(levels):
@@ -37,7 +37,9 @@ def level_spans(result: RareResult) -> list[Span]:
         following: float | None = 0.0 if is_last else levels[index + 1].threshold
         trusted = level.probability is not None
         spans.append(
-            Span(index + 1, first, last, level.threshold, following if trusted else None, reached if trusted else None)
+            LevelSpan(
+                index + 1, first, last, level.threshold, following if trusted else None, reached if trusted else None
+            )
         )
         fraction = level.probability or 0.0
         first, seeds = last + 1, round(fraction * level.samples)
@@ -45,7 +47,7 @@ def level_spans(result: RareResult) -> list[Span]:
     return spans
 
 
-def influence(result: RareResult) -> dict[str, float]:
+def influence(result: RareOutcome) -> dict[str, float]:
     """Return the distance of failures from the first level's samples in each dispersed parameter, the largest first.
 
     In standard deviations of the first level: the larger of the shift of the mean and of that of the mean distance from
@@ -77,7 +79,7 @@ class Equivalent(NamedTuple):
     high: float
 
 
-def equivalents(result: RareResult) -> list[Equivalent]:
+def equivalents(result: RareOutcome) -> list[Equivalent]:
     """Return this study, Monte Carlo with as many simulations, and with as many for the same coefficient of variation.
 
     Of Monte Carlo it is Clopper and Pearson's interval of the expected number of failures, as a whole number.

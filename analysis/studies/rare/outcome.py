@@ -36,7 +36,7 @@ class FailedFlight(FlightDocument):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class RareResult(StudyResult):
+class RareOutcome(StudyResult):
     """The probability of a ``failure``, and the flights that it was found by.
 
     ``simulation`` has the numbers, of ``samples`` points a level.

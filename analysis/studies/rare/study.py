@@ -14,8 +14,8 @@ from ..flights import SampleFlights
 from ..flown import Flown
 from ..units import units_of
 from .conditional_sampling import Points
-from .outcome import RareResult
-from .subset_simulation import StuckError, subset_simulation
+from .outcome import RareOutcome
+from .subset_simulation import StalledLevelError, subset_simulation
 
 SAMPLES = 4500  # of a level: an interval of a factor 1.3 to either side at 1e-4
 LEAST = 1e-9
@@ -30,7 +30,7 @@ def rare_failure(
     samples: int = SAMPLES,
     least: float = LEAST,
     workers: int | None = None,
-) -> RareResult:
+) -> RareOutcome:
     """Compute the probability of a failure over a campaign's draws and the noise of its components. Raises InputError.
 
     ``failure`` is an expression over metrics and draws, by default that a trial is no success. ``hold`` sets draws to
@@ -63,7 +63,7 @@ def rare_failure(
             simulation = subset_simulation(
                 margin, space.size, len(noise.sources), seed=plan.campaign.seed, samples=samples, least=least
             )
-        except StuckError as stuck:
+        except StalledLevelError as stuck:
             worth, fraction = stuck.args
             problem = (
                 f"{100 * fraction:.0f} % of a level's flights have one margin, {worth:g}, and none is nearer to it"
@@ -71,7 +71,7 @@ def rare_failure(
             where = ("`failure`", failure) if failure is not None else (plan.campaign.file, "success")
             raise InputError(*where, problem, "compare numbers that come near their limits by degrees") from stuck
         units = units_of(space, flights.prepared, flights.facts)
-        return RareResult(
+        return RareOutcome(
             failure=wanted, simulation=simulation, samples=samples, space=space, flown=flown.whole(),
             facts=flights.facts, noise=noise, units=units, lost=flights.lost,
         )  # fmt: skip

@@ -16,7 +16,7 @@ from ...campaigns.draws.generators import standard_normals
 from .conditional_sampling import FIRST_SPREAD, Chains, FreshStreams, MarginOf, Points, grow_chains
 from .uncertainty import (
     CONFIDENCE,
-    Interval,
+    ConfidenceInterval,
     binomial_interval,
     chain_correlation,
     equivalent_trials,
@@ -76,7 +76,7 @@ class SubsetSimulation:
     """
 
     probability: float | None
-    interval: Interval
+    interval: ConfidenceInterval
     levels: tuple[Level, ...]
     evaluations: int
     failures: Points
@@ -86,7 +86,7 @@ class SubsetSimulation:
     noise_ends: bool = False
 
 
-class StuckError(Exception):
+class StalledLevelError(Exception):
     """Error of a level too many of whose points share one margin for a next event; ``args`` are margin and share."""
 
 
@@ -111,8 +111,8 @@ def subset_simulation(
     ``margin`` maps points of ``dimensions`` draws and ``sources`` streams to margins (points,), the larger the nearer
     to failure; inf is a failure and none is nan. Each level has ``samples`` points. A failure less likely than about
     ``least`` is abandoned. The interval counts that points of a chain, and chains of one family, are alike. The same
-    seed gives the same bits. Raises StuckError where margins do not vary, ValueError for fewer than 100 samples, a
-    ``least`` not in (0, 1), or nothing random.
+    seed gives the same bits. Raises StalledLevelError where margins do not vary, ValueError for fewer than 100 samples,
+    a ``least`` not in (0, 1), or nothing random.
     """
     if samples < 100 or not 0.0 < least < 1.0 or dimensions + sources < 1:
         raise ValueError(f"{samples} samples, least {least}, {dimensions} dimensions, {sources} sources")
@@ -169,7 +169,7 @@ def subset_simulation(
         interval = family_interval(reached, families, samples, CONFIDENCE)
     missed = threshold != 0.0
     if missed:
-        interval = Interval(0.0, interval.high, interval.variation)
+        interval = ConfidenceInterval(0.0, interval.high, interval.variation)
     return SubsetSimulation(
         None if missed else reached,
         interval,
@@ -214,7 +214,7 @@ def _bound(
 def _next_threshold(margins: np.ndarray) -> float:
     """Return the margin of the next event: that of the last of the worst tenth, 0 where they have all failed.
 
-    Where many share that margin, the event is that of larger ones only. Raises StuckError where there are none.
+    Where many share that margin, the event is that of larger ones only. Raises StalledLevelError where there are none.
     """
     worst = np.sort(margins)[::-1]
     threshold = worst[int(SHARE * len(worst)) - 1]
@@ -225,7 +225,7 @@ def _next_threshold(margins: np.ndarray) -> float:
         return float(threshold)
     above = worst[worst > threshold]
     if not above.size:
-        raise StuckError(float(threshold), tied)
+        raise StalledLevelError(float(threshold), tied)
     return min(float(above[-1]), 0.0)
 
 

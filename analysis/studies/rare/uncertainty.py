@@ -10,7 +10,7 @@ from scipy.stats import beta, binomtest, t
 CONFIDENCE = 0.95
 
 
-class Interval(NamedTuple):
+class ConfidenceInterval(NamedTuple):
     """A confidence interval and the coefficient of variation that it is based on."""
 
     low: float
@@ -28,21 +28,23 @@ def significant_digits(low: float, high: float) -> int:
     return 2 if high <= COARSE * low else 1
 
 
-def binomial_interval(failures: int, samples: int, confidence: float) -> Interval:
+def binomial_interval(failures: int, samples: int, confidence: float) -> ConfidenceInterval:
     """Return Clopper and Pearson's interval, of independent samples."""
     ends = binomtest(failures, samples).proportion_ci(confidence, method="exact")
     fraction = failures / samples
-    return Interval(float(ends.low), float(ends.high), float(np.sqrt((1.0 - fraction) / (fraction * samples))))
+    return ConfidenceInterval(
+        float(ends.low), float(ends.high), float(np.sqrt((1.0 - fraction) / (fraction * samples)))
+    )
 
 
-def fractional_interval(failures: float, samples: float, confidence: float) -> Interval:
+def fractional_interval(failures: float, samples: float, confidence: float) -> ConfidenceInterval:
     """Return Clopper and Pearson's interval of numbers of failures and samples that need not be whole: effective
     ones."""
     outside = (1.0 - confidence) / 2.0
     low = float(beta.ppf(outside, failures, samples - failures + 1.0)) if failures > 0.0 else 0.0
     high = float(beta.ppf(1.0 - outside, failures + 1.0, samples - failures)) if failures < samples else 1.0
     fraction = failures / samples
-    return Interval(
+    return ConfidenceInterval(
         low, high, float(np.sqrt((1.0 - fraction) / (fraction * samples))) if fraction > 0.0 else float("inf")
     )
 
@@ -71,7 +73,7 @@ def chain_correlation(inside: np.ndarray) -> float:
     return max(2.0 * total, -1.0)
 
 
-def family_interval(probability: float, families: np.ndarray, first: int, confidence: float) -> Interval:
+def family_interval(probability: float, families: np.ndarray, first: int, confidence: float) -> ConfidenceInterval:
     """Return the interval of a probability by levels, whose failed points belong to ``families`` of ``first`` first
     points.
 
@@ -87,4 +89,4 @@ def family_interval(probability: float, families: np.ndarray, first: int, confid
     freedom = max(2.0 * float(squares.sum()) ** 2 / float((squares**2).sum()) - 1.0, 1.0)
     deviation = np.sqrt(np.log1p(variance))  # of the logarithm, where that is normal
     factor = float(np.exp(t.ppf(0.5 + confidence / 2.0, freedom) * deviation))
-    return Interval(probability / factor, min(probability * factor, 1.0), float(np.sqrt(variance)))
+    return ConfidenceInterval(probability / factor, min(probability * factor, 1.0), float(np.sqrt(variance)))

@@ -12,7 +12,7 @@ from ..flown import FlightDocument, StudyResult
 from ..units import unit_of_expression
 from .objective import Objective
 from .realisations import ONE, Fresh, Realisations
-from .search import Phase
+from .search import SearchPhase
 
 
 class WorstFlight(FlightDocument):
@@ -29,7 +29,7 @@ class RandomFlight(WorstFlight):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class WorstResult(StudyResult):
+class WorstOutcome(StudyResult):
     """The worst point of a box of draws: its ``value`` of ``badness``, infinite where it failed, and ``place`` in the
     unit cube.
 
@@ -55,7 +55,7 @@ class WorstResult(StudyResult):
     fresh: Fresh | None = None
     noise_matters: bool | None = None
     reason: str = ""
-    phases: tuple[Phase, ...] = ()
+    phases: tuple[SearchPhase, ...] = ()
 
     @property
     def worst(self) -> WorstFlight:

@@ -23,7 +23,7 @@ RADII = (0.1, 1e-4)  # of COBYQA's trust region, in edges of the cube
 LEAST = 100  # evaluations
 
 
-class Phase(NamedTuple):
+class SearchPhase(NamedTuple):
     """Phase of a search: its method, and the number of its evaluations."""
 
     name: str
@@ -35,7 +35,7 @@ class Maximum(NamedTuple):
 
     point: np.ndarray
     value: float
-    phases: tuple[Phase, ...]
+    phases: tuple[SearchPhase, ...]
 
 
 class _EndError(Exception):
@@ -56,9 +56,9 @@ class _Counted:
         if not self._begun or self._begun[-1][0] != phase:
             self._begun.append((phase, self.left))
 
-    def phases(self) -> tuple[Phase, ...]:
+    def phases(self) -> tuple[SearchPhase, ...]:
         ends = [left for _, left in self._begun[1:]] + [self.left]
-        used = [Phase(name, left - end) for (name, left), end in zip(self._begun, ends, strict=True)]
+        used = [SearchPhase(name, left - end) for (name, left), end in zip(self._begun, ends, strict=True)]
         return tuple(phase for phase in used if phase.evaluations)
 
     def __call__(self, points: np.ndarray) -> np.ndarray:

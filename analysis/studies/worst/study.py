@@ -22,10 +22,10 @@ from ..noise import Noise
 from ..units import units_of
 from .margin_studies import MarginStudies
 from .objective import SIZES, Objective, margin_objective, metric_objective
-from .outcome import WorstResult
+from .outcome import WorstOutcome
 from .realisations import REALISATIONS, Fresh, Realisations, read_realisations
 from .request import MarginAsked
-from .search import LEAST, Phase, largest
+from .search import LEAST, SearchPhase, largest
 
 FLIGHTS = 2000
 STUDIES = 500  # a margin costs more than a flight
@@ -34,7 +34,7 @@ SIGMAS = 3.0
 RANDOM = 0.2  # of the flights are random trials, with which the worst is compared
 
 
-class Flights(Protocol):
+class SampleEvaluator(Protocol):
     """Evaluates samples by simulation or by a stability study; ``fly`` returns the evaluations,
     and the drawn and derived values."""
 
@@ -55,7 +55,7 @@ class Sampled(Protocol):
     def flown(self) -> np.ndarray: ...
 
 
-class SearchOptions(TypedDict, total=False):
+class WorstCaseOptions(TypedDict, total=False):
     """Options of a search by name; ``sigmas`` bound normal draws, the rest is as in `worst_case`."""
 
     sigmas: float
@@ -67,8 +67,8 @@ class SearchOptions(TypedDict, total=False):
 
 
 def worst_case(
-    plan: BatchPlan, metric: str | None = None, *, flights: int = FLIGHTS, **options: Unpack[SearchOptions]
-) -> WorstResult:
+    plan: BatchPlan, metric: str | None = None, *, flights: int = FLIGHTS, **options: Unpack[WorstCaseOptions]
+) -> WorstOutcome:
     """Search for the draws that make an expression largest, within ``sigmas`` of normal draws and the ends of others.
 
     ``metric`` is over metrics and draws, by default the margin by which a trial is no success. ``hold`` and
@@ -85,8 +85,8 @@ def worst_case(
 
 
 def worst_margin(
-    asked: MarginAsked, margin: str = MARGIN, *, flights: int = STUDIES, **options: Unpack[SearchOptions]
-) -> WorstResult:
+    asked: MarginAsked, margin: str = MARGIN, *, flights: int = STUDIES, **options: Unpack[WorstCaseOptions]
+) -> WorstOutcome:
     """Search for the draws that make the least margin of a loop's channels smallest, in the box of `worst_case`.
 
     ``margin`` is one of `SIZES`. An unstable loop is worse than any margin, by its spectral radius; draws that cannot
@@ -130,7 +130,7 @@ class _Search:
     def middle(self) -> Columns:
         return self._space.from_box(np.full((1, self._space.size), 0.5), self._sigmas)
 
-    def result(self, flights_of: Flights, objective: Objective) -> WorstResult:
+    def result(self, flights_of: SampleEvaluator, objective: Objective) -> WorstOutcome:
         """Return the worst of random trials and of a search from them. Raises InputError."""
         space, sigmas = self._space, self._sigmas
         points = _Points(flights_of, objective, self._over if flights_of.noise.sources else None)
@@ -154,7 +154,7 @@ class _Search:
         )
         worst, worst_random = points.row_of(place, value), points.row_of(places[int(np.argmax(values))], values.max())
         fresh = points.fly_fresh(worst, input_names(space.campaign)) if points.over is not None else None
-        return WorstResult(
+        return WorstOutcome(
             badness=objective,
             sigmas=sigmas,
             value=value,
@@ -171,7 +171,7 @@ class _Search:
             over=points.over,
             fresh=fresh,
             noise_matters=points.effect,
-            phases=(Phase("random trials", len(values)), *phases),
+            phases=(SearchPhase("random trials", len(values)), *phases),
         )
 
 
@@ -181,7 +181,7 @@ class _Points:
     ``effect`` says whether the noise changed a value of the random trials; where it did not, points fly one.
     """
 
-    def __init__(self, flights_of: Flights, objective: Objective, over: Realisations | None) -> None:
+    def __init__(self, flights_of: SampleEvaluator, objective: Objective, over: Realisations | None) -> None:
         self._flights_of, self._objective = flights_of, objective
         self.over, self.flown, self.flights = over, Flown(), 0
         self.realisations = 1 if over is None else over.count

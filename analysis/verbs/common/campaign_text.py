@@ -15,7 +15,7 @@ from ...campaigns.definition.campaign import Metric
 from ...campaigns.definition.expressions import Expression
 from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.execute.flyer import TrialResult
-from ...campaigns.execute.results import BatchResult
+from ...campaigns.execute.results import CampaignResult
 from ...campaigns.lost_trials import lost_of
 from ...campaigns.plain_text import align_columns
 from ...campaigns.summary import requirement_values, summarise
@@ -26,7 +26,7 @@ from ...runtime.flight.results import TIMED_OUT
 from .arguments import read_requirements, requirement_problems
 
 
-def campaign_problems(result: BatchResult, requirements: Sequence[Expression]) -> list[str]:
+def campaign_problems(result: CampaignResult, requirements: Sequence[Expression]) -> list[str]:
     """Return a line for each variant with failed or late simulations, and for each requirement that is not met."""
     lines = failure_lines(find_failed([result.rows]), result.plan, result.folder)
     limit = f"{result.plan.watch.timeout:g} s of `timeout`" if result.plan.watch.timeout is not None else ""

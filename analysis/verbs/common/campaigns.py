@@ -18,7 +18,7 @@ from ...campaigns.definition.file import parse_campaign
 from ...campaigns.definition.plan import BatchPlan, read_plan
 from ...campaigns.definition.sweeps import part_sweeps
 from ...campaigns.draws.given import ALL, GivenDraws
-from ...campaigns.execute.campaign import PreparedCampaign
+from ...campaigns.execute.campaign import LoadedCampaign
 from ...campaigns.execute.cluster.tasks import WorkersDiedError
 from ...campaigns.folder.manifest import FILE as MANIFEST
 from ...commands.campaigns import campaign_command, replay_command
@@ -26,7 +26,7 @@ from ...options.fault import faults_of
 from ...options.option import FilePath
 from ...runtime.system.options import Watch, system_options
 from ...runtime.system.series import read_series
-from ...studies.flown import Commands
+from ...studies.flown import StudyCommands
 
 
 def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, Any]) -> BatchPlan:
@@ -70,7 +70,7 @@ def _read_compare(compare: Mapping[str, FilePath | Sequence[FilePath]]) -> dict[
     }
 
 
-def commands_of(plan: BatchPlan) -> Commands:
+def commands_of(plan: BatchPlan) -> StudyCommands:
     """Return the writers of commands for the simulations of a study."""
     (variant,) = plan.campaign.variants()
 
@@ -81,10 +81,10 @@ def commands_of(plan: BatchPlan) -> Commands:
     def monte_carlo(trials: int) -> str:
         return campaign_command(replace(plan, campaign=replace(plan.campaign, trials=trials)), variant)
 
-    return Commands(replay, monte_carlo)
+    return StudyCommands(replay, monte_carlo)
 
 
-def name_foreign(campaign: PreparedCampaign) -> None:
+def name_foreign(campaign: LoadedCampaign) -> None:
     """Warn of the foreign FMUs in a campaign's folder before they run: the author of the folder chose them."""
     fmus = {fmu.digest: fmu for system in campaign.systems.values() for fmu in system.network.fmus.values()}
     foreign = sorted(f"{fmu.name} ({digest[:12]})" for digest, fmu in fmus.items() if not fmu.is_own)

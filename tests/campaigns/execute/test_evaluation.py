@@ -14,7 +14,7 @@ from perilune.analysis.campaigns.definition.checks import VariantNames
 from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.metrics import evaluate_metric
 from perilune.analysis.campaigns.definition.plan import TrialSamples
-from perilune.analysis.campaigns.definition.table import Table
+from perilune.analysis.campaigns.definition.table import TomlTable
 from perilune.analysis.campaigns.draws.table import DrawTable
 from perilune.analysis.campaigns.execute.evaluation import MetricEvaluator
 from perilune.analysis.runtime.flight.group import FlightGroup
@@ -74,7 +74,7 @@ def joined(numbers):
 @pytest.fixture(params=["none", "failures", "all"])
 def judged(request):
     head = 'system = "s"\ntrials = 40\nseed = 1\n'
-    campaign = parse_campaign(Table(tomllib.loads(head + TEXT.format(traces=request.param)), "test.toml"))
+    campaign = parse_campaign(TomlTable(tomllib.loads(head + TEXT.format(traces=request.param)), "test.toml"))
     bias = np.random.default_rng(3).uniform(size=COUNT)
     sampled = TrialSamples(campaign, None, [], range(100, 100 + COUNT), DrawTable(COUNT, {"bias": bias}), [])
     names = VariantNames([], ["p.x", "p.y"], ["p.status"], {"p.gain": 2.5})

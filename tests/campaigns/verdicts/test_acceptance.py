@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from scipy.stats import beta, binom
 
 from perilune.analysis.campaigns.verdicts.acceptance import (
+    AcceptanceVerdict,
     FixedSize,
-    Verdict,
     acceptance_number,
     consumer_risk,
     decide_by_size,
@@ -69,15 +69,21 @@ def test_verdicts_are_those_of_clopper_and_pearsons_bounds(flights, data, share,
     high = 1.0 if failures == 0 else beta.ppf(confidence, good + 1, failures)
     if min(abs(low - share), abs(high - share)) < 1e-9:
         return  # too near for another formula
-    expected = Verdict.MET if low > share else Verdict.NOT_MET if high < share else Verdict.UNDECIDED
+    expected = (
+        AcceptanceVerdict.MET
+        if low > share
+        else AcceptanceVerdict.NOT_MET
+        if high < share
+        else AcceptanceVerdict.UNDECIDED
+    )
     assert decide_by_size(flights, failures, share, confidence) is expected
 
 
 @given(st.integers(1, 5000), SHARES, CONFIDENCES)
 def test_permitted_failures_are_the_most_that_meet_it(flights, share, confidence):
     maximum = acceptance_number(flights, share, confidence)
-    assert maximum < 0 or decide_by_size(flights, maximum, share, confidence) is Verdict.MET
-    assert decide_by_size(flights, maximum + 1, share, confidence) is not Verdict.MET
+    assert maximum < 0 or decide_by_size(flights, maximum, share, confidence) is AcceptanceVerdict.MET
+    assert decide_by_size(flights, maximum + 1, share, confidence) is not AcceptanceVerdict.MET
 
 
 @given(st.integers(0, 30), st.floats(0.5, 0.9999), CONFIDENCES)
@@ -90,7 +96,7 @@ def test_flights_needed_are_the_fewest(failures, share, confidence):
 def test_what_is_missing():
     rule = FixedSize(0.9987, 0.9)
     decision = rule.decision(np.arange(2000) != 7)
-    assert (decision.verdict, decision.flights, decision.failures) == (Verdict.UNDECIDED, 2000, 1)
+    assert (decision.verdict, decision.flights, decision.failures) == (AcceptanceVerdict.UNDECIDED, 2000, 1)
     assert decision.consumer_risk == pytest.approx(binom.cdf(1, 2000, 0.0013))
     assert rule.flights_to_meet(2000, 1) == {0: 991, 1: 2093, 2: 3138}
     assert rule.count_permitted(1770) == (1770, -1)
@@ -113,5 +119,5 @@ def test_ten_thousand_campaigns_are_wrong_in_a_tenth_at_most(share, beside):
     flights = flights_needed(1, share, 0.9)
     failures = np.random.default_rng(17).binomial(flights, rate, 10_000)
     verdicts = {count: decide_by_size(flights, count, share, 0.9) for count in np.unique(failures)}
-    wrong = Verdict.MET if rate > 1.0 - share else Verdict.NOT_MET
+    wrong = AcceptanceVerdict.MET if rate > 1.0 - share else AcceptanceVerdict.NOT_MET
     assert sum(verdicts[count] is wrong for count in failures) <= 1090

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import binom
 
-from perilune.analysis.campaigns.verdicts.acceptance import FixedSize, Verdict, flights_needed
+from perilune.analysis.campaigns.verdicts.acceptance import AcceptanceVerdict, FixedSize, flights_needed
 from perilune.analysis.campaigns.verdicts.boundary import spending
 from perilune.analysis.campaigns.verdicts.stopping import StoppingRule, stopping_rule
 
@@ -34,7 +34,7 @@ def ever(rule, rate, most, verdict):
         alive = np.convolve(alive, binom.pmf(np.arange(step + 1), step, rate))
         low, high = rule.acceptance_number(flights), rule.rejection_number(flights)
         met, refused = alive[: low + 1].sum(), alive[high:].sum()
-        crossed += met if verdict is Verdict.MET else refused
+        crossed += met if verdict is AcceptanceVerdict.MET else refused
         alive[: low + 1] = 0.0
         alive[high:] = 0.0
         last = flights
@@ -47,7 +47,7 @@ def alone(rule, rate, most, verdict):
     for flights in rule.looks(most):
         step = flights - last
         alive = np.convolve(alive, binom.pmf(np.arange(step + 1), step, rate))
-        if verdict is Verdict.MET:
+        if verdict is AcceptanceVerdict.MET:
             stops = slice(0, rule.acceptance_number(flights) + 1)
         else:
             stops = slice(rule.rejection_number(flights), None)
@@ -81,7 +81,7 @@ def test_looking_at_figures_of_one_size_is_wrong():
     ("share", "confidence", "most"),
     [(0.9987, 0.9, 40_000), (0.95, 0.95, 4000), (0.99, 0.999, 8000), (0.5, 0.9, 500), (0.1, 0.5, 100)],
 )
-@pytest.mark.parametrize("verdict", [Verdict.MET, Verdict.NOT_MET])
+@pytest.mark.parametrize("verdict", [AcceptanceVerdict.MET, AcceptanceVerdict.NOT_MET])
 def test_the_risk_is_kept_exactly(share, confidence, most, verdict):
     """At the required share no boundary is crossed with more than may be spent by then, and most of it is used."""
     rule = StoppingRule(share, confidence)
@@ -95,10 +95,10 @@ def test_the_risk_is_kept_exactly(share, confidence, most, verdict):
 
 @pytest.mark.parametrize("beside", [1.02, 1.2, 2.0])
 def test_the_risk_is_smaller_farther_from_the_limit(beside):
-    at_limit = alone(RULE, 0.0013, 20_000, Verdict.MET)
-    assert alone(RULE, 0.0013 * beside, 20_000, Verdict.MET) < at_limit
-    refused = alone(RULE, 0.0013, 20_000, Verdict.NOT_MET)
-    assert alone(RULE, 0.0013 / beside, 20_000, Verdict.NOT_MET) < refused
+    at_limit = alone(RULE, 0.0013, 20_000, AcceptanceVerdict.MET)
+    assert alone(RULE, 0.0013 * beside, 20_000, AcceptanceVerdict.MET) < at_limit
+    refused = alone(RULE, 0.0013, 20_000, AcceptanceVerdict.NOT_MET)
+    assert alone(RULE, 0.0013 / beside, 20_000, AcceptanceVerdict.NOT_MET) < refused
 
 
 def test_the_recursion_in_rational_numbers():
@@ -126,7 +126,7 @@ def test_the_recursion_in_rational_numbers():
         spent += sum(fraction for count, fraction in alive.items() if count <= maximum)
         alive = {count: fraction for count, fraction in alive.items() if count > maximum}
         last = flights
-        if rule.decide(flights, 1) is Verdict.UNDECIDED:
+        if rule.decide(flights, 1) is AcceptanceVerdict.UNDECIDED:
             assert rule.decision(retained).flights == flights
     assert rule.decision(np.ones(30, dtype=bool)).consumer_risk <= 0.25
 
@@ -158,7 +158,11 @@ def test_ten_thousand_campaigns_are_wrong_in_a_tenth_at_most(share, confidence, 
 
 def test_systems_off_the_limit_are_decided():
     """With probability one in the long run; here as exactly as the recursion goes, in 60 000 flights."""
-    for rate, verdict in ((0.0001, Verdict.MET), (0.0005, Verdict.MET), (0.003, Verdict.NOT_MET)):
+    for rate, verdict in (
+        (0.0001, AcceptanceVerdict.MET),
+        (0.0005, AcceptanceVerdict.MET),
+        (0.003, AcceptanceVerdict.NOT_MET),
+    ):
         assert ever(RULE, rate, 60_000, verdict)[0] > 0.99
 
 
@@ -167,7 +171,7 @@ def test_flights_that_99_87_at_90_takes():
     assert RULE.look == 100
     assert RULE.flights_to_meet(0, 0) == {0: 2300, 1: 4000, 2: 5600}
     assert RULE.flights_to_meet(2000, 1) == {0: 2000, 1: 3600, 2: 5200}
-    expected = [ever(RULE, rate, 20_000, Verdict.MET)[1] for rate in (0.0001, 0.0005, 0.0013, 0.002)]
+    expected = [ever(RULE, rate, 20_000, AcceptanceVerdict.MET)[1] for rate in (0.0001, 0.0005, 0.0013, 0.002)]
     assert expected == pytest.approx([2760, 7290, 17060, 10770], abs=5)
 
 
@@ -180,15 +184,15 @@ def test_a_verdict_is_a_function_of_the_flights_in_order(kept, look, data):
     part = kept[: data.draw(st.integers(0, len(kept)))]
     fresh = StoppingRule(0.8, 0.8, look)
     early = fresh.decision(part)
-    if early.verdict is not Verdict.UNDECIDED:
+    if early.verdict is not AcceptanceVerdict.UNDECIDED:
         assert whole == early
-    elif whole.verdict is not Verdict.UNDECIDED:
+    elif whole.verdict is not AcceptanceVerdict.UNDECIDED:
         assert whole.flights > len(part) or whole.flights not in fresh.looks(len(part))
     assert fresh.decision(kept) == whole
     counts = np.concatenate([[0], np.cumsum(~kept)])
     verdicts = {flights: rule.decide(flights, int(counts[flights])) for flights in rule.looks(len(kept))}
-    decided = [flights for flights, verdict in verdicts.items() if verdict is not Verdict.UNDECIDED]
-    assert (whole.verdict is Verdict.UNDECIDED) == (not decided)
+    decided = [flights for flights, verdict in verdicts.items() if verdict is not AcceptanceVerdict.UNDECIDED]
+    assert (whole.verdict is AcceptanceVerdict.UNDECIDED) == (not decided)
     if decided:
         assert (whole.flights, whole.verdict) == (decided[0], verdicts[decided[0]])
         assert whole.failures == counts[decided[0]]
@@ -208,12 +212,12 @@ def test_no_look_has_both_verdicts(share, confidence):
 
 def test_consumer_risk_is_that_of_stopping_so_early():
     retained = np.ones(2300, dtype=bool)
-    assert RULE.decision(retained).verdict is Verdict.MET
+    assert RULE.decision(retained).verdict is AcceptanceVerdict.MET
     assert RULE.decision(retained).consumer_risk == pytest.approx(0.9987**2300, rel=1e-9)
     assert RULE.decision(retained[:99]).consumer_risk == 1.0
     retained[5] = False
     decision = RULE.decision(np.concatenate([retained, np.ones(1700, dtype=bool)]))
-    assert (decision.verdict, decision.flights) == (Verdict.MET, 4000)
+    assert (decision.verdict, decision.flights) == (AcceptanceVerdict.MET, 4000)
     risk = 0.9987**2300 + binom.pmf(1, 2300, 0.0013) * 0.9987**1700
     assert decision.consumer_risk == pytest.approx(risk, rel=1e-6)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from perilune.analysis.studies.rare.subset_simulation import StuckError, subset_simulation
+from perilune.analysis.studies.rare.subset_simulation import StalledLevelError, subset_simulation
 from perilune.analysis.studies.rare.uncertainty import chain_correlation, family_interval
 from tests.support.lengths import either
 
@@ -114,7 +114,7 @@ def test_steps_of_the_margin():
     """Margins with few values: levels are where they are, not at a tenth."""
     actual = subset_simulation(lambda at: np.floor(4.0 * at.draws[:, 0]) / 4.0 - 3.5, 1, seed=4)
     assert actual.interval.low < stats.norm.sf(3.5) < actual.interval.high
-    with pytest.raises(StuckError) as caught:
+    with pytest.raises(StalledLevelError) as caught:
         subset_simulation(lambda at: np.where(at.draws[:, 0] > 9.0, 1.0, -1.0), 1, seed=4)
     assert caught.value.args == (-1.0, 1.0)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from perilune.analysis.campaigns.definition.file import parse_campaign
-from perilune.analysis.campaigns.definition.table import Table
+from perilune.analysis.campaigns.definition.table import TomlTable
 from perilune.analysis.campaigns.folder.campaign_folder import CampaignFolder
 from perilune.analysis.campaigns.trials import TrialTable
 from tests.support.pages.comparison_samples import END, sample_batch
@@ -66,7 +66,9 @@ def write_many(
     text = HEAD.format(trials=trials, description=description) + "".join(
         METRIC.format(name=f"m{number}", unit=UNITS[number % len(UNITS)]) for number in range(metrics)
     )
-    campaign = replace(parse_campaign(Table(tomllib.loads(text), "test.toml")), trials=trials, draw_scheme="counter")
+    campaign = replace(
+        parse_campaign(TomlTable(tomllib.loads(text), "test.toml")), trials=trials, draw_scheme="counter"
+    )
     plan = replace(sample.plan, campaign=campaign)
     provenance = {**sample.provenance, "trials": trials, "draw_scheme": "counter", **metadata_of(campaign, variants)}
     source, stored = np.random.default_rng(1), CampaignFolder(folder, provenance)

@@ -6,14 +6,14 @@ import tomllib
 
 from perilune.analysis.campaigns.definition.campaign import Campaign
 from perilune.analysis.campaigns.definition.file import parse_campaign
-from perilune.analysis.campaigns.definition.table import Table
+from perilune.analysis.campaigns.definition.table import TomlTable
 
 HEAD = 'system = "s"\ntrials = {trials}\nseed = {seed}\n[success]\nexpression = "1"\n'
 
 
 def parse_text(text: str) -> Campaign:
     """Parse a campaign from the whole text of its file, which errors call test.toml."""
-    return parse_campaign(Table(tomllib.loads(text), "test.toml"))
+    return parse_campaign(TomlTable(tomllib.loads(text), "test.toml"))
 
 
 def make_campaign(text: str, trials: int = 8, seed: int = 1) -> Campaign:

@@ -7,8 +7,8 @@ import numpy as np
 
 from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.plan import BatchPlan
-from perilune.analysis.campaigns.definition.table import Table
-from perilune.analysis.campaigns.execute.results import BatchResult
+from perilune.analysis.campaigns.definition.table import TomlTable
+from perilune.analysis.campaigns.execute.results import CampaignResult
 from perilune.analysis.campaigns.folder.files import with_draws, write_draws
 from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.runtime.system.options import SystemOptions
@@ -121,7 +121,7 @@ def sample_batch(
     text=CAMPAIGN,
     targets=True,
     flat=False,
-) -> BatchResult:
+) -> CampaignResult:
     """Return a batch in which alpha is good, beta worse, gamma off to one side; ``noise`` scales all misses.
 
     ``flat`` ones are horizontal.
@@ -129,7 +129,7 @@ def sample_batch(
     names = [*POSITION, *VELOCITY, "ship.mass"] if final else []
     sampling = SAMPLING.format(signals=SIGNALS, traced=traced) if traced else ""
     campaign = parse_campaign(
-        Table(
+        TomlTable(
             tomllib.loads(
                 text.format(trials=trials, seed=seed, final=f"final = {names}" if names else "", sampling=sampling)
             ),
@@ -174,10 +174,10 @@ def sample_batch(
         "fmus": {variant: {"ship": DIGEST, "pilot": variant.ljust(64, "0")} for variant in variants},
     } | facts(campaign, variants, targets)  # fmt: skip
     sampled = plan.values_of(range(trials))
-    return BatchResult(plan, {name: with_draws(rows, sampled) for name, rows in collected.items()}, provenance)
+    return CampaignResult(plan, {name: with_draws(rows, sampled) for name, rows in collected.items()}, provenance)
 
 
-def write_sample(folder: Path, **options) -> BatchResult:
+def write_sample(folder: Path, **options) -> CampaignResult:
     """Write a sample batch to a folder, as `perilune batch --output` does."""
     result = sample_batch(**options)
     write_draws(result.plan, folder, result.plan.campaign.trials)

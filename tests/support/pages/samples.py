@@ -8,8 +8,8 @@ import numpy as np
 
 from perilune.analysis.campaigns.definition.file import parse_campaign
 from perilune.analysis.campaigns.definition.plan import BatchPlan
-from perilune.analysis.campaigns.definition.table import Table
-from perilune.analysis.campaigns.execute.results import BatchResult
+from perilune.analysis.campaigns.definition.table import TomlTable
+from perilune.analysis.campaigns.execute.results import CampaignResult
 from perilune.analysis.campaigns.folder.files import with_draws
 from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.documents.of.batch.batch import batch_document
@@ -101,10 +101,10 @@ by = "case"
 """
 
 
-def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str = DRAWS + METRICS) -> BatchResult:
+def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str = DRAWS + METRICS) -> CampaignResult:
     """Return a batch from (success, miss, tilt) of every trial by variant."""
     trials = len(next(iter(outcomes.values())))
-    campaign = parse_campaign(Table(tomllib.loads(HEAD.format(trials=trials) + text), "test.toml"))
+    campaign = parse_campaign(TomlTable(tomllib.loads(HEAD.format(trials=trials) + text), "test.toml"))
     if list(outcomes) != ["default"]:
         campaign = replace(campaign, compare={"guidance": tuple(outcomes)})
     names = [metric.name for metric in campaign.metrics]
@@ -136,15 +136,15 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
     }
     plan = BatchPlan("ship", campaign, SystemOptions())
     rows = {name: with_draws(rows, plan.values_of(range(len(rows)))) for name, rows in collected.items()}
-    return BatchResult(plan, rows, provenance)
+    return CampaignResult(plan, rows, provenance)
 
 
-def grouped_batch(trials: int = 60) -> BatchResult:
+def grouped_batch(trials: int = 60) -> CampaignResult:
     """Return the mixed batch with a drawn `case` by which trials are grouped."""
     return mixed_batch(trials, CASES + DRAWS + METRICS)
 
 
-def mixed_batch(trials: int = 40, text: str = DRAWS + METRICS) -> BatchResult:
+def mixed_batch(trials: int = 40, text: str = DRAWS + METRICS) -> CampaignResult:
     """Return a batch of two variants: one that always succeeds, one that fails where the draw
     `offset` is large either way."""
     source = np.random.default_rng(5)
@@ -155,6 +155,6 @@ def mixed_batch(trials: int = 40, text: str = DRAWS + METRICS) -> BatchResult:
     return batch_result({"steady": steady, "shaky": shaky}, text)
 
 
-def write_batch_page(batch: BatchResult, path: Path, title: str = "Batch") -> None:
+def write_batch_page(batch: CampaignResult, path: Path, title: str = "Batch") -> None:
     """Write the page of a batch with a ``title``."""
     write_document(replace(batch_document(batch), title=title), path)

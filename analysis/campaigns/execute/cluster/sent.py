@@ -14,8 +14,8 @@ from tempfile import TemporaryDirectory
 from .....common.errors import InputError
 from .....common.paths import PACKAGE
 from ...folder.files import DRAWS, write_draws
-from ...folder.manifest import CONTENTS, Manifest, content_path
-from ..campaign import PreparedCampaign
+from ...folder.manifest import CONTENTS, CampaignManifest, content_path
+from ..campaign import LoadedCampaign
 from ..plan_manifest import gather
 from ..workers import in_threads
 
@@ -58,14 +58,14 @@ class Sent:
 
     key: str
     identity: Identity
-    manifest: Manifest
+    manifest: CampaignManifest
     contents: Mapping[str, bytes]
     draws: bytes
     log: str | None
     in_child: bool
 
 
-def make_sent(campaign: PreparedCampaign) -> Sent:
+def make_sent(campaign: LoadedCampaign) -> Sent:
     """Return a campaign as workers receive it: from its folder, or from memory where it has none. Raises InputError."""
     manifest, folder = campaign.manifest, campaign.folder
     if folder is not None:
@@ -81,7 +81,7 @@ def make_sent(campaign: PreparedCampaign) -> Sent:
     return Sent(key, identity(), manifest, contents, draws, campaign.plan.watch.log, in_child)
 
 
-def _draws(campaign: PreparedCampaign) -> bytes:
+def _draws(campaign: LoadedCampaign) -> bytes:
     """Return the table of draws of a campaign without a folder, as a file."""
     with TemporaryDirectory() as place:
         write_draws(campaign.plan, Path(place), campaign.numbering.size)

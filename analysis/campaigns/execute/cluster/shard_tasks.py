@@ -12,7 +12,7 @@ from typing import Any
 from .....common.errors import InputError
 from ....runtime.flight.interruptible import PATIENCE
 from ...trials import TrialTable
-from ..campaign import PreparedCampaign
+from ..campaign import LoadedCampaign
 from ..flights import ShardAssembler
 from . import work
 from .sent import make_sent
@@ -34,9 +34,7 @@ class Cluster:
         self._client = client
         self._address = address
 
-    def __call__(
-        self, campaign: PreparedCampaign, shards: Sequence[int]
-    ) -> Generator[tuple[int, dict[str, TrialTable]]]:
+    def __call__(self, campaign: LoadedCampaign, shards: Sequence[int]) -> Generator[tuple[int, dict[str, TrialTable]]]:
         """Fly shards of a campaign: each one's trials by variant, as soon as all are there, in any order of shards.
 
         Raises WorkersDiedError, and what ends a flight's preparation in a worker.
@@ -96,7 +94,7 @@ class Cluster:
 class ShardTasks:
     """Tasks of some shards of a campaign: those that are under way, by future, those that follow, and their trials."""
 
-    def __init__(self, client: Any, campaign: PreparedCampaign, shards: Sequence[int]) -> None:
+    def __init__(self, client: Any, campaign: LoadedCampaign, shards: Sequence[int]) -> None:
         variants = [variant.name for variant in campaign.plan.campaign.variants()]
         self.under_way: dict[Any, Task] = {}
         self._client = client

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from ....campaigns.execute.results import BatchResult
+from ....campaigns.execute.results import CampaignResult
 from ...cell import Code
 from ...model import Document, Group, Medium, Missing, Node, Note, Only, Printed, Section
 from ..campaign.metrics import group_nodes, metric_nodes
@@ -26,7 +26,7 @@ from .requirements import requirement_sections
 from .scatters import scatter_nodes, scatter_title
 
 
-def batch_document(batch: BatchResult, printed: Sequence[str] = ()) -> Document:
+def batch_document(batch: CampaignResult, printed: Sequence[str] = ()) -> Document:
     """Return the document of a batch; ``printed`` are metrics that a terminal lists."""
     content = BatchContent(batch)
     return Document(
@@ -72,7 +72,7 @@ def _group_sections(content: BatchContent) -> list[Section]:
     return [Section(f"By {by}", group_nodes(group_rows(content.batch.summary), content.metrics, by))]
 
 
-def _status_section(batch: BatchResult) -> Section:
+def _status_section(batch: CampaignResult) -> Section:
     nodes: list[Node] = [
         status_table(batch.summary),
         Note("In parentheses: highest status reported by a component during the flight."),
@@ -115,7 +115,7 @@ def _parameter_section(content: BatchContent) -> Section:
     return Section("Dispersed parameters", nodes, is_folded=True)
 
 
-def _provenance_section(batch: BatchResult) -> Section:
+def _provenance_section(batch: CampaignResult) -> Section:
     provenance = batch.provenance
     rows = [("system", "all", provenance["system_sha256"]), *fmu_rows(provenance["fmus"])]
     nodes: list[Node] = [Note(["Campaign ", Code(provenance["campaign"])]), digest_table(("part", "variants"), rows)]

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from ....campaigns.columns import describe_metric
 from ....campaigns.definition.campaign import Campaign, Metric
-from ....campaigns.execute.results import BatchResult
+from ....campaigns.execute.results import CampaignResult
 from ....campaigns.judged import worst_trial
 from ...common.colours import Look, look
 from ..campaign.distributions import sort_metrics
@@ -22,7 +22,7 @@ from .scatters import influence_on_success
 class BatchContent:
     """A batch with the looks of its variants, its metrics, verdicts, replays and influences."""
 
-    batch: BatchResult
+    batch: CampaignResult
 
     @property
     def campaign(self) -> Campaign:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from ....campaigns.draws.declared import input_names
-from ....campaigns.execute.results import BatchResult
+from ....campaigns.execute.results import CampaignResult
 from ....studies.sobol import rank_correlations
 from ...cell import Cell, Quantity
 from ...common.quantities import number
@@ -26,7 +26,7 @@ class Driver(NamedTuple):
     inputs: list[tuple[str, float]]
 
 
-def drivers(result: BatchResult) -> list[Driver]:
+def drivers(result: CampaignResult) -> list[Driver]:
     """Return a row for each metric of each variant that has a rank correlation, the largest first."""
     names = input_names(result.plan.campaign)
     rows = []

@@ -10,8 +10,8 @@ from typing import TypedDict
 import numpy as np
 
 from .....common.errors import InputError
-from ....campaigns.execute.results import BatchResult
-from ....campaigns.folder.provenance import Provenance
+from ....campaigns.execute.results import CampaignResult
+from ....campaigns.folder.provenance import CampaignProvenance
 from ...common.colours import COLOURS
 from ...common.quantities import display_factor, display_unit
 from ...common.signals import vector_of
@@ -67,7 +67,7 @@ class EmbeddedFlights:
     notes: list[str]
 
 
-def embedded_flights(batch: BatchResult) -> EmbeddedFlights | None:
+def embedded_flights(batch: CampaignResult) -> EmbeddedFlights | None:
     """Return the recorded flights of a batch for its page, or None where it recorded none."""
     chosen = choose_flights(batch)
     if not chosen:
@@ -97,7 +97,7 @@ def embedded_flights(batch: BatchResult) -> EmbeddedFlights | None:
     )
 
 
-def _declared_scene(batch: BatchResult) -> SceneFigure | None:
+def _declared_scene(batch: CampaignResult) -> SceneFigure | None:
     """Return the scene that the system declares, as its first variant has it. Raises InputError."""
     prepared = batch.plan.prepare(next(iter(batch.plan.campaign.variants())))
     return next((figure for figure in read_figures(prepared) if isinstance(figure, SceneFigure)), None)
@@ -110,7 +110,9 @@ def _scene_names(scene: SceneFigure | None) -> set[str]:
     return set().union(*map(signals_of, poses), *map(signals_of, sites))
 
 
-def _document(provenance: Provenance, names: Sequence[str], flights: Sequence[RecordedFlight]) -> RecordedDocument:
+def _document(
+    provenance: CampaignProvenance, names: Sequence[str], flights: Sequence[RecordedFlight]
+) -> RecordedDocument:
     """Return panels with a line for each signal of a vector, and by flight a column for each line."""
     panels = [(base, list(lines)) for base, lines in groupby(names, key=vector_of)]
     return {

@@ -9,7 +9,7 @@ from typing import TypedDict
 import numpy as np
 
 from ....campaigns.draws.declared import input_names
-from ....campaigns.execute.results import BatchResult
+from ....campaigns.execute.results import CampaignResult
 from ....commands.campaigns import replay_command, replay_of_folder
 from ...common.quantities import display_factor, display_unit, number
 from ...interactive.columns import Coarse
@@ -49,7 +49,7 @@ class TrialsDocument(TypedDict):
     variants: list[VariantTrials]
 
 
-def trials_document(batch: BatchResult) -> TrialsDocument:
+def trials_document(batch: CampaignResult) -> TrialsDocument:
     """Return all data for the page's script: quantities with their units, and the trials of each variant.
 
     Draws and metrics are in 16 bits over the range of their column; of the first failures, and of the trials with the
@@ -67,7 +67,7 @@ def trials_document(batch: BatchResult) -> TrialsDocument:
     }
 
 
-def trials_notes(batch: BatchResult) -> list[str]:
+def trials_notes(batch: CampaignResult) -> list[str]:
     """Return the notes of a page on the numbers at its marks."""
     notes = [
         "A mark, or a point of a distribution, names its trial; a click pins it with its replay command, a drag "
@@ -81,18 +81,18 @@ def trials_notes(batch: BatchResult) -> list[str]:
     return notes
 
 
-def _column_names(batch: BatchResult) -> list[str]:
+def _column_names(batch: CampaignResult) -> list[str]:
     campaign = batch.plan.campaign
     metrics = (f"metric.{metric.name}" for metric in campaign.metrics)
     return [*metrics, *(f"draw.{name}" for name in input_names(campaign))]
 
 
-def _row_limit(batch: BatchResult) -> int:
+def _row_limit(batch: CampaignResult) -> int:
     """Return the number of trials of a variant that a page has at most."""
     return NUMBER_LIMIT // max(1, len(_column_names(batch)) * len(batch.rows))
 
 
-def _variant(batch: BatchResult, variant: str, names: list[str], limit: int) -> VariantTrials:
+def _variant(batch: CampaignResult, variant: str, names: list[str], limit: int) -> VariantTrials:
     plotted = batch.plotted[variant]
     dots = plotted.dots
     rows = slice(0, limit)
@@ -123,7 +123,7 @@ def _exact_rows(success: np.ndarray, metrics: Iterable[np.ndarray], limit: int) 
     return sorted(rows)
 
 
-def _command_around(batch: BatchResult, variant: str) -> tuple[str, str]:
+def _command_around(batch: CampaignResult, variant: str) -> tuple[str, str]:
     """Return the replay command before and after the number of a trial."""
     any_command = _command(batch, variant, 0)
     mark = next(number for number in count(10**9) if str(number) not in any_command)
@@ -131,7 +131,7 @@ def _command_around(batch: BatchResult, variant: str) -> tuple[str, str]:
     return before, after
 
 
-def _command(batch: BatchResult, variant: str, trial: int) -> str:
+def _command(batch: CampaignResult, variant: str, trial: int) -> str:
     if batch.folder is not None:
         return replay_of_folder(batch.folder, batch.rows, variant, trial)
     (named,) = [each for each in batch.plan.campaign.variants() if each.name == variant]

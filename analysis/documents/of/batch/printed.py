@@ -9,19 +9,19 @@ import numpy as np
 
 from ....campaigns.definition.plan import BatchPlan
 from ....campaigns.execute.evaluation import worst_statuses
-from ....campaigns.execute.results import BatchResult
+from ....campaigns.execute.results import CampaignResult
 from ....campaigns.judged import worst_trial
 from ....campaigns.plain_text import short
 from ....commands.campaigns import replay_of_folder
 from ....runtime.flight.results import with_meaning
 
 
-def printed_lines(batch: BatchResult, metrics: Sequence[str]) -> list[str]:
+def printed_lines(batch: CampaignResult, metrics: Sequence[str]) -> list[str]:
     """Return the summary with ``metrics``, by default those of success and requirements, and the lines below it."""
     return [*batch.text(metrics).splitlines(), *worst_lines(batch), *status_meanings(batch.plan, batch)]
 
 
-def worst_lines(batch: BatchResult) -> list[str]:
+def worst_lines(batch: CampaignResult) -> list[str]:
     """Return a line for each metric that a requirement bounds: its worst trial, and the command that replays it.
 
     Lines are those of a stored campaign, whose folder the command reads. The first of several equal trials is named.
@@ -41,7 +41,7 @@ def worst_lines(batch: BatchResult) -> list[str]:
     return list(lines)
 
 
-def status_meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
+def status_meanings(plan: BatchPlan, result: CampaignResult) -> list[str]:
     """Return the meaning of each status that a trial reported, once, as its FMU states it."""
     meanings: dict[str, None] = {}
     for variant in plan.campaign.variants():

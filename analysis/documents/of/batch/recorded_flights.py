@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from ....campaigns.execute.results import BatchResult
+from ....campaigns.execute.results import CampaignResult
 from ....runtime.flight.results import Flight
 from ...common.colours import look
 from ...scene.flights import RecordedFlight
@@ -16,7 +16,7 @@ FLIGHT_LIMIT = 40  # in a page, of all variants
 ROW_LIMIT = 500  # of a flight
 
 
-def choose_flights(batch: BatchResult) -> dict[str, list[int]]:
+def choose_flights(batch: CampaignResult) -> dict[str, list[int]]:
     """Choose trials with recorded signals by variant, an equal quota of `FLIGHT_LIMIT` each.
 
     Half of a quota are failures, where there are as many, the others successes; each in order of trial.
@@ -34,7 +34,7 @@ def choose_flights(batch: BatchResult) -> dict[str, list[int]]:
 
 
 def read_flights(
-    batch: BatchResult, chosen: dict[str, list[int]], names: Collection[str]
+    batch: CampaignResult, chosen: dict[str, list[int]], names: Collection[str]
 ) -> tuple[list[RecordedFlight], int]:
     """Read some signals of the chosen trials, each ``stride``-th row and the last; return them and the stride.
 
@@ -69,6 +69,6 @@ def _thin(trace: dict[str, np.ndarray], stride: int) -> Flight:
     return Flight(signals.pop("time"), signals, {}, "", "")
 
 
-def _success_by_trial(batch: BatchResult, variant: str) -> dict[int, bool]:
+def _success_by_trial(batch: CampaignResult, variant: str) -> dict[int, bool]:
     sample = batch.plotted[variant]
     return dict(zip(sample.dots.trial.tolist(), sample.dots.success.tolist(), strict=True))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from ....campaigns.execute.results import BatchResult
+from ....campaigns.execute.results import CampaignResult
 from ...model import ForScript, Node, Note, Section
 from ...pictures import Scene
 from .embedded_flights import embedded_flights
 
 
-def recorded_sections(batch: BatchResult) -> list[Section]:
+def recorded_sections(batch: CampaignResult) -> list[Section]:
     """Return the recorded simulations, which only scripts can show; nothing where the batch recorded none."""
     embedded = embedded_flights(batch)
     if embedded is None:

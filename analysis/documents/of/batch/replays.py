@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ....campaigns.execute.results import BatchResult
+from ....campaigns.execute.results import CampaignResult
 from ....campaigns.trials import TrialTable
 from ....commands.campaigns import replay_command, replay_of_folder
 from ...cell import Cell
@@ -16,18 +16,18 @@ from ..campaign.verdict_table import VerdictTable
 Reasons = list[tuple[int, Cell]]  # trials with a reason each
 
 
-def trials_to_replay(result: BatchResult, table: VerdictTable) -> list[Replay]:
+def trials_to_replay(result: CampaignResult, table: VerdictTable) -> list[Replay]:
     """Return the first failures of each variant, and its worst trials of metrics with limits; rows have anchors."""
     worst = {row.variant: worst_reasons(row, table.metrics) for row in table.rows}
     return with_anchors(_replays(result, lambda result, variant: _failures(result, variant) + worst[variant]))
 
 
-def extremes_to_replay(result: BatchResult) -> list[Replay]:
+def extremes_to_replay(result: CampaignResult) -> list[Replay]:
     """Return the trials with the maximum of a metric of a variant, each once."""
     return _replays(result, _extremes)
 
 
-def _replays(result: BatchResult, choose: Callable[[BatchResult, str], Reasons]) -> list[Replay]:
+def _replays(result: CampaignResult, choose: Callable[[CampaignResult, str], Reasons]) -> list[Replay]:
     replays: list[Replay] = []
     for variant in result.plan.campaign.variants():
         reasons: dict[int, list[Cell]] = {}
@@ -42,7 +42,7 @@ def _replays(result: BatchResult, choose: Callable[[BatchResult, str], Reasons])
     return replays
 
 
-def _failures(result: BatchResult, variant: str) -> Reasons:
+def _failures(result: CampaignResult, variant: str) -> Reasons:
     failures: Reasons = []
     for part in result.rows[variant].parts("trial", "success", "status"):
         for row in np.flatnonzero(~part["success"])[: FAILURES - len(failures)]:
@@ -52,7 +52,7 @@ def _failures(result: BatchResult, variant: str) -> Reasons:
     return failures
 
 
-def _extremes(result: BatchResult, variant: str) -> Reasons:
+def _extremes(result: CampaignResult, variant: str) -> Reasons:
     """Return the trial with the maximum of each metric, unless several trials have it."""
     extremes: Reasons = []
     for metric in result.plan.campaign.metrics:

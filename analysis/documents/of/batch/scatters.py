@@ -9,7 +9,7 @@ import numpy as np
 
 from ....campaigns.definition.campaign import Metric, Scatter
 from ....campaigns.draws.declared import input_names
-from ....campaigns.execute.results import BatchResult
+from ....campaigns.execute.results import CampaignResult
 from ...cell import Inline, LegendEntry, Quantity, Rich
 from ...chart.axes import linear_axis
 from ...chart.equal import Ends, to_scale
@@ -62,7 +62,7 @@ def scatter_title(scatter: Scatter) -> str:
     return scatter.title or f"{scatter.y} vs. {scatter.x}"
 
 
-def scatter_nodes(batch: BatchResult, scatter: Scatter) -> list[Node]:
+def scatter_nodes(batch: CampaignResult, scatter: Scatter) -> list[Node]:
     """Return a declared scatter plot for each variant, and notes on its marks."""
     metrics = {metric.name: metric for metric in batch.plan.campaign.metrics}
     pair = (metrics[scatter.x], metrics[scatter.y])
@@ -75,7 +75,7 @@ def scatter_nodes(batch: BatchResult, scatter: Scatter) -> list[Node]:
 
 
 def _scatter_figures(
-    batch: BatchResult, scatter: Scatter, pair: tuple[Metric, Metric], points: dict[str, np.ndarray]
+    batch: CampaignResult, scatter: Scatter, pair: tuple[Metric, Metric], points: dict[str, np.ndarray]
 ) -> list[Figure]:
     title = scatter_title(scatter)
     ordinate = label_with_unit(pair[1].name, pair[1].unit)
@@ -148,7 +148,7 @@ def _notes(scatter: Scatter, metric: Metric, points: dict[str, np.ndarray]) -> l
     return notes
 
 
-def influence_on_success(batch: BatchResult, variant: str) -> dict[str, float]:
+def influence_on_success(batch: CampaignResult, variant: str) -> dict[str, float]:
     """Return the influence of each dispersed input on success, 0 to 1, largest first.
 
     It is the larger absolute correlation with success, of the input or of its distance from its mean; the latter sees
@@ -167,7 +167,7 @@ def influence_on_success(batch: BatchResult, variant: str) -> dict[str, float]:
     return dict(sorted(influence.items(), key=lambda item: -item[1]))
 
 
-def failure_figures(batch: BatchResult) -> list[Figure]:
+def failure_figures(batch: CampaignResult) -> list[Figure]:
     """Return failures and successes over the two most influential inputs of each variant that has both."""
     figures = []
     for index, variant in enumerate(batch.rows):
@@ -188,14 +188,14 @@ def failure_figures(batch: BatchResult) -> list[Figure]:
     return figures
 
 
-def _inputs(batch: BatchResult, variant: str, names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
+def _inputs(batch: CampaignResult, variant: str, names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
     """Return abscissas and ordinates of trials over two inputs; over one input the trial's number is the ordinate."""
     sample = batch.plotted[variant]
     draws = sample.dots.draws
     return draws[names[0]], draws[names[1]] if len(names) > 1 else sample.dots.trial.astype(float)
 
 
-def failure_chart(batch: BatchResult, variant: str, names: Sequence[str]) -> Chart:
+def failure_chart(batch: CampaignResult, variant: str, names: Sequence[str]) -> Chart:
     """Return the trials of a variant over one or two dispersed inputs."""
     x, y = _inputs(batch, variant, names)
     columns = (f"draw.{names[0]}", f"draw.{names[1]}" if len(names) > 1 else "trial")

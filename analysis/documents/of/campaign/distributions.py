@@ -10,7 +10,7 @@ import numpy as np
 
 from .....common.percent import percent
 from ....campaigns.definition.campaign import Metric
-from ....campaigns.execute.results import BatchResult
+from ....campaigns.execute.results import CampaignResult
 from ....campaigns.verdicts.order_statistics import quantiles
 from ...chart.axes import lane_axis, linear_axis, logarithmic_axis, ticked_axis
 from ...chart.lines import line
@@ -31,12 +31,12 @@ FEW_INTEGERS = 8.0  # range of integers from which ticks may lie between them
 TAIL = 0.01  # on a logarithmic axis, the fraction of values drawn at its left edge
 
 
-def metric_values(batch: BatchResult, metric: str) -> dict[str, np.ndarray]:
+def metric_values(batch: CampaignResult, metric: str) -> dict[str, np.ndarray]:
     """Return a metric by variant, one value for each plotted trial, nan and inf included."""
     return {name: sample.first.metrics[metric] for name, sample in batch.plotted.items()}
 
 
-def sort_metrics(batch: BatchResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
+def sort_metrics(batch: CampaignResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
     """Sort metrics into those that vary; constant ones with their value; those without a finite value."""
     varying, constant, empty = [], [], []
     for metric in batch.plan.campaign.metrics:
@@ -105,7 +105,7 @@ COLUMNS = 3
 HEIGHT = 2.3  # in, of a panel
 
 
-def metric_plot(batch: BatchResult, metrics: list[Metric]) -> Figure:
+def metric_plot(batch: CampaignResult, metrics: list[Metric]) -> Figure:
     """Return the empirical distributions over the plotted trials, a panel per metric, a line per variant."""
     styles = {name: look(index) for index, name in enumerate(batch.rows)}
     return distribution_plot({metric: metric_values(batch, metric.name) for metric in metrics}, styles)
@@ -127,7 +127,7 @@ CAP = 9.0  # pt, the end of an interval
 RING = marker("o", 11.0, INK, fill="", width=1.2)
 
 
-def rates_figure(batch: BatchResult, published: Mapping[str, float] | None = None) -> Drawing:
+def rates_figure(batch: CampaignResult, published: Mapping[str, float] | None = None) -> Drawing:
     """Return the success probabilities of variants with their intervals, `rates_chart`."""
     names = list(batch.summary)
     description = "Success probabilities of " + ", ".join(names)
@@ -135,7 +135,7 @@ def rates_figure(batch: BatchResult, published: Mapping[str, float] | None = Non
     return wide_figure("rates", description, rates_chart(batch, published or {}), height)
 
 
-def rates_chart(batch: BatchResult, published: Mapping[str, float]) -> Chart:
+def rates_chart(batch: CampaignResult, published: Mapping[str, float]) -> Chart:
     """Return a lane for each variant: a mark at its success probability (%), a line over the interval, their text.
 
     ``published`` are rates to compare with, as fractions of 1, in rings. With long names the text has no interval.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ....campaigns.folder.provenance import Provenance
+from ....campaigns.folder.provenance import CampaignProvenance
 from ....runtime.ssp.names import split_name
 from ...common.signals import INDEXED, vector_of
 
@@ -18,7 +18,7 @@ LETTERS: AxisNames = ("x", "y", "z")
 KNOWN = (*COMMANDS, *DIRECTIONS, *MOTION, *CONSISTENCY, "position", "velocity", "central_angle")
 
 
-def names_of_record(provenance: Provenance) -> list[str]:
+def names_of_record(provenance: CampaignProvenance) -> list[str]:
     """Return signals over time that a page can use: those that the campaign lists, or of full traces the known ones.
 
     Of a variable that several components have, as inputs repeat outputs, the first component's is taken.
@@ -38,33 +38,33 @@ def names_of_record(provenance: Provenance) -> list[str]:
     return retained
 
 
-def owner_of(provenance: Provenance, name: str) -> str:
+def owner_of(provenance: CampaignProvenance, name: str) -> str:
     """Return the component of a signal; empty for a connector of the system."""
     return split_name(name, _components(provenance))[0]
 
 
-def variable_of(provenance: Provenance, name: str) -> str:
+def variable_of(provenance: CampaignProvenance, name: str) -> str:
     """Return the variable of a signal: of ``plant.position[1]`` and ``plant.position``: ``position``."""
     return vector_of(split_name(name, _components(provenance))[1])
 
 
-def unit_of(provenance: Provenance, name: str) -> str | None:
+def unit_of(provenance: CampaignProvenance, name: str) -> str | None:
     """Return the unit of a recorded signal, or None where none is declared."""
     return provenance["signals"].get(name, {}).get("unit")
 
 
-def axis_of(provenance: Provenance, name: str) -> str:
+def axis_of(provenance: CampaignProvenance, name: str) -> str:
     """Return the name of the axis that a recorded element is along; empty where there is none."""
     return provenance["signals"].get(name, {}).get("axis", "")
 
 
-def axes_of(provenance: Provenance, vector: tuple[str, str, str]) -> AxisNames:
+def axes_of(provenance: CampaignProvenance, vector: tuple[str, str, str]) -> AxisNames:
     """Return the names of the axes that the elements of a vector are along, x, y and z where one has none."""
     x, y, z = (axis_of(provenance, name) for name in vector)
     return (x, y, z) if x and y and z else LETTERS
 
 
-def is_real(provenance: Provenance, name: str) -> bool:
+def is_real(provenance: CampaignProvenance, name: str) -> bool:
     """Return True if a recorded signal is a Real; others are constant between samples."""
     return provenance["signals"].get(name, {}).get("type", "Real") == "Real"
 
@@ -80,7 +80,7 @@ def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
 
 
 def find_vector(
-    provenance: Provenance, names: Iterable[str], variable: str, unit: str, owner: str = ""
+    provenance: CampaignProvenance, names: Iterable[str], variable: str, unit: str, owner: str = ""
 ) -> tuple[str, str, str] | None:
     """Return the first vector called ``variable`` with that unit, if there is one of the component ``owner``."""
     candidates = {
@@ -91,5 +91,5 @@ def find_vector(
     return candidates.get(f"{owner}.{variable}") or next(iter(candidates.values()), None)
 
 
-def _components(provenance: Provenance) -> set[str]:
+def _components(provenance: CampaignProvenance) -> set[str]:
     return {component for fmus in provenance["fmus"].values() for component in fmus}

@@ -12,11 +12,15 @@ from ....campaigns.definition.expressions import Expression
 from ....campaigns.judged import MetricLimits, metric_limits
 from ....campaigns.requirement_verdicts import RequirementVerdict
 from ....campaigns.summary import Interval, Summary, VariantSummary
-from ....campaigns.verdicts.acceptance import Verdict
+from ....campaigns.verdicts.acceptance import AcceptanceVerdict
 
 MEDIAN = "p50"
 Grade = Literal["pass", "fail", "not-applicable"]
-GRADES: dict[Verdict, Grade] = {Verdict.MET: "pass", Verdict.NOT_MET: "fail", Verdict.UNDECIDED: "not-applicable"}
+GRADES: dict[AcceptanceVerdict, Grade] = {
+    AcceptanceVerdict.MET: "pass",
+    AcceptanceVerdict.NOT_MET: "fail",
+    AcceptanceVerdict.UNDECIDED: "not-applicable",
+}
 Worst = Callable[[str, Metric, MetricLimits], tuple[int, float]]
 
 
@@ -101,10 +105,10 @@ def _best(numbers: Mapping[str, float | None], better: int) -> set[str]:
 
 def _verdict(requirements: Mapping[str, RequirementVerdict]) -> tuple[str, Grade]:
     """Return the verdict on all requirements in words, and its grade."""
-    by_verdict: dict[Verdict, list[str]] = {}
+    by_verdict: dict[AcceptanceVerdict, list[str]] = {}
     for name, each in requirements.items():
         by_verdict.setdefault(each.verdict, []).append(name)
-    if not by_verdict or list(by_verdict) == [Verdict.MET]:
-        return ("met" if by_verdict else ""), GRADES[Verdict.MET]
-    bad = [verdict for verdict in (Verdict.NOT_MET, Verdict.UNDECIDED) if verdict in by_verdict]
+    if not by_verdict or list(by_verdict) == [AcceptanceVerdict.MET]:
+        return ("met" if by_verdict else ""), GRADES[AcceptanceVerdict.MET]
+    bad = [verdict for verdict in (AcceptanceVerdict.NOT_MET, AcceptanceVerdict.UNDECIDED) if verdict in by_verdict]
     return "; ".join(f"{verdict}: {', '.join(by_verdict[verdict])}" for verdict in bad), GRADES[bad[0]]

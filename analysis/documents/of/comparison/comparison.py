@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from .....common.percent import short_percent
-from ....campaigns.compare.comparison import Comparison, name_of, rate_text
+from ....campaigns.compare.comparison import CampaignComparison, name_of, rate_text
 from ....campaigns.summary import summary_rows
 from ....campaigns.tables import who_cells, who_heads
 from ...cell import Cell, Code
@@ -30,7 +30,7 @@ from .metric_sections import (
 from .provenance import parameter_section, provenance_section
 
 
-def comparison_document(comparison: Comparison, command: str, printed: Sequence[str] = ()) -> Document:
+def comparison_document(comparison: CampaignComparison, command: str, printed: Sequence[str] = ()) -> Document:
     """Return the document of a comparison; ``command`` repeats it, ``printed`` are metrics that a terminal lists."""
     content = ComparisonContent(comparison)
     system = comparison.first.document["system"]
@@ -68,7 +68,7 @@ def _sections(content: ComparisonContent) -> list[Section]:
     ]
 
 
-def _status_section(comparison: Comparison) -> Section:
+def _status_section(comparison: CampaignComparison) -> Section:
     note = Note("In brackets: the worst status that a component reported during the flight.")
     return Section("Termination status", [status_table(comparison.summary), note], is_folded=True)
 

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ....campaigns.compare.comparison import Comparison
+from ....campaigns.compare.comparison import CampaignComparison
 from ....campaigns.compare.paired import PairedRates, PairedValues
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.judged import MetricLimits, worst_row
@@ -27,7 +27,7 @@ from .replays import trials_to_replay
 class ComparisonContent:
     """A comparison with its recorded simulations, pairs, verdicts and the looks of its variants."""
 
-    comparison: Comparison
+    comparison: CampaignComparison
 
     @cached_property
     def styles(self) -> Mapping[str, Look]:

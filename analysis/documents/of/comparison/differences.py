@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from ....campaigns.compare.comparison import SUCCESS, Comparison
+from ....campaigns.compare.comparison import SUCCESS, CampaignComparison
 from ....campaigns.compare.paired import PairedRates, PairedValues, holm_adjusted
 from ...cell import Displayed, Inline
 from ...common.quantities import display_unit, in_display_unit, number
@@ -40,7 +40,7 @@ class Sentences(NamedTuple):
 
 
 def significant_differences(
-    comparison: Comparison, rates: Iterable[PairGroup[PairedRates]], metrics: Iterable[PairGroup[PairedValues]]
+    comparison: CampaignComparison, rates: Iterable[PairGroup[PairedRates]], metrics: Iterable[PairGroup[PairedValues]]
 ) -> Sentences:
     """Return what differs at the 5 % level in all of the tests together, `holm_adjusted`."""
     judged = {SUCCESS, *comparison.judged_names}

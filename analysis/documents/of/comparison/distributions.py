@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import norm
 
-from ....campaigns.compare.comparison import Comparison
+from ....campaigns.compare.comparison import CampaignComparison
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.definition.expressions import Expression
 from ...cell import LegendEntry
@@ -26,7 +26,7 @@ NORMAL_REACH = 3.5  # deviations that are shown at least
 NOT_EVALUATED = Expression("0")
 
 
-def all_values(comparison: Comparison, metric: Metric) -> dict[str, np.ndarray]:
+def all_values(comparison: CampaignComparison, metric: Metric) -> dict[str, np.ndarray]:
     """Return a metric in every trial of every variant; of errors over sigma nan for 0, which stands for no sigma."""
     by_label = {label: comparison.values(label, metric.name) for label in comparison.contenders}
     if is_over_sigma(metric):
@@ -34,7 +34,7 @@ def all_values(comparison: Comparison, metric: Metric) -> dict[str, np.ndarray]:
     return by_label
 
 
-def metric_distributions(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]:
+def metric_distributions(comparison: CampaignComparison) -> dict[Metric, dict[str, np.ndarray]]:
     """Return metrics by variant, nan in failed trials; without one in kg also final masses, for the propellant."""
     contenders = comparison.contenders
     distributions = {
@@ -48,7 +48,7 @@ def metric_distributions(comparison: Comparison) -> dict[Metric, dict[str, np.nd
     }
 
 
-def _final_masses(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]:
+def _final_masses(comparison: CampaignComparison) -> dict[Metric, dict[str, np.ndarray]]:
     """Return final masses that all variants have, under the names of metrics; none if a metric is in kg."""
     contenders = comparison.contenders
     masses: dict[Metric, dict[str, np.ndarray]] = {}
@@ -108,7 +108,7 @@ def overlaid_figures(draw: Callable[[], Sequence[Figure]], styles: Mapping[str, 
     return Figures(draw, [LegendEntry(style, [label]) for label, style in styles.items()], is_in_order=True)
 
 
-def looks_of(comparison: Comparison) -> dict[str, Look]:
+def looks_of(comparison: CampaignComparison) -> dict[str, Look]:
     """Return one look per variant. Of several batches a variant has one colour, and a batch one kind of dashes."""
     if len(comparison.batches) == 1:
         return {label: look(contender.variant) for label, contender in comparison.contenders.items()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-from ....campaigns.compare.comparison import Comparison, name_of
+from ....campaigns.compare.comparison import CampaignComparison, name_of
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.summary import SummaryRow
 from ...cell import Cell, Code, Head, Percentage, Phrase, Quantity, Row, RowHeading, Strong, Track
@@ -160,7 +160,7 @@ def _metric_nodes(content: ComparisonContent) -> list[Node]:
 
 
 def rate_table(
-    comparison: Comparison, rows: Sequence[SummaryRow], styles: Mapping[str, Look], by: str | None = None
+    comparison: CampaignComparison, rows: Sequence[SummaryRow], styles: Mapping[str, Look], by: str | None = None
 ) -> Table:
     """Return a block of rows for each rate, which are those of groups ``by`` a draw, if there are."""
     body: list[Sequence[Cell] | Row | RowHeading] = []

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Generic, Literal, TypeVar
 
-from ....campaigns.compare.comparison import Comparison, name_of
+from ....campaigns.compare.comparison import CampaignComparison, name_of
 from ....campaigns.compare.paired import PairedRates, PairedValues
 from ....campaigns.definition.campaign import Metric
 from ...cell import (
@@ -56,7 +56,7 @@ class PairGroup(Generic[T]):
     others: list[PairRow[T]]
 
 
-def rate_pairs(comparison: Comparison) -> list[PairGroup[PairedRates]]:
+def rate_pairs(comparison: CampaignComparison) -> list[PairGroup[PairedRates]]:
     """Return a group per rate."""
     groups = []
     for rate in comparison.rates:
@@ -66,7 +66,7 @@ def rate_pairs(comparison: Comparison) -> list[PairGroup[PairedRates]]:
 
 
 def metric_pairs(
-    comparison: Comparison, metrics: Sequence[Metric], *, successful: bool
+    comparison: CampaignComparison, metrics: Sequence[Metric], *, successful: bool
 ) -> list[PairGroup[PairedValues]]:
     """Return a group per metric, over the trials in which both succeed or over all."""
     groups = []
@@ -76,7 +76,7 @@ def metric_pairs(
     return groups
 
 
-def _group(comparison: Comparison, name: str, unit: str, rows: list[PairRow[T]]) -> PairGroup[T]:
+def _group(comparison: CampaignComparison, name: str, unit: str, rows: list[PairRow[T]]) -> PairGroup[T]:
     first = [row for row in rows if comparison.against_reference((row.a, row.b))]
     return PairGroup(name, unit, first, [row for row in rows if row not in first])
 

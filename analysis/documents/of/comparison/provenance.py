@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ....campaigns.compare.comparison import Comparison
+from ....campaigns.compare.comparison import CampaignComparison
 from ...cell import Cell, Code, Inline, Quantity
 from ...model import Group, Missing, Node, Note, Section, Table
 from ..campaign.origin import fmu_rows
@@ -15,7 +15,7 @@ from .header import parameter_sets
 DIGITS = 6
 
 
-def parameter_section(comparison: Comparison) -> Section:
+def parameter_section(comparison: CampaignComparison) -> Section:
     """Return the range of each dispersed parameter over the trials."""
     rows: list[Sequence[Cell]] = [
         (name, *(Quantity(float(each), digits=DIGITS) for each in (values.min(), values.mean(), values.max())))
@@ -29,7 +29,7 @@ def parameter_section(comparison: Comparison) -> Section:
     return Section("Dispersed parameters", nodes, is_folded=True)
 
 
-def provenance_section(comparison: Comparison) -> Section:
+def provenance_section(comparison: CampaignComparison) -> Section:
     """Return campaign, parameters and digests of each batch."""
     groups = [Group(name, _batch_nodes(batch.document)) for name, batch in comparison.batches.items()]
     return Section("Provenance", groups, is_folded=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....campaigns.compare.comparison import Comparison
+from ....campaigns.compare.comparison import CampaignComparison
 from ....campaigns.folder.manifest import FILE as MANIFEST
 from ....commands.campaigns import replay_of_folder
 from ...cell import Cell
@@ -12,7 +12,7 @@ from ..campaign.replays import FAILURES, Replay, with_anchors, worst_reasons
 from ..campaign.verdict_table import VerdictTable
 
 
-def trials_to_replay(comparison: Comparison, table: VerdictTable) -> list[Replay]:
+def trials_to_replay(comparison: CampaignComparison, table: VerdictTable) -> list[Replay]:
     """Return the first failures of each variant, with how many of the others succeed, and its worst trials."""
     worst = {row.variant: worst_reasons(row, table.metrics) for row in table.rows}
     replays: list[Replay] = []

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import norm
 
-from ....campaigns.compare.comparison import Comparison
+from ....campaigns.compare.comparison import CampaignComparison
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.summary import Interval as Ends
 from ....campaigns.summary import success_interval
@@ -53,7 +53,7 @@ def is_over_sigma(metric: Metric) -> bool:
     return metric.unit == "1" and metric.name.endswith(SUFFIXES)
 
 
-def sigma_rows(comparison: Comparison) -> list[SigmaRow]:
+def sigma_rows(comparison: CampaignComparison) -> list[SigmaRow]:
     """Return a row per such metric and variant."""
     rows = []
     for metric, label in itertools.product(filter(is_over_sigma, comparison.metrics), comparison.contenders):

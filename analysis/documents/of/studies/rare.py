@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 
 from ....studies.rare.interpretation import equivalents, influence, level_spans
-from ....studies.rare.outcome import RareResult
+from ....studies.rare.outcome import RareOutcome
 from ...cell import Cell, Code, Quantity, Rich
 from ...common.quantities import label_with_unit
 from ...model import Document, KeyNumbers, Medium, Node, Note, Only, Section, Table, Text, Verdict
@@ -17,7 +17,7 @@ from .rare_figures import DESIGN_LEGEND, PERCENT, design_figures, exceedance_fig
 DECIMALS = 3  # of acceptance rates
 
 
-def rare_document(study: RareResult, folder: Path | None = None) -> Document:
+def rare_document(study: RareOutcome, folder: Path | None = None) -> Document:
     """Return the document of a rare failure; ``folder`` is where it has been written, if it has."""
     condition = condition_of(study)
     verdict = Verdict(
@@ -67,7 +67,7 @@ def rare_document(study: RareResult, folder: Path | None = None) -> Document:
     return Document(title, [verdict, _key_numbers(study)], sections, study.json_document(folder))
 
 
-def _estimate(study: RareResult) -> Rich:
+def _estimate(study: RareOutcome) -> Rich:
     """Return the probability with its interval, or what bounds it; no more digits than the interval leaves."""
     low, high = (Quantity(end, digits=max(study.digits, 2)) for end in study.interval)
     estimate = Quantity(study.probability, digits=study.digits)
@@ -78,7 +78,7 @@ def _estimate(study: RareResult) -> Rich:
     return ["failure probability ", estimate, f", {PERCENT} interval ", low, " to ", high]
 
 
-def _bound(study: RareResult) -> Rich:
+def _bound(study: RareOutcome) -> Rich:
     """Return why levels ended, and how many Monte Carlo simulations bound what is below."""
     trials = study.brute_force
     if trials is None:
@@ -89,7 +89,7 @@ def _bound(study: RareResult) -> Rich:
     ]  # fmt: skip
 
 
-def _key_numbers(study: RareResult) -> KeyNumbers:
+def _key_numbers(study: RareOutcome) -> KeyNumbers:
     simulation = study.simulation
     return KeyNumbers(
         [
@@ -103,7 +103,7 @@ def _key_numbers(study: RareResult) -> KeyNumbers:
     )
 
 
-def _against_monte_carlo(study: RareResult) -> list[Node]:
+def _against_monte_carlo(study: RareOutcome) -> list[Node]:
     rows = [
         (row.label, Quantity(row.simulations), Quantity(row.low, digits=3), Quantity(row.high, digits=3))
         for row in equivalents(study)
@@ -119,7 +119,7 @@ def _against_monte_carlo(study: RareResult) -> list[Node]:
     ]
 
 
-def level_table(study: RareResult) -> Table:
+def level_table(study: RareOutcome) -> Table:
     """Return a row for each level."""
     rows: list[tuple[Cell, ...]] = []
     for span, level in zip(level_spans(study), study.simulation.levels, strict=True):
@@ -145,7 +145,7 @@ def level_table(study: RareResult) -> Table:
     return Table(heads, rows)
 
 
-def _design_nodes(study: RareResult) -> list[Node]:
+def _design_nodes(study: RareOutcome) -> list[Node]:
     if not study.failures:
         return [Text("no simulation failed")]
     noise = ""
@@ -163,7 +163,7 @@ def _design_nodes(study: RareResult) -> list[Node]:
     ]
 
 
-def design_table(study: RareResult) -> Table:
+def design_table(study: RareOutcome) -> Table:
     """Return a row for each design point: distance, limit state, dispersed parameters, the noise of each component."""
     names, sources, units = study.space.names, study.noise.sources, study.units
     rows: list[tuple[Cell, ...]] = [
@@ -186,7 +186,7 @@ def design_table(study: RareResult) -> Table:
     return Table(heads, rows)
 
 
-def _influence(study: RareResult) -> list[Node]:
+def _influence(study: RareOutcome) -> list[Node]:
     rows = [(name, Quantity(shift, digits=3)) for name, shift in influence(study).items()]
     if not rows:
         return []
@@ -199,7 +199,7 @@ def _influence(study: RareResult) -> list[Node]:
     ]
 
 
-def _replays(study: RareResult, folder: Path | None) -> list[tuple[str, str]]:
+def _replays(study: RareOutcome, folder: Path | None) -> list[tuple[str, str]]:
     """Return commands with what they do: design points where they were written, a lower bound where levels ended."""
     command = study.replay(folder, 0) if study.failures else ""
     replays = [("design point 0; trial K of the file is design point K", command)] if command else []

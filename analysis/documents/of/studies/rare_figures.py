@@ -10,7 +10,7 @@ import numpy as np
 
 from ....campaigns.verdicts.order_statistics import quantiles
 from ....studies.rare.interpretation import Equivalent, equivalents, influence, level_spans
-from ....studies.rare.outcome import RareResult
+from ....studies.rare.outcome import RareOutcome
 from ....studies.rare.uncertainty import CONFIDENCE
 from ...cell import LegendEntry
 from ...chart import marks as shapes
@@ -32,14 +32,14 @@ BEHIND = Backing("#ffffff", 0.8, 0.8)  # of words over a line
 PERCENT = f"{100 * CONFIDENCE:g} %"
 
 
-def limit_figures(study: RareResult) -> list[Figure]:
+def limit_figures(study: RareOutcome) -> list[Figure]:
     """Return the limit state of every simulation over its number."""
     words = f"Limit state of {study.flights} simulations in {len(study.simulation.levels)} levels"
     chart = limit_state_chart(study)
     return [Figure("", "limit-state", words, chart, HEIGHT, is_wide=True, legend=curve_legend(chart))]
 
 
-def limit_state_chart(study: RareResult) -> Chart:
+def limit_state_chart(study: RareOutcome) -> Chart:
     """Return simulations by number, failures in colour, and the thresholds of levels."""
     factor = display_factor(study.margin_unit)
     values = study.flown.values
@@ -93,13 +93,13 @@ def limits_of(values: np.ndarray) -> tuple[float, float]:
     return low - margin, high + margin
 
 
-def exceedance_figures(study: RareResult) -> list[Figure]:
+def exceedance_figures(study: RareOutcome) -> list[Figure]:
     """Return how probable it is that the limit state is above a value."""
     words, chart = "Probability that the limit state exceeds a value", exceedance_chart(study)
     return [Figure("Exceedance probability", "exceedance", words, chart, HEIGHT, legend=curve_legend(chart))]
 
 
-def exceedance_chart(study: RareResult) -> Chart:
+def exceedance_chart(study: RareOutcome) -> Chart:
     """Return the first level's empirical curve, the thresholds of levels, the failure with its interval."""
     spans = level_spans(study)
     factor = display_factor(study.margin_unit)
@@ -141,7 +141,7 @@ DESIGN_LEGEND = [
 ]
 
 
-def design_figures(study: RareResult) -> list[Figure]:
+def design_figures(study: RareOutcome) -> list[Figure]:
     """Return samples, failures and design points over pairs of the most influential parameters."""
     pairs = combinations(list(influence(study))[:PAIRED], 2)
     return [
@@ -157,7 +157,7 @@ def design_figures(study: RareResult) -> list[Figure]:
     ]
 
 
-def design_chart(study: RareResult, one: str, other: str) -> Chart:
+def design_chart(study: RareOutcome, one: str, other: str) -> Chart:
     """Return one pair: level 1 in grey, failures in colour, design points with their numbers."""
     units = [study.units.get(name) for name in (one, other)]
     factors = [display_factor(unit) for unit in units]
@@ -187,7 +187,7 @@ def design_chart(study: RareResult, one: str, other: str) -> Chart:
     )
 
 
-def interval_figures(study: RareResult) -> list[Figure]:
+def interval_figures(study: RareOutcome) -> list[Figure]:
     """Return the interval of this study and those of Monte Carlo."""
     rows = equivalents(study)
     words, chart = f"{PERCENT} intervals of the probability", interval_chart(rows, study.probability)

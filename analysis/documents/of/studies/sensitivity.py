@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ....studies.sensitivity import SensitivityResult
+from ....studies.sensitivity import SensitivityOutcome
 from ....studies.sobol import CONFIDENCE
 from ...cell import Cell, Interval, Quantity
 from ...common.quantities import label_with_unit, number
@@ -22,7 +22,7 @@ DECIMALS = 3  # of indices and correlations
 PERCENT = f"{100 * CONFIDENCE:g} %"
 
 
-def sensitivity_document(study: SensitivityResult, folder: Path | None = None) -> Document:
+def sensitivity_document(study: SensitivityOutcome, folder: Path | None = None) -> Document:
     """Return the document of a sensitivity study; ``folder`` is where it has been written, if it has."""
     condition = condition_of(study)
     count = len(study.with_indices) + len(study.without_indices)
@@ -51,7 +51,7 @@ def sensitivity_document(study: SensitivityResult, folder: Path | None = None) -
     return Document(title, [verdict, numbers], sections, study.json_document(folder))
 
 
-def _drivers(study: SensitivityResult) -> list[Node]:
+def _drivers(study: SensitivityOutcome) -> list[Node]:
     wide = [metric for metric in study.with_indices if np.ptp(bars_of(study, metric)[0].total_interval) > WIDE]
     advice = f"A base of {2 * study.base} or more narrows them."
     table: list[Node] = [
@@ -67,7 +67,7 @@ def _drivers(study: SensitivityResult) -> list[Node]:
     return [*(table if study.with_indices else [Text("no metric has indices")]), *without]
 
 
-def driver_table(study: SensitivityResult) -> Table:
+def driver_table(study: SensitivityOutcome) -> Table:
     """Return a row for each metric: its parameter with the largest total index, and the sum of first-order indices."""
     rows: list[tuple[Cell, ...]] = []
     for metric in study.with_indices:
@@ -79,7 +79,7 @@ def driver_table(study: SensitivityResult) -> Table:
     return Table(heads, rows, len(rows))
 
 
-def _indices(study: SensitivityResult) -> list[Node]:
+def _indices(study: SensitivityOutcome) -> list[Node]:
     is_open = len(study.with_indices) <= OPEN
     return [
         Figures(partial(index_figures, study, study.with_indices)),
@@ -97,7 +97,7 @@ def _indices(study: SensitivityResult) -> list[Node]:
     ]
 
 
-def index_table(study: SensitivityResult, metric: str) -> Table:
+def index_table(study: SensitivityOutcome, metric: str) -> Table:
     """Return a row for each parameter with the indices of one metric, by total index."""
     rows = [
         (
@@ -123,7 +123,7 @@ def _interval(ends: tuple[float, float]) -> Interval:
     return Interval(_index(low), _index(high))
 
 
-def rank_table(study: SensitivityResult) -> Table:
+def rank_table(study: SensitivityOutcome) -> Table:
     """Return rank correlations, a row for each metric and a column for each parameter."""
     names = study.space.names
     rows: list[tuple[Cell, ...]] = [
@@ -132,7 +132,7 @@ def rank_table(study: SensitivityResult) -> Table:
     return Table(("metric", *names), rows, len(rows))
 
 
-def _on_ranks(study: SensitivityResult) -> str:
+def _on_ranks(study: SensitivityOutcome) -> str:
     count = 2 * study.base
     noise = " Noise realisations have no order and no rank." if study.noise.sources else ""
     return (

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....studies.sensitivity import SensitivityResult
+from ....studies.sensitivity import SensitivityOutcome
 from ...chart.axes import lane_axis, linear_axis
 from ...chart.lines import line
 from ...chart.marks import instant, rectangle
@@ -37,7 +37,7 @@ class IndexBar(NamedTuple):
     rank: float | None
 
 
-def bars_of(study: SensitivityResult, metric: str) -> list[IndexBar]:
+def bars_of(study: SensitivityOutcome, metric: str) -> list[IndexBar]:
     """Return a bar for each parameter, by total index, the largest first."""
     bars = [
         IndexBar(
@@ -60,7 +60,7 @@ def _ends(interval: list[float | None]) -> tuple[float, float]:
     return low, high
 
 
-def index_figures(study: SensitivityResult, metrics: Sequence[str]) -> list[Figure]:
+def index_figures(study: SensitivityOutcome, metrics: Sequence[str]) -> list[Figure]:
     """Return a figure of the indices of each metric."""
     figures = []
     for index, metric in enumerate(metrics):

@@ -8,13 +8,13 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from ....campaigns.definition.campaign import Record
+from ....campaigns.definition.campaign import TrialRecord
 from ....campaigns.definition.plan import BatchPlan
 from ....campaigns.draws.declared import input_names
 from ....campaigns.draws.given import GivenDraws, part_streams, stream_component
 from ....campaigns.execute.flyer import Flyer
 from ....runtime.flight.results import Result
-from ....studies.worst.outcome import WorstResult
+from ....studies.worst.outcome import WorstOutcome
 from ...cell import Cell, Code, Quantity, Rich
 from ...common.quantities import label_with_unit
 from ...figures.declared import FigureDeclaration
@@ -32,7 +32,7 @@ DECIMALS = 3  # of fractions of the search box
 Simulate = Callable[[], tuple[Result, Sequence[FigureDeclaration]]]
 
 
-def worst_document(study: WorstResult, folder: Path | None = None, simulate: Simulate | None = None) -> Document:
+def worst_document(study: WorstOutcome, folder: Path | None = None, simulate: Simulate | None = None) -> Document:
     """Return the document of a worst case; ``folder`` is where it has been written, if it has.
 
     ``simulate`` returns the worst case with all signals, and the figures that the system declares; None where a margin
@@ -83,7 +83,7 @@ def worst_document(study: WorstResult, folder: Path | None = None, simulate: Sim
     return Document(title, [_verdict(study)], sections, study.json_document(folder))
 
 
-def _verdict(study: WorstResult) -> Verdict:
+def _verdict(study: WorstOutcome) -> Verdict:
     realisations, largest, random = study.over, study.worst_realisation, study.worst_random
     objective = objective_of(study)
     outside = "" if random["inside"] else ", outside of the box"
@@ -114,7 +114,7 @@ def _verdict(study: WorstResult) -> Verdict:
     )  # fmt: skip
 
 
-def _sized(study: WorstResult, size: float | str | None, *, is_bare: bool = False) -> Quantity | str:
+def _sized(study: WorstOutcome, size: float | str | None, *, is_bare: bool = False) -> Quantity | str:
     """Return a number of the objective; that of a simulation without one is that it failed."""
     return _cell(size, study.unit, is_bare=is_bare)
 
@@ -125,7 +125,7 @@ def _cell(size: float | str | None, unit: str | None, *, is_bare: bool = True) -
     return Quantity(float(size), unit, DIGITS, is_bare)
 
 
-def _fresh(study: WorstResult) -> list[Node]:
+def _fresh(study: WorstOutcome) -> list[Node]:
     """Return what fresh noise does to the worst case; nothing where the noise is not random."""
     if study.fresh is None or study.over is None:
         return []
@@ -140,7 +140,7 @@ def _fresh(study: WorstResult) -> list[Node]:
     ]  # fmt: skip
 
 
-def _noise(study: WorstResult) -> str:
+def _noise(study: WorstOutcome) -> str:
     """Return how the search had random noise."""
     assert study.over is not None
     count = study.over.count
@@ -149,7 +149,7 @@ def _noise(study: WorstResult) -> str:
     return f"the same {'realisation' if count == 1 else f'{count} realisations'} at every point"
 
 
-def _of_realisations(study: WorstResult) -> str:
+def _of_realisations(study: WorstOutcome) -> str:
     realisations = study.over
     if realisations is None or realisations.count == 1:
         return ""
@@ -157,7 +157,7 @@ def _of_realisations(study: WorstResult) -> str:
     return f" The number of a point{only} is the {realisations.text}, not that of a single simulation."
 
 
-def _phases(study: WorstResult) -> Table:
+def _phases(study: WorstOutcome) -> Table:
     """Return a row for each phase of the search, with the worst number up to its end, as displayed."""
     worst = objective_of(study).worst_so_far()
     rows: list[tuple[Cell, ...]] = []
@@ -169,7 +169,7 @@ def _phases(study: WorstResult) -> Table:
     return Table(("", "method", "points", label_with_unit("worst so far", study.unit)), rows)
 
 
-def metric_table(study: WorstResult) -> Table:
+def metric_table(study: WorstOutcome) -> Table:
     """Return a row for each metric: worst case and worst random trial."""
     worst, random, units = study.worst["metrics"], study.worst_random["metrics"], study.units
     rows = [
@@ -179,7 +179,7 @@ def metric_table(study: WorstResult) -> Table:
     return Table(("metric", "worst case", "worst random trial"), rows, len(rows))
 
 
-def parameter_table(study: WorstResult) -> Table:
+def parameter_table(study: WorstOutcome) -> Table:
     """Return a row for each dispersed parameter: worst case, box, worst random trial."""
     rows = [
         (
@@ -194,7 +194,7 @@ def parameter_table(study: WorstResult) -> Table:
     return Table(heads, rows, len(rows))
 
 
-def _box_nodes(study: WorstResult) -> list[Node]:
+def _box_nodes(study: WorstOutcome) -> list[Node]:
     return [
         Only(Medium.PAGE, lambda: [Figures(partial(box_figures, study))]),
         parameter_table(study),
@@ -206,7 +206,7 @@ def _box_nodes(study: WorstResult) -> list[Node]:
     ]
 
 
-def _simulation(study: WorstResult, simulate: Simulate) -> list[Node]:
+def _simulation(study: WorstOutcome, simulate: Simulate) -> list[Node]:
     simulation, figures = simulate()
     realisations = study.over
     end: Rich = [" at ", Quantity(float(simulation.time[-1]), "s", DIGITS)] if simulation.time.size else []
@@ -216,12 +216,12 @@ def _simulation(study: WorstResult, simulate: Simulate) -> list[Node]:
     return [Text(["status ", Code(simulation.status), *end, chosen]), *simulation_nodes(simulation, figures)]
 
 
-def simulate_worst(study: WorstResult, plan: BatchPlan) -> tuple[Result, list[FigureDeclaration]]:
+def simulate_worst(study: WorstOutcome, plan: BatchPlan) -> tuple[Result, list[FigureDeclaration]]:
     """Return the worst case with the bits of the search; ``plan`` is that of the study. Raises InputError."""
     plotted = study.flown.draws
     names = [*input_names(plan.campaign), *(name for name in plotted if stream_component(name) is not None)]
     given = GivenDraws(*part_streams({name: plotted[name][[study.row]] for name in names}))
-    plain = replace(plan, campaign=replace(plan.campaign, record=Record(), group=None, scatters=()))
+    plain = replace(plan, campaign=replace(plan.campaign, record=TrialRecord(), group=None, scatters=()))
     with chdir(Path.cwd()):  # an FMU may change the folder
         flyer = Flyer(plain.of_samples(given))
         (variant,) = flyer.variants

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....studies.worst.outcome import WorstResult
+from ....studies.worst.outcome import WorstOutcome
 from ...cell import LegendEntry
 from ...chart.axes import lane_axis, linear_axis, ticked_axis
 from ...chart.lines import line
@@ -26,14 +26,14 @@ from .worst_points import Lane, ObjectiveValues, box_lanes, objective_of, select
 LANE = 0.52  # in
 
 
-def search_figures(study: WorstResult) -> list[Figure]:
+def search_figures(study: WorstOutcome) -> list[Figure]:
     """Return the objective over the points of the search, the worst so far, the phases."""
     chart = search_chart(study)
     words = f"{study.badness.text} at {objective_of(study).values.size} points of the search"
     return [Figure("", "search", words, chart, HEIGHT, is_wide=True, legend=curve_legend(chart))]
 
 
-def search_chart(study: WorstResult) -> Chart:
+def search_chart(study: WorstOutcome) -> Chart:
     """Return every point as a dot, the worst so far as a line, phases by their numbers."""
     objective = objective_of(study)
     numbers = np.arange(1.0, objective.values.size + 1.0)
@@ -99,7 +99,7 @@ def _legend(first: str, levels: Sequence[MarkedAbscissa]) -> list[LegendEntry]:
     ]
 
 
-def random_figures(study: WorstResult) -> list[Figure]:
+def random_figures(study: WorstOutcome) -> list[Figure]:
     """Return the random trials with the worst case, and the worst case under fresh noise where that changes it."""
     words = f"{study.badness.text}: {study.random_trials} random trials and the worst case"
     legend = _legend(f"{study.random_trials} random trials", _trial_levels(objective_of(study)))
@@ -119,7 +119,7 @@ def _trial_levels(objective: ObjectiveValues) -> list[MarkedAbscissa]:
     return [MarkedAbscissa(float(objective.values[index]), colour, name) for index, colour, name in indices]
 
 
-def trials_chart(study: WorstResult) -> Chart:
+def trials_chart(study: WorstOutcome) -> Chart:
     """Return the histogram of the random trials, marks at the worst of them and at the worst case."""
     objective = objective_of(study)
     trials = objective.values[: study.random_trials]
@@ -141,7 +141,7 @@ def trials_chart(study: WorstResult) -> Chart:
     )
 
 
-def _fresh_levels(study: WorstResult) -> list[MarkedAbscissa]:
+def _fresh_levels(study: WorstOutcome) -> list[MarkedAbscissa]:
     """Return the realisations' quantile, their worst, and the value of the search."""
     assert study.fresh is not None
     assert study.over is not None
@@ -154,7 +154,7 @@ def _fresh_levels(study: WorstResult) -> list[MarkedAbscissa]:
     return [MarkedAbscissa(float(select_values(study, np.array([at]))[0]), colour, name) for at, colour, name in levels]
 
 
-def fresh_chart(study: WorstResult) -> Chart:
+def fresh_chart(study: WorstOutcome) -> Chart:
     """Return the fraction of fresh realisations up to a value, marks at the levels of `_fresh_levels`."""
     assert study.fresh is not None
     ranked = select_values(study, np.sort(study.fresh.values))
@@ -175,7 +175,7 @@ RANDOM, WORST = marker("o", 7.0, INK, fill="#ffffff"), marker("D", 6.0, VERMILIO
 BOX_LEGEND = [LegendEntry(RANDOM, ["worst random trial"]), LegendEntry(WORST, ["worst case"])]
 
 
-def box_figures(study: WorstResult) -> list[Figure]:
+def box_figures(study: WorstOutcome) -> list[Figure]:
     """Return where in the search box the worst case lies, a lane for each dispersed parameter."""
     lanes = box_lanes(study)
     words = f"The worst case within the search box of {len(lanes)} parameters"

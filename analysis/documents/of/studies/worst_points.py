@@ -8,7 +8,7 @@ import numpy as np
 
 from ....campaigns.verdicts.order_statistics import quantiles
 from ....studies.worst.objective import MOST
-from ....studies.worst.outcome import WorstResult
+from ....studies.worst.outcome import WorstOutcome
 from ...common.quantities import display_factor, label_with_unit
 
 CUT = 0.02  # of the simulations, those farthest from the worst may lie outside of an axis
@@ -45,7 +45,7 @@ class ObjectiveValues(NamedTuple):
         return np.fmax.accumulate(self.values) if self.rising else np.fmin.accumulate(self.values)
 
 
-def point_values(study: WorstResult) -> np.ndarray:
+def point_values(study: WorstOutcome) -> np.ndarray:
     """Return the objective (points,) of every point of the search, the larger the worse; fresh noise is left out.
 
     Each point flies the realisations of the noise in a row; where noise does not matter, one after the random trials.
@@ -62,7 +62,7 @@ def point_values(study: WorstResult) -> np.ndarray:
     return np.concatenate(columns)
 
 
-def objective_of(study: WorstResult) -> ObjectiveValues:
+def objective_of(study: WorstOutcome) -> ObjectiveValues:
     """Return the objective of all points in the order in which they were flown, angles in degrees."""
     values = point_values(study)
     displayed = select_values(study, values)
@@ -73,7 +73,7 @@ def objective_of(study: WorstResult) -> ObjectiveValues:
     return ObjectiveValues(label, displayed, failed, rising, int(np.argmax(values)), random)
 
 
-def select_values(study: WorstResult, values: np.ndarray) -> np.ndarray:
+def select_values(study: WorstOutcome, values: np.ndarray) -> np.ndarray:
     """Return the numbers that values of the objective stand for, in the unit that is shown; nan where there is none."""
     sizes = np.array([study.badness.size(float(value)) for value in values])
     known = np.isfinite(sizes) & (np.abs(sizes) < MOST)
@@ -99,7 +99,7 @@ class Lane(NamedTuple):
         return (value - self.low) / (self.high - self.low)
 
 
-def box_lanes(study: WorstResult) -> list[Lane]:
+def box_lanes(study: WorstOutcome) -> list[Lane]:
     """Return a lane for every dispersed parameter."""
     plotted, (worst, random) = study.flown.draws, study.places
     return [

@@ -16,7 +16,7 @@ import pytest
 import perilune
 from perilune.analysis.campaigns import plotted_sample as shown_trials
 from perilune.analysis.campaigns import statistics, summary
-from perilune.analysis.campaigns.definition.campaign import Group
+from perilune.analysis.campaigns.definition.campaign import TrialGroup
 from perilune.analysis.campaigns.definition.expressions import Expression
 from perilune.analysis.campaigns.definition.requirements import Requirement
 from perilune.analysis.campaigns.execute.campaign import open_folder
@@ -184,7 +184,7 @@ def test_summing_up_takes_no_more_memory_for_more_trials(monkeypatch):
     for module in (statistics, summary):
         monkeypatch.setattr(module, "IN_MEMORY", 20_000)
     requirement = Requirement("near", Expression("miss < 3"), 0.99, 0.9, "miss")
-    groups = [Group("1", 1.0)]
+    groups = [TrialGroup("1", 1.0)]
 
     def most(trials):
         rows = Made(trials)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.campaigns.verdicts.acceptance import Verdict
+from perilune.analysis.campaigns.verdicts.acceptance import AcceptanceVerdict
 from perilune.analysis.campaigns.verdicts.stopping import stopping_rule
 from perilune.analysis.cli import main
 from perilune.common.paths import SYSTEMS
@@ -46,7 +46,7 @@ def expected_end(whole):
     for trials in whole.trials.values():
         rule, failures = stopping_rule(0.95, 0.9), np.cumsum(~trials.success)
         verdicts = {look: rule.decide(look, int(failures[look - 1])) for look in rule.looks(TRIALS)}
-        ends.append(min(look for look, verdict in verdicts.items() if verdict is not Verdict.UNDECIDED))
+        ends.append(min(look for look, verdict in verdicts.items() if verdict is not AcceptanceVerdict.UNDECIDED))
     return -(-max(ends) // SHARD) * SHARD
 
 

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .....campaigns.compare.comparison import Comparison
+from .....campaigns.compare.comparison import CampaignComparison
 from ...campaign.recorded_names import names_of_record
 from .bands import Bands, bands_of
 from .recorded import ComparedFlight, FlightQuantity, quantities, read_flights, trials_with_traces
@@ -29,7 +29,7 @@ class History:
 class FlightHistories:
     """Recorded simulations by variant, their paths and quantities."""
 
-    comparison: Comparison
+    comparison: CampaignComparison
 
     @cached_property
     def by_label(self) -> dict[str, list[ComparedFlight]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from .....campaigns.compare.comparison import Comparison
+from .....campaigns.compare.comparison import CampaignComparison
 from ...campaign.recorded_names import CONSISTENCY, DIRECTIONS, KNOWN, variable_of
 from ..distributions import MASS
 from ..sigma import is_over_sigma
@@ -15,7 +15,7 @@ PATH = frozenset(KNOWN) - {*DIRECTIONS, *CONSISTENCY}  # variables of what moves
 
 
 def missing_statements(
-    comparison: Comparison,
+    comparison: CampaignComparison,
     flights: Mapping[str, list[ComparedFlight]],
     *,
     trajectories: bool,
@@ -60,7 +60,7 @@ def missing_statements(
     return reasons
 
 
-def is_biased(comparison: Comparison, flights: Mapping[str, list[ComparedFlight]]) -> bool:
+def is_biased(comparison: CampaignComparison, flights: Mapping[str, list[ComparedFlight]]) -> bool:
     """Return True if the trials displayed over time differ between variants, or are failed ones only."""
     trials = {tuple(flight.trial for flight in retained) for retained in flights.values() if retained}
     records = [batch.document["record"] for batch in comparison.batches.values()]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .....campaigns.compare.comparison import Contender
-from .....campaigns.folder.provenance import Provenance
+from .....campaigns.folder.provenance import CampaignProvenance
 from ...campaign.recorded_names import (
     COMMANDS,
     CONSISTENCY,
@@ -58,7 +58,7 @@ class ComparedFlight:
     is_whole: bool
 
 
-def quantities(document: Provenance) -> list[FlightQuantity]:
+def quantities(document: CampaignProvenance) -> list[FlightQuantity]:
     """Return every quantity over time that can be drawn, in order of their signals."""
     names = names_of_record(document)
     listed: list[FlightQuantity] = []
