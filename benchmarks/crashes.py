@@ -1,9 +1,9 @@
-"""Costs of processes of foreign FMUs, and of a crash in them: times of one run, side by side.
+"""Cost of processes for foreign FMUs, and of crashes in them, measured side by side in one run.
 
     python -m benchmarks.crashes
 
-An FMU in C whose trial takes half a millisecond runs FEW and MANY trials, of which the difference is the cost of a
-trial without any start; and FEW of which a tenth ends its process.
+An FMU in C whose trial takes half a millisecond runs FEW and MANY trials; the difference is the cost of a trial without
+the start. It also runs FEW trials of which a tenth end their process.
 """
 
 from __future__ import annotations
@@ -45,14 +45,14 @@ def main() -> None:
 
 
 def costs(fmu: Path, workers: int, *, in_process: bool) -> tuple[float, float]:
-    """Return the time (s) of a trial, and of a batch apart from its trials."""
+    """Return the time (s) of a trial, and of a batch without its trials."""
     few, many = (batch(fmu, workers, trials, in_process=in_process) for trials in (FEW, MANY))
     trial = (many - few) / (MANY - FEW)
     return trial, few - FEW * trial
 
 
 def batch(fmu: Path, workers: int, trials: int, *, in_process: bool = False) -> float:
-    """Return the median time (s) of a batch of ``trials`` trials, the first one left out."""
+    """Return the median time (s) of batches of ``trials`` trials, without the first batch."""
     fmu.with_suffix(".toml").write_text(COUNTS.format(name=fmu.stem, trials=trials))
     options = SystemOptions(stop_time=1.0, step=STEP, in_process=in_process)
     times = []
@@ -65,7 +65,7 @@ def batch(fmu: Path, workers: int, trials: int, *, in_process: bool = False) -> 
 
 
 def run(fmu: Path, options: list[str]) -> float:
-    """Return the time (s) of the command."""
+    """Run a command and return its time (s)."""
     begin = time.perf_counter()
     command = [sys.executable, "-m", "perilune", "run", str(fmu), "--stop-time", "1", *options]
     subprocess.run(command, check=True, capture_output=True)

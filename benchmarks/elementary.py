@@ -1,4 +1,4 @@
-"""Times of a call of each elementary function, the C library's and Python's: `python -m benchmarks.elementary`."""
+"""Time per call of each elementary function, in the C library and in Python: `python -m benchmarks.elementary`."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ USUAL = (-10.0, 10.0)
 
 
 def library() -> ctypes.CDLL:
-    """Return a library with loops over every function, ours and the C library's."""
+    """Return a library with loops over every function, Perilune's and the C library's."""
     main = f"{ElementaryFunctions.fmu_name}.c"
     sources = native_sources(ElementaryFunctions, "{0}")
     text = sources[main].decode()
@@ -50,7 +50,7 @@ def library() -> ctypes.CDLL:
 
 
 def shortest(call: Callable[[], object]) -> float:
-    """Return seconds of the quickest of some calls."""
+    """Return the shortest time (s) among several calls."""
     times = []
     for _ in range(REPEATS):
         before = time.perf_counter()
@@ -66,7 +66,7 @@ def call_each(function: Callable[..., float], rows: list[tuple[float, ...]]) -> 
 
 
 def row(dll: ctypes.CDLL, name: str, random: Random) -> str:
-    """Return one function's times: C and arrays in ns, Python in us."""
+    """Return the times of one function: C and arrays in ns, Python in us."""
     draw = [[random.uniform(*RANGES.get(name, USUAL)) for _ in range(COUNT)] for _ in range(2)]
     x, y, z = np.array(draw[0]), np.array(draw[1]), np.empty(COUNT)
     pointers = [ctypes.c_void_p(array.ctypes.data) for array in (x, y, z)]

@@ -1,9 +1,9 @@
-"""Instructions and time of a plan and of a cycle of each descent law: `make guidance-cost`, some minutes.
+"""Instructions and time per plan and per cycle of each descent law: `make guidance-cost`, some minutes.
 
-Each law flies `lunar_landing` for ten seconds; its FMU's C, compiled by gcc -O2, then gets the recorded inputs again.
-callgrind (valgrind) counts the instructions of the initialisation and of every step. Their times are the shortest of
-some runs, of the C and of the FMU in Python. The median is a cycle; the most expensive one is the plan: the first, or a
-later choice of time.
+Each law guides `lunar_landing` for ten seconds; the C source of its FMU, compiled by gcc -O2, is then run with the
+recorded inputs. callgrind (valgrind) counts the instructions of the initialisation and of every step. Times are the
+shortest of several runs, of the C code and of the Python FMU. The median step is a cycle; the most expensive step is
+the plan: the first one, or a later choice of time.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ TOTAL = re.compile(r"^totals: (\d+)", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Recording:
-    """Step (s), ``parameters`` by type, and ``inputs`` by name, a number for each step, of a guidance in a flight."""
+    """Inputs of a guidance during a simulation: step (s), ``parameters`` by type, ``inputs`` by name, a number per
+    step.
+    """
 
     step: float
     parameters: Mapping[str, Mapping[str, float]]
@@ -60,7 +62,7 @@ class Recording:
 
 
 def record_guidance(law: str, seconds: float = SECONDS) -> Recording:
-    """Fly `lunar_landing` with a law and return the inputs of its guidance."""
+    """Simulate `lunar_landing` with a law and return the inputs of its guidance."""
     flight = perilune.simulate("lunar_landing", use={"guidance": law}, stop_time=seconds)
     fmu = flight.prepared.network.fmus["guidance"]
     parameters: dict[str, dict[str, float]] = {"Real": {}, "Integer": {}, "Boolean": {}}
@@ -78,7 +80,7 @@ def record_guidance(law: str, seconds: float = SECONDS) -> Recording:
 
 
 def compile_steps(law: str, recording: Recording, folder: Path) -> Path:
-    """Compile the C of a law's FMU with its recording; returns the program."""
+    """Compile the C source of a law's FMU with its recording; return the path of the program."""
     with zipfile.ZipFile(BUILD / "fmus" / "native" / f"{law}.fmu") as fmu:
         fmu.extractall(folder / law)
     sources = folder / law / "sources"
@@ -91,7 +93,7 @@ def compile_steps(law: str, recording: Recording, folder: Path) -> Path:
 
 
 def count_instructions(program: Path) -> list[int]:
-    """Return the instructions of each step of a compiled law, counted by callgrind."""
+    """Return the number of instructions of each step of a compiled law, counted by callgrind."""
     with tempfile.TemporaryDirectory() as folder:
         options = ["--collect-atstart=no", "--toggle-collect=counted", "--dump-after=counted", "--combine-dumps=no"]
         out = f"--callgrind-out-file={folder}/out"
@@ -101,7 +103,7 @@ def count_instructions(program: Path) -> list[int]:
 
 
 def time_steps(command: Sequence[str]) -> list[float]:
-    """Return the shortest time of each step, us, over some runs of a command that prints them."""
+    """Return the shortest time (us) of each step over several runs of a command that prints the times."""
     runs = [subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.split() for _ in range(RUNS)]
     return [min(map(float, times)) for times in zip(*runs, strict=True)]
 

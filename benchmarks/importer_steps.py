@@ -1,7 +1,7 @@
-"""Counts which FMUs of blocks an importer can step by: `python -m benchmarks.importer_steps`, after build_fmus.py.
+"""Count of the blocks' FMUs that an importer can step by a step size: `python -m benchmarks.importer_steps`.
 
-Each FMU flies from its declared starts, 20 steps of 0.001 to 60 s, called by FMPy. One passes where every step ends in
-OK and all Real outputs are finite; of the others the step and the FMU's message are printed.
+Needs build_fmus.py. FMPy simulates each FMU from its declared start values, 20 steps of 0.001 to 60 s. An FMU passes if
+every step returns OK and all Real outputs are finite; for others the step and the FMU's message are printed.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ FORMS = {"native": "FMI 2.0, native", "python": "FMI 2.0, Python", "fmi3": "FMI 
 
 
 def fmu_of(block: type[Block], form: str) -> Path:
-    """Return the built FMU of FMI 2.0, or one of FMI 3.0 for this machine."""
+    """Return the built FMU of FMI 2.0, or that of FMI 3.0 for this machine."""
     if form != "fmi3":
         return shipped_fmu(block.fmu_name, form)
     platform = local_platform(3)
@@ -40,12 +40,12 @@ def fmu_of(block: type[Block], form: str) -> Path:
 
 
 def blocks_of(form: str) -> list[type[Block]]:
-    """Return the blocks that have this form."""
+    """Return the blocks available in this form."""
     return [block for block in catalogue().values() if form == "python" or not block.python_only]
 
 
 def find_failure(fmu: Path, step: float) -> str | None:
-    """Return what ends a flight by this step (s); None where nothing does."""
+    """Return the message that ends a simulation with this step (s); None if it succeeds."""
     description = fmpy.read_model_description(str(fmu), validate=False)
     reals = [v.valueReference for v in description.modelVariables if v.type in ("Real", "Float64") and not v.dimensions]
     messages: list[str] = []
@@ -79,18 +79,18 @@ def find_failure(fmu: Path, step: float) -> str | None:
 
 
 def failures(form: str, blocks: Sequence[type[Block]]) -> dict[tuple[str, float], str]:
-    """Return the messages that end flights, by FMU and step (s)."""
+    """Return the messages that end simulations, by FMU and step (s)."""
     endings = {(block.fmu_name, step): find_failure(fmu_of(block, form), step) for block in blocks for step in STEPS}
     return {key: message for key, message in endings.items() if message is not None}
 
 
 def row(label: str, numbers: Sequence[object]) -> str:
-    """Return a row of a table."""
+    """Return a table row."""
     return f"| {' | '.join([label, *map(str, numbers)])} |"
 
 
 def samples_row() -> str:
-    """Return the number of blocks with several sample instants in a step, at their declared periods."""
+    """Return the row with the number of blocks that have several sample instants per step at their declared periods."""
     periods = [
         float(b.variables["sample_period"].elements[0]) for b in blocks_of("python") if "sample_period" in b.variables
     ]
@@ -99,14 +99,14 @@ def samples_row() -> str:
 
 
 def passed_row(form: str, failed: dict[tuple[str, float], str]) -> str:
-    """Return the number of FMUs of a form that pass."""
+    """Return the row with the number of FMUs of a form that pass."""
     total = len(blocks_of(form))
     counts = [total - sum(key[1] == step for key in failed) for step in STEPS]
     return row(f"{FORMS[form]}: of {total}", counts)
 
 
 def main() -> None:
-    """Print the table, and below it what fails."""
+    """Print the table, followed by the failures."""
     print(row("step, s", [f"{step:g}" for step in STEPS]))
     print(row("---", ["---"] * len(STEPS)))
     listed = []

@@ -1,8 +1,8 @@
-"""Growth of time and memory of a quantile with the trials of a campaign's folder.
+"""Time and memory of computing a quantile, over the number of trials in a campaign's folder.
 
     python -m benchmarks.large_results [TRIALS ...]
 
-Each question has a separate process, which opens the folder and asks for the 99.9 % quantile of a metric.
+Each measurement has a separate process, which opens the folder and computes the 99.9 % quantile of a metric.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
-"""Growth of time and memory with the size of a system: rings with ten connections into each component.
+"""Time and memory over the size of a system: rings with ten connections into each component.
 
     python -m benchmarks.large_systems [COMPONENTS ...]
 
-Four tables: a step of rings of ten FMUs of ours, interpreted and fused; the same FMUs, each size in a process that
-reads, checks and orders the system, instantiates its FMUs and simulates one step; one foreign FMU, with the whole
-command `perilune run` and what a component adds to the smallest ring; a foreign FMU of 10^5 variables, with the whole
-commands `run` and `validate`.
+Prints four tables: time of a step of rings of ten Perilune FMUs, interpreted and fused; the same FMUs, each size in a
+process that reads, checks and orders the system, instantiates its FMUs and simulates one step; one foreign FMU, with
+the whole command `perilune run` and the cost of a component beyond the smallest ring; a foreign FMU of 10^5 variables,
+with the whole commands `run` and `validate`.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def main(sizes: list[int], foreign_sizes: list[int]) -> None:
 
 
 def _print_steps(folder: Path) -> None:
-    """Print the time of a step (us), and of compiling it (s)."""
+    """Print the time of a step (us), and that of compiling it (s)."""
     print("| components | native, us a step | fused, us a step | compiled in, s |")
     print("|---|---|---|---|")
     for count in STEPPED_SIZES:
@@ -115,7 +115,7 @@ def _print_wide(folder: Path) -> None:
 
 
 def _time(verb: str, path: Path) -> float:
-    """Return seconds of a command of `perilune` on a system or an FMU."""
+    """Return the time (s) of a `perilune` command on a system or an FMU."""
     command = [Path(sys.executable).with_name("perilune"), verb, str(path), "--step", "0.1", "--stop-time", "0.1"]
     begin = time.perf_counter()
     subprocess.run(command, capture_output=True, check=True)

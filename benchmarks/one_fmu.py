@@ -1,9 +1,9 @@
-"""Times a step of systems in their several forms: `python -m benchmarks.one_fmu [SYSTEM ...]`, after build_fmus.py.
+"""Time per step of systems in their several forms: `python -m benchmarks.one_fmu [SYSTEM ...]`, after build_fmus.py.
 
-The same loop flies them all, in this process: the system from its FMUs (native), with steps compiled as one function
-(fused), as the one FMU of `perilune export --as-fmu`, and as the container FMU that the FMU Manipulation Toolbox makes
-of its .ssp. They take turns; the shortest flight counts. The toolbox takes no parameter sets, so that its
-systems fly otherwise.
+One loop simulates all forms in this process: the system from its FMUs (native), with steps compiled as one function
+(fused), as the one FMU of `perilune export --as-fmu`, and as the container FMU that the FMU Manipulation Toolbox builds
+from its .ssp. They take turns, and the shortest simulation counts. The toolbox ignores parameter sets, so its systems
+have other parameters.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ REPEATS = 7
 
 
 def one_fmu(name: str, folder: Path) -> PreparedSystem:
-    """Return the system as one FMU, simulated alone."""
+    """Return the prepared system as one FMU, to be simulated alone."""
     path = folder / f"{name}.fmu"
     platform = local_platform()
     assert platform is not None
@@ -42,7 +42,7 @@ def one_fmu(name: str, folder: Path) -> PreparedSystem:
 
 
 def container(name: str, folder: Path) -> PreparedSystem | None:
-    """Return a container of the toolbox; None where it cannot build one."""
+    """Return a prepared container FMU of the toolbox; None if the toolbox cannot build it."""
     from fmu_manipulation_toolbox.assembly import Assembly
 
     logging.getLogger("fmu_manipulation_toolbox").setLevel(logging.CRITICAL)
@@ -66,7 +66,7 @@ def _with_system(folder: Path, name: str) -> Path:
 
 
 def timed(prepared: PreparedSystem, steps: int) -> Callable[[], float]:
-    """Return a function that simulates ``steps`` steps, and returns the time of one (us)."""
+    """Return a function that simulates ``steps`` steps and returns the time per step (us)."""
     simulation = Simulation(prepared, wanted=())
 
     def fly() -> float:

@@ -2,9 +2,9 @@
 
     python -m benchmarks.pages [--trials N] [--swiftshader]
 
-Prints the table of docs/reports.md: medians over newly opened pages, in headless Chromium as it is without a graphics
-processor: WebGL by SwiftShader, the page drawn and composed by the processor; ``--swiftshader``: composed by
-SwiftShader, too. Needs Chromium and its driver. Times of pictures include the frame in which they are drawn.
+Prints the table of docs/reports.md: medians over newly opened pages in headless Chromium without a graphics processor,
+where SwiftShader draws WebGL and the processor draws and composes the page; with ``--swiftshader`` SwiftShader composes
+it, too. Needs Chromium and its driver. Times of pictures include the frame in which they are drawn.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ send("pointerup", end, end);
 
 
 def main(trials: int, flags: Sequence[str]) -> None:
-    """Write the pages, open them, print a table."""
+    """Write the pages, open them, print the table."""
     with tempfile.TemporaryDirectory() as scratch:
         run, batch = Path(scratch) / "run.html", Path(scratch) / "batch.html"
         perilune(["run", "landing_mission", "--report", str(run)])

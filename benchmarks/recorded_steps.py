@@ -1,6 +1,7 @@
 """Steps of an FMU of FMI 2 with recorded inputs: `python -m benchmarks.recorded_steps FMU RECORDING`.
 
-It prints the time of the initialisation and of every step, us."""
+Prints the times (us) of the initialisation and of every step.
+"""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""`perilune show` over a campaign that is too large for a page: 10^6 trials of 40 metrics in 200 shards.
+"""`perilune show` for a campaign too large for a page: 10^6 trials of 40 metrics in 200 shards.
 
     python -m benchmarks.show [TRIALS]
 
-Prints the time from the start of the command to the first figure and to all, from a brush to the new picture, and the
-server's memory; the counts are compared with pyarrow's. Chromium and its driver are needed.
+Prints the times from the start of the command to the first figure and to all figures, the time from a brush to the new
+picture, and the server's memory; counts are compared with pyarrow's. Needs Chromium and its driver.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ done();
 
 
 def main(trials: int) -> None:
-    """Write, serve, measure, print a table."""
+    """Write the campaign, serve it, measure, print a table."""
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch) / "results"
         write_many(folder, trials, max(1, trials // SHARDS))
@@ -116,13 +116,13 @@ def _brush(driver: Any, canvas: Any, by: int) -> float:
 
 
 def _selected(driver: Any) -> list[int]:
-    """Return successes and failures that the page shows."""
+    """Return the numbers of successes and failures on the page."""
     texts = [each.text for each in driver.find_elements(By.CSS_SELECTOR, ".summary tbody td.n")]
     return [int(text) for text in texts[1:3]]
 
 
 def _by_pyarrow(folder: Path, driver: Any) -> list[int]:
-    """Return the same of the ranges that the page's last request had."""
+    """Return the same numbers for the ranges of the page's last request, computed by pyarrow."""
     entries = "performance.getEntriesByType('resource').map(each => each.name)"
     script = f"return {entries}.filter(each => each.includes('/counts'))"
     last = driver.execute_script(script)[-1]

@@ -2,8 +2,8 @@
 
     python -m benchmarks.verbs [SYSTEM] [--rounds N]
 
-Prints seconds of user and system time, of children too: the median over rounds in which the commands take turns, after
-one that fills caches and bytecode. Other programs share the machine: compare only numbers of one run.
+Prints user and system time (s), including children: the median over rounds in which the commands take turns, after a
+round that fills caches and bytecode. The machine is shared with other programs: compare only numbers of one run.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ COMMANDS = ("list", "describe SYSTEM", "validate SYSTEM", "run SYSTEM")
 
 
 def processor_time(arguments: list[str]) -> float:
-    """Return the seconds of processor time that `perilune` with these arguments takes. Raises CalledProcessError."""
+    """Return the processor time (s) of `perilune` with these arguments. Raises CalledProcessError."""
     environment = {name: text for name, text in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     before = os.times()
     command = [sys.executable, "-m", "perilune", *arguments]

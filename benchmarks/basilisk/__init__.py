@@ -1,1 +1,1 @@
-"""The same Monte Carlo here and in Basilisk's controller: the same draws, guidance and end."""
+"""Comparison with Basilisk's Monte Carlo controller: the same samples, guidance and end condition."""

@@ -1,10 +1,10 @@
-"""Trials a second of a lunar landing: Basilisk's Monte Carlo controller and `perilune batch`, on the same draws.
+"""Trials per second of a lunar landing: Basilisk's Monte Carlo controller and `perilune batch`, on the same samples.
 
     python -m benchmarks.basilisk PYTHON
 
-PYTHON is the absolute path of the interpreter of the cross-checks' environment; Basilisk is installed in this one, too
-(`make bench-basilisk`). Each contestant runs few and many trials; the difference is what trials cost without the start.
-The last states of the first trials must agree.
+PYTHON is the absolute path of the interpreter of the cross-checks' environment, in which Basilisk is installed as well
+(`make bench-basilisk`). Each contestant runs a small and a large number of trials; the difference is the cost of trials
+without the start. The final states of the first trials must agree.
 """
 
 import json
@@ -38,8 +38,10 @@ MOON_RADIUS = 1.7374e6  # m
 
 
 def fly_here(folder: Path, plant: str, trials: int, workers: int) -> tuple[float, list[list[float]]]:
-    """Simulate a batch here; return its time (s), and the last position and velocity of each trial, landing-site
-    frame."""
+    """Simulate a batch with Perilune.
+
+    Returns its time (s), and the final position and velocity of each trial in the landing-site frame.
+    """
     use, given = PLANTS[plant]
     start = time.perf_counter()
     flown = perilune.batch(
@@ -60,7 +62,7 @@ def fly_here(folder: Path, plant: str, trials: int, workers: int) -> tuple[float
 
 
 def fly_there(folder: Path, python: str, trials: int, workers: int, *options: str) -> tuple[float, list[list[float]]]:
-    """Simulate likewise in Basilisk."""
+    """Simulate the same batch with Basilisk; return the same as `fly_here`."""
     command = [python, "-W", "ignore", "-m", "benchmarks.basilisk.monte_carlo", str(folder), str(trials), str(workers)]
     done = subprocess.run([*command, *options], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
     document = json.loads(done.stdout.splitlines()[-1])
@@ -69,7 +71,7 @@ def fly_there(folder: Path, python: str, trials: int, workers: int, *options: st
 
 @dataclass(frozen=True)
 class Contestant:
-    """Trials here with a ``plant``, or in Basilisk with ``options``; how many a measurement has, few and many."""
+    """A contestant: Perilune with a ``plant``, or Basilisk with ``options``; numbers of trials of a measurement."""
 
     name: str
     trials: tuple[int, int]
@@ -93,7 +95,7 @@ CONTESTANTS = (
 
 
 def write_draws(folder: Path) -> None:
-    """Write the draws of a campaign as Basilisk's files of initial conditions."""
+    """Write the samples of a campaign as Basilisk's files of initial conditions."""
     (folder / "draws").mkdir()
     for row in pq.read_table(folder / "here" / "draws.parquet").to_pylist():
         document = {}

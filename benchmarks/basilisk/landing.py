@@ -1,4 +1,4 @@
-"""A landing in Basilisk: the lander of moon_thrust, whose guidance and allocation are FMUs that FMPy steps.
+"""Landing in Basilisk: the lander of moon_thrust, whose guidance and allocation are FMUs run by FMPy.
 
 Runs in Basilisk's environment.
 """
@@ -33,7 +33,7 @@ ALLOCATION = {"minimum_thrust": 510.0, "maximum_thrust": 5099.0, "slew_rate_limi
 
 @cache
 def unpack(name: str) -> str:
-    """Return the folder of an FMU, unpacked once in a process."""
+    """Return the folder of an FMU, unpacked once per process."""
     return extract(str(FMUS / f"{name}.fmu"))
 
 
@@ -42,7 +42,7 @@ def load(name: str, **parameters: object) -> SteppedFmu:
 
 
 class Landing(Flight):
-    """Hub, tank and engine over the Moon; their guidance is updated after them, and commands the step that follows."""
+    """Hub, tank and engine over the Moon; guidance is updated after them and commands the next step."""
 
     def __init__(self) -> None:
         super().__init__(STEP)
@@ -64,12 +64,12 @@ class Landing(Flight):
         return guidance
 
     def mass(self) -> float:
-        """Return the mass (kg), of the integrated state: the tank's message is one step late."""
+        """Return the mass (kg) from the integrated state, because the tank's message is one step late."""
         propellant = self.craft.dynManager.getStateObject(self.tank.getNameOfMassState())
         return DRY_MASS + propellant.getState()[0][0]
 
     def run_to_end(self, guidance: "Guidance") -> None:
-        """Run until the guidance has finished, or the longest time."""
+        """Run until the guidance has finished, or until the longest permitted time."""
         self.simulation.createNewEvent(
             "landed", macros.sec2nano(STEP), True, conditionFunction=lambda _: guidance.is_finished, terminal=True
         )
@@ -92,7 +92,7 @@ class Guidance(sysModel.SysModel):
         self.is_finished = False
 
     def UpdateState(self, now: int) -> None:  # noqa: N802
-        """Step both FMUs to this time, then set force and flow of the next step."""
+        """Step both FMUs to this time, then set force and mass flow for the next step."""
         landing, time = self.landing, now * TO_SECONDS
         state = landing.craft.scStateOutMsg.read()
         mass = landing.mass()

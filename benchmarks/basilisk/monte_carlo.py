@@ -2,9 +2,9 @@
 
     python -m benchmarks.basilisk.monte_carlo FOLDER TRIALS WORKERS [--no-pause] [--unguided]
 
-FOLDER/draws has a JSON file a trial. Prints the time of the controller (s) and the last state of each trial. The
-controller pauses for a second in every trial that retains data, unless --no-pause leaves that out. With --unguided the
-lander falls without a module in Python, for as many steps. Runs in Basilisk's environment.
+FOLDER/draws contains a JSON file per trial. Prints the time of the controller (s) and the final state of each trial.
+The controller pauses for a second in every trial that retains data, which --no-pause removes. With --unguided the
+lander falls for the same number of steps without a module in Python. Runs in Basilisk's environment.
 """
 
 import json
@@ -25,14 +25,14 @@ TYPICAL = 321.0  # s, of a landing
 
 
 def create() -> object:
-    """Return a landing whose initial conditions the controller sets."""
+    """Return a landing whose initial conditions are set by the controller."""
     simulation = create_unguided()
     simulation.guidance = simulation.landing.guide()
     return simulation
 
 
 def create_unguided() -> object:
-    """Return the same, without guidance."""
+    """Return a landing without guidance."""
     landing = Landing()
     simulation = landing.simulation
     simulation.landing, simulation.craft = landing, landing.craft
@@ -52,8 +52,9 @@ def execute_unguided(simulation: object) -> None:
 
 
 def run(folder: str, trials: int, workers: int, *, guided: bool) -> tuple[float, list[list[float]]]:
-    """Return the time (s) that the controller takes, and the last position (from the Moon's
-    centre) and velocity of trials."""
+    """Run the controller; return its time (s), and the final position (from the Moon's centre) and velocity of
+    trials.
+    """
     controller = Controller()
     controller.setSimulationFunction(create if guided else create_unguided)
     controller.setExecutionFunction(execute if guided else execute_unguided)

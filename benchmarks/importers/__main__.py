@@ -1,4 +1,4 @@
-"""Times a communication step of every importer: `python -m benchmarks.importers`, after build_fmus.py."""
+"""Time per communication step of every importer: `python -m benchmarks.importers`, after build_fmus.py."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The system that all contestants fly, packed as one .ssp, and what every way of flying it is to the benchmark."""
+"""System that all contestants simulate, packed as one .ssp, and their common interface."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from perilune.common.errors import InputError
 
 @dataclass(frozen=True)
 class Course:
-    """A system whose FMUs exchange Reals as they are, from one component straight to another."""
+    """A system whose FMUs exchange Reals without conversion, directly between components."""
 
     ssp: Path
 
     @cached_property
     def prepared(self) -> PreparedSystem:
-        """The system read and checked by our own importer; raises InputError."""
+        """The system as prepared by Perilune. Raises InputError."""
         prepared = prepare_system(self.ssp)
         for link in prepared.network.driver.values():
             if link.target.component is not None and not _is_plain(link):
@@ -35,7 +35,7 @@ class Course:
         return prepared
 
     def flight(self, steps: int, algorithm: str = "sequential") -> PreparedSystem:
-        """Return the system with another number of steps and this algorithm."""
+        """Return the prepared system with another number of steps and this algorithm."""
         return replace(self.prepared, steps=steps, algorithm=algorithm)
 
     @cached_property
@@ -45,7 +45,7 @@ class Course:
 
     @cached_property
     def names(self) -> list[str]:
-        """Outputs that another FMU reads: what a flight gives back."""
+        """Outputs that another FMU reads: the values that a simulation returns."""
         return list(dict.fromkeys(link.source.name for link in self.links))
 
     def settings(self) -> dict[tuple[str, str], ParameterValue]:
@@ -70,17 +70,17 @@ Fly = Callable[[int], Values]
 
 
 class Unavailable(Exception):  # noqa: N818 - not an error: the table says why
-    """A contestant that is unavailable here; the text says why and what would help."""
+    """A contestant is not available on this machine; the text states why, and a remedy."""
 
 
 @dataclass(frozen=True)
 class Contestant:
-    """One way of simulating a system.
+    """One way to simulate a system.
 
-    ``flavour`` says which FMUs it uses, ``what`` describes it in one sentence, ``algorithm`` is the one of ours whose
-    values it must reproduce (None: its order is none of ours), ``exact`` whether to the last bit. ``prepare`` makes
-    ready whatever outlasts a flight and returns a function that flies a number of steps from the start and returns the
-    values of ``course.names`` at the end; it raises `Unavailable`.
+    ``flavour`` is the build of its FMUs, ``what`` a description in one sentence. ``algorithm`` is Perilune's algorithm
+    whose values it must reproduce (None if it uses another order), ``exact`` if to the last bit. ``prepare`` creates
+    everything that outlasts a simulation and returns a function that simulates a number of steps from the start and
+    returns the final values of ``course.names``; it raises `Unavailable`.
     """
 
     name: str
@@ -96,6 +96,6 @@ class Contestant:
 
 
 def both_flavours(*ways: Contestant) -> tuple[Contestant, ...]:
-    """Return ways of simulating Python FMUs, then the same of native ones."""
+    """Return these ways of simulation for Python FMUs, then for native ones."""
     native = [replace(way, name=f"{way.name.removesuffix('_python')}_native", flavour="native") for way in ways]
     return (*ways, *native)

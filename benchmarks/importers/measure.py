@@ -1,4 +1,4 @@
-"""Runs the contestants in turn and works out what a step costs each of them; the machine and the versions."""
+"""Measurement: runs the contestants in turn, computes the cost of a step, and lists machine and versions."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ SYSTEM = "lunar_terminal_guidance"
 def run_benchmark(
     steps: int = 2500, repeats: int = 5, contestants: Sequence[Contestant] = CONTESTANTS
 ) -> dict[str, Any]:
-    """Time a communication step of `SYSTEM` with every contestant.
+    """Measure the time per communication step of `SYSTEM` with every contestant.
 
-    Each contestant has a separate process; in every repeat each simulates one step and then ``steps`` steps, and the
-    difference is what the steps cost, without reading, instantiation and initialisation, which are stated apart. Raises
-    InputError.
+    Each contestant has a separate process. In every repeat each simulates one step and then ``steps`` steps; the
+    difference is the cost of steps without reading, instantiation and initialisation, which are stated separately.
+    Raises InputError.
     """
     if steps < 2 or repeats < 1:
         raise InputError("benchmark", f"{steps} steps, {repeats} repeats", "too few", "give 2 and 1 at least")
@@ -77,7 +77,7 @@ def run_benchmark(
 
 
 def _pack(folder: Path, contestants: Sequence[Contestant], unavailable: dict[str, str]) -> dict[str, Path]:
-    """Pack the system with the FMUs of each flavour that is built; reasons go to ``unavailable``."""
+    """Pack the system with the FMUs of each flavour that is built; add reasons for missing ones to ``unavailable``."""
     archives: dict[str, Path] = {}
     for flavour in OURS:
         try:
@@ -95,7 +95,7 @@ def _pack(folder: Path, contestants: Sequence[Contestant], unavailable: dict[str
 def _workers(
     archives: dict[str, Path], contestants: Sequence[Contestant], unavailable: dict[str, str]
 ) -> Iterator[dict[str, Worker]]:
-    """Yield a worker for every available contestant; the others' reasons go to ``unavailable``."""
+    """Yield a worker for every available contestant; add reasons for the others to ``unavailable``."""
     with ExitStack() as stack:
         workers: dict[str, Worker] = {}
         for contestant in contestants:
@@ -116,7 +116,7 @@ def _fly_in_turn(
     repeats: int,
     unavailable: dict[str, str],
 ) -> dict[str, Times]:
-    """Return times of every contestant; a first round, not counted, warms up and compares the values at the end."""
+    """Return the times of every contestant; an uncounted first round warms up and compares final values."""
     final: dict[str, Values] = {}
     times = {name: Times(steps) for name in workers}
     with progress_bar(total=(repeats + 1) * len(workers), unit="run") as progress:
@@ -143,12 +143,12 @@ PACKAGES = ("perilune", "fmpy", "pythonfmu", "libcosimpy", "fmu-manipulation-too
 
 
 def machine() -> dict[str, str | int]:
-    """Return processor, number of them available to this process, operating system."""
+    """Return the processor, the number of processors available to this process, and the operating system."""
     return {"processor": _processor(), "processors": cpu_count(), "system": platform.platform()}
 
 
 def versions() -> dict[str, str]:
-    """Return versions of Python, of this package and of the peers; "not installed" for those that are not."""
+    """Return the versions of Python, of Perilune and of the other packages; "not installed" for missing ones."""
     by_package = {"python": platform.python_version()}
     for package in PACKAGES:
         try:

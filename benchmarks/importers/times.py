@@ -1,4 +1,4 @@
-"""Times of contestants' simulations, of one step, the promised ratios; and the comparison of values."""
+"""Times of the contestants' simulations and of a step, guaranteed ratios, comparison of values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PROMISED = (
 
 @dataclass
 class Times:
-    """Times of flights of one step and of ``steps`` steps (s), an entry of each per repeat."""
+    """Times (s) of simulations of one step and of ``steps`` steps, an entry per repeat."""
 
     steps: int
     short: list[float] = field(default_factory=list)
@@ -30,19 +30,19 @@ class Times:
         self.long.append(long)
 
     def step(self) -> float:
-        """Return time per step (s), from the fastest flight of either length."""
+        """Return the time per step (s), from the fastest simulation of each length."""
         return (min(self.long) - min(self.short)) / (self.steps - 1)
 
     def middle(self) -> float:
-        """Return time per step (s), median over the repeats."""
+        """Return the time per step (s), median over the repeats."""
         return median(self._each())
 
     def start(self) -> float:
-        """Return time from the files or instances at hand to the first step (s)."""
+        """Return the time (s) from the available files or instances to the first step."""
         return max(0.0, min(self.short) - self.step())
 
     def ratio(self, other: Times) -> float:
-        """Return the time per step over that of another, run alternately: median over the repeats, pair by pair."""
+        """Return the ratio of the time per step to that of another contestant run alternately, median over repeats."""
         return median(mine / its for mine, its in zip(self._each(), other._each(), strict=True))
 
     def _each(self) -> list[float]:
@@ -50,7 +50,9 @@ class Times:
 
 
 def compute_promised_ratios(times: Mapping[str, Times], trials: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
-    """Compute ratios by ``first/second``, of available ones; for the workers trials per second, by flavour."""
+    """Return the guaranteed ratios ``first/second`` of available contestants; for workers trials per second, by
+    flavour.
+    """
     ratios = {
         f"{slow}/{fast}": times[slow].ratio(times[fast]) for slow, fast in PROMISED if slow in times and fast in times
     }
@@ -63,7 +65,7 @@ TOLERANCE = 1e-9
 
 
 def difference(values: Values, reference: Values) -> float:
-    """Return largest difference, relative to the reference or to 1 where that is larger."""
+    """Return the largest difference, relative to the reference or, if larger, to 1."""
     return max(abs(values[name] - expected) / max(1.0, abs(expected)) for name, expected in reference.items())
 
 
@@ -73,9 +75,9 @@ def differ(values: Values, reference: Values) -> int:
 
 
 def disagreements(contestants: Iterable[Contestant], final: Mapping[str, Values]) -> dict[str, str]:
-    """Return contestants that disagree with ours by the same algorithm, with the reason.
+    """Return the contestants that disagree with Perilune's values for the same algorithm, with the reason.
 
-    One that is exact must have been compared with ours.
+    An exact contestant must have been compared.
     """
     by_name = {each.name: each for each in contestants}
     ours = {

@@ -1,6 +1,7 @@
-"""A process for each contestant, so that none disturbs another or takes the benchmark with it; trials per second.
+"""Separate process for each contestant, which isolates contestants from each other and the benchmark; trials per
+second.
 
-What runs in it is `serve.py`.
+The process runs `serve.py`.
 """
 
 from __future__ import annotations
@@ -23,11 +24,11 @@ from .contestant import Unavailable
 
 
 class WorkerError(Exception):
-    """Error with the last output of a contestant's process."""
+    """A contestant's process failed; the text contains its last output."""
 
 
 class Worker:
-    """A contestant by name, in a separate process; use it as a context manager."""
+    """A contestant, by name, in a separate process; a context manager."""
 
     def __init__(self, contestant: str, ssp: Path) -> None:
         self.contestant = contestant
@@ -43,7 +44,7 @@ class Worker:
         self._answer()
 
     def ask(self, **request: Any) -> dict[str, Any]:
-        """Send a request and wait for its answer; raises `Unavailable` and `WorkerError`."""
+        """Send a request and return its answer. Raises `Unavailable` and `WorkerError`."""
         assert self._process.stdin is not None
         self._process.stdin.write(json.dumps(request) + "\n")
         self._process.stdin.flush()
@@ -62,7 +63,7 @@ class Worker:
         return answer
 
     def close(self) -> None:
-        """End the process, which frees what it holds."""
+        """End the process, which releases its memory and files."""
         assert self._process.stdin is not None
         self._process.stdin.close()
         self._process.wait()
@@ -84,11 +85,11 @@ LEAST = 20  # trials beyond the warm-up, however long they take
 
 
 def trials_per_second(ssp: Path, flight: float, rounds: int = ROUNDS) -> dict[str, float]:
-    """Measure trials of the campaign per second by number of workers; ``flight`` is the approximate duration of one
-    (s).
+    """Return trials per second of the campaign by number of workers; ``flight`` (s) is the approximate time of a
+    trial.
 
-    A short batch and a long one are timed, each ``rounds`` times: the difference of the fastest ones leaves out the
-    start of the workers. Raises `Unavailable` and `WorkerError`.
+    A short batch and a long one are timed ``rounds`` times each; the difference of the fastest ones excludes the start
+    of the workers. Raises `Unavailable` and `WorkerError`.
     """
     sizes = {workers: (4 * workers, 4 * workers + max(LEAST, round(workers * SECONDS / flight))) for workers in WORKERS}
     best: dict[tuple[int, int], float] = {}
@@ -105,7 +106,7 @@ def trials_per_second(ssp: Path, flight: float, rounds: int = ROUNDS) -> dict[st
 
 
 def fly_batch(ssp: Path, trials: int, workers: int) -> float:
-    """Fly the first trials of the campaign without its comparison; how long it took (s)."""
+    """Simulate the first trials of the campaign without its comparison of variants; return the time (s)."""
     plan = read_plan(ssp, CAMPAIGN, SystemOptions(), trials=trials, compare={})
     begin = time.perf_counter()
     run_batch(plan, workers=workers)

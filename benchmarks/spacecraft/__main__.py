@@ -1,7 +1,7 @@
-"""Times steps of `spacecraft` and trials of earth_pointing: `python -m benchmarks.spacecraft`, after build_fmus.py.
+"""Times of steps of `spacecraft` and of trials of earth_pointing: `python -m benchmarks.spacecraft`.
 
-Trials are those of the campaign `dispersed`, with one worker, by the processor's time: a short batch is subtracted from
-a long one.
+Needs build_fmus.py. Trials are those of the campaign `dispersed` with one worker, in processor time: the time of a
+short batch is subtracted from that of a long one.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ TRIALS = (1, 5)
 
 
 def trial_time() -> float:
-    """Return the processor's time (s) of a trial of the campaign."""
+    """Return the processor time (s) of a trial of the campaign."""
     spent = []
     for trials in (TRIALS[0], *TRIALS):  # the first one warms up
         begun = time.process_time()

@@ -1,7 +1,7 @@
-"""The time of a step of the plant `spacecraft` by degree and options.
+"""Time of a step of the plant `spacecraft` by degree of the gravity field and by options.
 
-The native FMU alone, with the satellite and the orbit of earth_pointing, in steps of 0.25 s, one of Runge-Kutta with
-four stages each. The rows take turns in this process; the shortest flight counts.
+The native FMU alone, with satellite and orbit of earth_pointing, in steps of 0.25 s, each one Runge-Kutta step of four
+stages. The rows take turns in this process, and the shortest simulation counts.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ ROWS: dict[str, tuple[str | None, dict[str, SetValue]]] = {
 
 
 def plant(parameter_set: str | None, parameters: dict[str, SetValue]) -> PreparedSystem:
-    """Return the FMU alone, with the parameters that it has in the system, but for these."""
+    """Return the prepared FMU with its parameters in the system, except the changed ones."""
     layers = SystemOptions(parameters=() if parameter_set is None else (parameter_set,))
     system = prepare_system(SYSTEM, layers)
     names = {name for component, name in system.settings.variables if component == COMPONENT}
@@ -47,7 +47,7 @@ def plant(parameter_set: str | None, parameters: dict[str, SetValue]) -> Prepare
 
 
 def step_times() -> dict[str, float]:
-    """Return the time of a step (us) of each row."""
+    """Return the time of a step (us) for each row."""
     flights = {name: timed(plant(*row), STEPS) for name, row in ROWS.items()}
     best = dict.fromkeys(flights, float("inf"))
     for _ in range(REPEATS):

@@ -1,1 +1,1 @@
-"""Simulations of the demonstration and of the figures of the documentation."""
+"""Simulations for the demonstration and for the figures of the documentation."""

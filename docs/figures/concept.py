@@ -1,4 +1,4 @@
-"""Draws docs/images/architecture/concept.svg, from a block to a campaign: `python -m docs.figures.concept`."""
+"""Figure docs/images/architecture/concept.svg, from a block to a campaign: `python -m docs.figures.concept`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Point = tuple[float, float]
 
 
 def concept_figure() -> Figure:
-    """Draw block, FMU, system with its closed loop, campaign, and the output of each."""
+    """Draw block, FMU, closed-loop system and campaign, with the output of each."""
     figure = new_figure(3.1)
     axes = figure.subplots()
     axes.set(xlim=(0.0, 100.0), ylim=(0.0, 38.0))
@@ -50,7 +50,7 @@ def _stage(axes: Axes, corner: Point, width: float, title: str, text: str) -> No
 
 
 def _loop(axes: Axes) -> None:
-    """Draw sensors, navigation, guidance, allocation, plant: guidance is the slot."""
+    """Draw the loop of sensors, navigation, guidance, allocation and plant; guidance is the slot."""
     boxes = {
         "sensors": (48.0, 24.5),
         "navigation": (58.5, 24.5),

@@ -1,4 +1,6 @@
-"""Builds everything, flies the published comparison and a whole landing, writes build/demo: `make demo`."""
+"""Demonstration: builds all FMUs, simulates the published comparison and a whole landing, writes build/demo (`make
+demo`).
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,7 @@ MISSION = "mission.html"
 
 
 def main(output: Path = BUILD / "demo", trials: int = TRIALS) -> int:
-    """Run the demonstration; returns the exit status."""
+    """Run the demonstration; return the exit status."""
     began = time.perf_counter()
     print("Building the FMUs and systems ...", flush=True)
     status = build([])
@@ -47,7 +49,7 @@ def main(output: Path = BUILD / "demo", trials: int = TRIALS) -> int:
 
 
 def fly(output: Path, trials: int) -> Path:
-    """Fly everything and write all files into ``output``; returns the page."""
+    """Run all simulations and write all files into ``output``; return the path of the page."""
     plan = read_plan(SYSTEM, CAMPAIGN, SystemOptions(), trials=trials)
     print(f"Flying trial {LANDING} of the campaign with {plan.campaign.variants()[0].name} ...", flush=True)
     landing, sample = fly_sample(plan)
@@ -58,7 +60,7 @@ def fly(output: Path, trials: int) -> Path:
 
 
 def fly_mission(output: Path) -> Path:
-    """Fly a whole landing from a 100 km orbit, with its scene and block diagram; return its page."""
+    """Simulate a whole landing from a 100 km orbit, with its scene and block diagram; return the path of its page."""
     print("Flying a landing from orbit to contact ...", flush=True)
     page = output / MISSION
     simulate("landing_mission").report(page)
@@ -66,7 +68,7 @@ def fly_mission(output: Path) -> Path:
 
 
 def fly_sample(plan: BatchPlan) -> tuple[Result, list[Result]]:
-    """Simulate one landing of the campaign in full, and others to show with it, with the campaign's first variant."""
+    """Simulate one landing of the campaign's first variant with all signals, and others to show for comparison."""
     others = sample_trials()
     larger = read_plan(SYSTEM, CAMPAIGN, plan.options, trials=max(LANDING, *others) + 1)
     flights = fly_landings(larger, larger.campaign.variants()[0], [LANDING, *others])

@@ -1,12 +1,13 @@
-"""The gains of the entry capsule's output feedback, from its aerodynamic table: `make gains` writes its parameter sets.
+"""Gains of the entry capsule's output feedback, from its aerodynamic table: `make gains` writes its parameter sets.
 
-Bank, sideslip and two rates at trim, at frozen pressure q: bank' = c0 wx - s0 wy, sideslip' = s0 wx + c0 wy,
-J (wx', wy')' = q m sideslip + (ux, uy), measured bank, wx, wy. The poles -0.35, -0.6, -0.7 +- 0.8i are spread over the
+Bank, sideslip and two rates at trim, at constant pressure q: bank' = c0 wx - s0 wy, sideslip' = s0 wx + c0 wy, J (wx',
+wy')' = q m sideslip + (ux, uy), measured bank, wx, wy. The poles -0.35, -0.6, -0.7 +- 0.8i are distributed over the
 levels in four ways.
 
 The whole attitude, for comparison: bank, sideslip, angle of attack and three rates at trim, turning with the velocity,
-measured bank and rates, three torques: m + p = 7 > 6, so the poles can be placed. The angle of attack hangs on the rest
-by the slow turn of the flight path alone, which is why nobody would fly that gain.
+measured bank and rates, three torques: m + p = 7 > 6, so the poles can be placed. The angle of attack is coupled to the
+other states only by the slow turn of the flight path, which makes this gain impractical.
+
 Source: Lapin, thesis, chapters 2 and 3.2; numbers ours: docs/systems/entry_attitude.md.
 """
 
@@ -44,10 +45,9 @@ DIFFERENCE = 1e-5  # rad and rad/s, of the central differences; 1e-4 and 1e-6 gi
 
 
 def sideslip_moments() -> tuple[float, float]:
-    """Return moments about x and y (N m) of the air over pressure (Pa) and sideslip (rad), at trim, by central
-    differences.
+    """Return aerodynamic moments about x and y (N m) per pressure (Pa) and sideslip (rad), at trim.
 
-    Rounded as the model of the docs is, to four and three decimals.
+    Computed by central differences, and rounded like the model in the documentation: to four and three decimals.
     """
     capsule = EntryCapsule()
     capsule.initialize()
@@ -61,7 +61,9 @@ def sideslip_moments() -> tuple[float, float]:
 
 
 def plant(pressure: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return A, B, C of (bank, sideslip, wx, wy), torques (ux, uy) and outputs (bank, wx, wy) at a pressure (Pa)."""
+    """Return A, B, C for states (bank, sideslip, wx, wy), torques (ux, uy), outputs (bank, wx, wy) at a pressure
+    (Pa).
+    """
     inertia = np.reshape(EntryCapsule().inertia, (3, 3))[:2, :2]
     a = np.zeros((4, 4))
     a[0, 2:], a[1, 2:] = [math.cos(TRIM), -math.sin(TRIM)], [math.sin(TRIM), math.cos(TRIM)]
@@ -70,18 +72,20 @@ def plant(pressure: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def direct(pressure: float, upper: np.ndarray, lower: list[complex]) -> np.ndarray:
-    """Return F with ``upper`` on (bank, sideslip)."""
+    """Return the gain F of the direct plant, with the matrix ``upper`` on the level (bank, sideslip)."""
     return output_feedback_levels(*plant(pressure), upper, lower, basis=np.eye(4)[:, :2]).gain
 
 
 def dual(pressure: float, upper: float, lower: list[complex]) -> np.ndarray:
-    """Return F by the dual plant, one real pole on its upper level."""
+    """Return the gain F of the dual plant, with one real pole on its upper level."""
     a, b, c = plant(pressure)
     return output_feedback_levels(a.T, c.T, b.T, [[upper]], lower).gain.T
 
 
 def sideslip_block(pressure: float) -> np.ndarray:
-    """Return [x -y; y x] of the roots x +- iy of p^2 + min(1.4 w, 1) p + w^2, w that of the sideslip's own swing."""
+    """Return [x -y; y x] for the roots x +- iy of p^2 + min(1.4 w, 1) p + w^2; w (rad/s) is the sideslip's own
+    frequency.
+    """
     a, _, _ = plant(pressure)
     square = -float(np.array([math.sin(TRIM), math.cos(TRIM)]) @ a[2:, 1])
     damping = 0.5 * min(1.4 * math.sqrt(square), 1.0)
@@ -90,7 +94,7 @@ def sideslip_block(pressure: float) -> np.ndarray:
 
 
 def entry_gains() -> dict[str, np.ndarray]:
-    """Return gains F (SI, rows of torques x, y over bank, wx, wy) by name; the scheduled ones below each other."""
+    """Return gains F (SI; rows torques x, y; columns bank, wx, wy) by name; scheduled ones are stacked."""
     pair = [complex(*PAIR), complex(PAIR[0], -PAIR[1])]
     slow, fast = REAL
     return {
@@ -112,8 +116,7 @@ DESCRIPTIONS = {
 
 
 def gain_parameters(name: str, gain: np.ndarray) -> dict[str, float]:
-    """Return values of a block output_feedback in the component ``regulator`` of
-    entry_attitude, gains to four decimals."""
+    """Return parameters of the block output_feedback in the component ``regulator``; gains have four decimals."""
     pressures = SCHEDULE if name == "scheduled" else (DESIGN_PRESSURE,) * 3
     values = {f"regulator.pressures[{k}]": pressure for k, pressure in enumerate(pressures, 1)}
     for row, entries in enumerate(np.resize(gain, (6, 3)).tolist(), 1):
@@ -123,7 +126,7 @@ def gain_parameters(name: str, gain: np.ndarray) -> dict[str, float]:
 
 
 def gain_files() -> dict[str, bytes]:
-    """Return the parameter sets of entry_attitude with the gains, by file name."""
+    """Return the parameter sets of entry_attitude with these gains, by file name."""
     return {
         f"output_feedback_{name}.ssv": write_parameter_set(
             f"output_feedback_{name}", gain_parameters(name, gain), DESCRIPTIONS[name]
@@ -133,8 +136,9 @@ def gain_files() -> dict[str, bytes]:
 
 
 def whole_model() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return A, B, C of (bank, sideslip, attack, wx, wy, wz), three torques (N m) and outputs (bank, wx, wy, wz),
-    SI."""
+    """Return A, B, C in SI for states (bank, sideslip, attack, wx, wy, wz), three torques, outputs (bank, wx, wy,
+    wz).
+    """
     density = air(HEIGHT).density
     capsule = EntryCapsule(
         initial_height=HEIGHT,
@@ -163,7 +167,9 @@ def whole_model() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def whole_gain() -> np.ndarray:
-    """Return F (3, 4) of torques (N m) over bank (rad) and rates (rad/s) that puts the six poles on UPPER and LOWER."""
+    """Return F (3, 4), torques (N m) from bank (rad) and rates (rad/s), which places the six poles on UPPER and
+    LOWER.
+    """
     return output_feedback_levels(*whole_model(), UPPER, LOWER).gain
 
 

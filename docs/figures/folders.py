@@ -1,4 +1,4 @@
-"""Draws the order of folders and their imports, docs/images/architecture/folders.svg."""
+"""Figure docs/images/architecture/folders.svg: the order of folders and their imports."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ROW = 0.17  # in
 
 
 def folders_figure() -> Figure:
-    """Return the folders from the top down, an arc for each pair of them with imports."""
+    """Return a figure of the folders from top to bottom, with an arc for each pair with imports."""
     rows = _rows()
     order = {name: position for position, name in enumerate(rows)}
     figure = new_figure(ROW * len(rows) + 0.2)
@@ -34,7 +34,7 @@ def folders_figure() -> Figure:
 
 
 def _rows() -> list[str]:
-    """Return the folders, with the kinds of blocks as one."""
+    """Return the folders; the folders of blocks are one row."""
     return list(dict.fromkeys(_row_of(name) for name in FOLDERS))
 
 
@@ -43,7 +43,7 @@ def _row_of(folder: str) -> str:
 
 
 def _imports() -> set[tuple[str, str]]:
-    """Return the pairs of folders with imports, without those of `common`, which all have."""
+    """Return the pairs of folders with imports, except imports of `common`, which every folder has."""
     rows = {
         (_row_of(folder_of(module_of(ROOT / file))), _row_of(folder_of(module)))
         for pairs in importing_files().values()
@@ -53,7 +53,7 @@ def _imports() -> set[tuple[str, str]]:
 
 
 def _arc(axes: Axes, start: int, end: int) -> None:
-    """Draw an import: the longer it is, the farther out."""
+    """Draw the arc of an import; longer arcs are farther out."""
     right = 36.0 + 2.6 * (end - start)
     points = [(35.5, start), (right, start), (right, end), (35.5, end)]
     codes = [Curve.MOVETO, Curve.CURVE4, Curve.CURVE4, Curve.CURVE4]

@@ -1,4 +1,4 @@
-"""The figure of lunar landings: one in full over a sample of its campaign."""
+"""Figure of lunar landings: one in full over a sample of its campaign."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ ARROW_SCALE = 7.0  # pt of arrow per m/s2
 
 
 def fly_landings(plan: BatchPlan, variant: Variant, trials: Iterable[int]) -> list[Result]:
-    """Simulate some trials of a campaign with every signal; the same flights as in its batch."""
+    """Simulate some trials of a campaign with every signal; the results equal those of the batch."""
     prepared = plan.prepare(variant)
     varied = variant_names(plan, prepared).varied
     landings = []
@@ -49,21 +49,21 @@ def fly_landings(plan: BatchPlan, variant: Variant, trials: Iterable[int]) -> li
 
 
 def _copy(result: Result) -> Result:
-    """Return a flight that the next one does not overwrite."""
+    """Return a copy of a result whose arrays the next simulation overwrites."""
     return replace(
         result, time=result.time.copy(), signals={name: values.copy() for name, values in result.signals.items()}
     )
 
 
 def vector(result: Result, name: str) -> np.ndarray:
-    """Return elements 1 to 3 of a signal, elements by rows."""
+    """Return elements 1 to 3 of a signal, [3, rows]."""
     return np.stack([result[f"{name}[{index}]"] for index in (1, 2, 3)])
 
 
 def landing_charts(landing: Result, sample: list[Result], width: float, height: float, *, fluid: bool) -> list[Chart]:
-    """Return side view with thrust as arrows, plan view, speed and thrust over time, over those of other flights.
+    """Return side view with thrust arrows, plan view, speed and thrust over time, with the sample in the background.
 
-    The side view is laid out in a figure of this size (pt), as `view_chart` does it.
+    The side view is laid out for a figure of this size (pt), as in `view_chart`.
     """
     return [
         _side_view(landing, sample, width, height, fluid=fluid),
@@ -73,14 +73,14 @@ def landing_charts(landing: Result, sample: list[Result], width: float, height: 
 
 
 def landing_figure(landing: Result, sample: list[Result]) -> Figure:
-    """Return the same in one figure, for the documentation."""
+    """Return the charts in one figure, for the documentation."""
     side, plan, *histories = landing_charts(landing, sample, POINTS * PLOT_WIDTH, POINTS * HEIGHT, fluid=False)
     charts = [side, _to_scale(plan, PLOT_WIDTH, HEIGHT, fluid=False), *histories]
     return plot_charts(charts, HEIGHT, PLOT_WIDTH, columns=2, titles=[chart.title for chart in charts])
 
 
 def landing_panels(landing: Result, sample: list[Result]) -> tuple[Drawing, list[FigurePanel]]:
-    """Return the side view as wide as the page, and panels of the others."""
+    """Return the side view as a panel of full width, and panels of the other charts."""
     side, plan, *histories = landing_charts(landing, sample, BROAD, POINTS * HEIGHT, fluid=True)
     panels = [
         chart_panel(chart.title, f"landing-{index}", f"{WORDS}: {chart.title}", chart, width=HALF_WIDTH)
@@ -118,7 +118,7 @@ def _speed(result: Result) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _acceleration(result: Result) -> tuple[np.ndarray, np.ndarray]:
-    """Return the command while thrusting; the last row has no command any more."""
+    """Return the commanded acceleration while thrusting, without the last row, which has no command."""
     return result.time[:-1], result["guidance.thrust_acceleration"][:-1]
 
 

@@ -34,7 +34,7 @@ KAPPA, NORM = 0, 1
 def draws(
     states: int, inputs: int, outputs: int = 1
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]:
-    """Yield A, B, C and poles of the systems, the same every time."""
+    """Yield A, B, C and poles of the random systems; the sequence is reproducible."""
     random = np.random.default_rng([states, inputs, outputs])
     for _ in range(SYSTEMS):
         poles = np.zeros(states)
@@ -45,7 +45,7 @@ def draws(
 
 
 def state_feedback(states: int, inputs: int) -> np.ndarray:
-    """Return kappa and |K| (systems, ways, 2)."""
+    """Return the condition number kappa and the norm |K| of each design, (systems, ways, 2)."""
     numbers = []
     for a, b, _, poles in tqdm(list(draws(states, inputs)), desc=f"n, m = {states}, {inputs}", disable=None):
         with warnings.catch_warnings():
@@ -58,8 +58,10 @@ def state_feedback(states: int, inputs: int) -> np.ndarray:
 
 
 def spreads() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return |F| of every real spread, direct (systems, 20) and dual (systems, 15), and of
-    choice smallest (systems, 1)."""
+    """Return |F| of every real spread of the poles.
+
+    Direct (systems, 20), dual (systems, 15), and of the choice "smallest" (systems, 1).
+    """
     states, inputs, outputs = OUTPUT
     numbers: tuple[list, list, list] = ([], [], [])
     for a, b, c, poles in tqdm(list(draws(*OUTPUT)), desc="n, m, p = {}, {}, {}".format(*OUTPUT), disable=None):
@@ -71,7 +73,7 @@ def spreads() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def tables(table: dict[tuple[int, int], np.ndarray], direct: np.ndarray, dual: np.ndarray, smallest: np.ndarray) -> str:
-    """Return the page's tables, medians over the systems."""
+    """Return the page's tables: medians over the systems."""
     lines = [f"medians over {SYSTEMS} systems each", f"{'n, m':6}" + "".join(f"{way:>18}" for way in WAYS)]
     for what, name in ((KAPPA, "kappa"), (NORM, "|K|")):
         lines.append(name)
@@ -91,7 +93,7 @@ def tables(table: dict[tuple[int, int], np.ndarray], direct: np.ndarray, dual: n
 
 
 def draw(folder: Path, figures: dict[str, Figure]) -> list[Path]:
-    """Write figures to an existing folder and say where."""
+    """Write the figures to an existing folder and print their paths."""
     paths = [folder / f"modal_{name}.svg" for name in figures]
     for path, figure in zip(paths, figures.values(), strict=True):
         write_picture(figure, path)

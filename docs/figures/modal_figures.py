@@ -1,4 +1,4 @@
-"""Figures of docs/modal_synthesis.md; `modal_comparison` finds what the first two show and writes them all."""
+"""Figures of docs/modal_synthesis.md; `modal_comparison` computes the data of the first two and writes all."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PLANTS = (0.05, 0.5, 2.0, 8.0)
 
 
 def choices_figure(kappa: dict[str, np.ndarray], norm: dict[str, np.ndarray]) -> Figure:
-    """Draw kappa and |K| of our choices over those of place_poles (systems,) for several sizes, systems in order."""
+    """Draw kappa and |K| relative to place_poles, (systems,) for several sizes, systems in ascending order."""
     figure = new_figure(3.6)
     panels = figure.subplots(1, 2)
     for axes, sizes, label in (
@@ -43,7 +43,7 @@ def choices_figure(kappa: dict[str, np.ndarray], norm: dict[str, np.ndarray]) ->
 
 
 def spreads_figure(direct: np.ndarray, dual: np.ndarray, smallest: np.ndarray) -> Figure:
-    """Draw |F| of every spread for every system, and its minimum; systems in the order of the least."""
+    """Draw |F| of every spread for every system, and the minimum; systems in the order of the least spread."""
     figure = new_figure(3.6)
     axes = figure.subplots()
     order = np.argsort(np.minimum(direct.min(axis=1), dual.min(axis=1)))
@@ -72,13 +72,13 @@ def spreads_figure(direct: np.ndarray, dual: np.ndarray, smallest: np.ndarray) -
 
 
 def turned_plant(q: float) -> np.ndarray:
-    """Return A of x = (e, b, wx, wy): two angles in axes turned by `TURN`, b held by a spring q."""
+    """Return A for x = (e, b, wx, wy): two angles in axes rotated by `TURN`, b held by a spring of stiffness q."""
     c, s = np.cos(TURN), np.sin(TURN)
     return np.array([[0, 0, c, -s], [0, 0, s, c], [0, -q * s, 0, 0], [0, -q * c, 0, 0]])
 
 
 def free_figure() -> Figure:
-    """Draw e and b after the same start under one regulator, for springs that differ by a factor of 160."""
+    """Draw e and b from one initial state under one regulator, for springs that differ by a factor of 160."""
     c, s = np.cos(TURN), np.sin(TURN)
     b = np.vstack([np.zeros((2, 2)), [[c, s], [-s, c]]])
     wanted = np.array([[[0.25, 0.0], [0.0, np.nan]], np.eye(2)])

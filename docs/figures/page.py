@@ -1,4 +1,4 @@
-"""The page of the demonstration: a landing, and the three guidances compared with their authors' publications."""
+"""Page of the demonstration: a landing, and three guidance laws compared with their authors' publications."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .readme_figure import LANDING
 
 @dataclass(frozen=True)
 class Published:
-    """A row of the published table: success rate (share of 1), errors as (mean, standard deviation) in m and m/s."""
+    """A row of the published table: success rate (0 to 1), errors as (mean, standard deviation) in m and m/s."""
 
     method: str
     success_rate: float

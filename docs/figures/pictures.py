@@ -1,4 +1,4 @@
-"""Writes the pictures of the documentation: `make figures`, after build_fmus.py."""
+"""Writer of the documentation's pictures: `make figures`, after build_fmus.py."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LINES = set("MLz 0123456789.-\n")  # of a path without curves
 
 
 def write_picture(figure: Figure, path: Path) -> Path:
-    """Write a figure as a small SVG file; raises ValueError beyond `LARGEST`."""
+    """Write a figure as a compact SVG file. Raises ValueError if it is larger than `LARGEST`."""
     root = etree.fromstring(svg_bytes(figure, path.stem, text_as_paths=True))
     for element in root.iter("{*}g", "{*}path", "{*}use"):
         element.tail = element.text = None
@@ -46,7 +46,7 @@ def _round(element: etree._Element) -> None:
 
 
 def _polyline(path: str) -> str:
-    """Return a path of moves and lines in tenths of a point, lines relative to the point before."""
+    """Return a path of move and line commands in tenths of a point; lines are relative to the previous point."""
     tokens, last, short = path.split(), (0, 0), []
     for index, token in enumerate(tokens):
         if token in "ML":
@@ -64,7 +64,7 @@ def _polyline(path: str) -> str:
 
 
 def _share_style(group: etree._Element) -> None:
-    """Move a style that all marks of a group have to the group."""
+    """Move a style common to all marks of a group to the group."""
     styles = {child.get("style") for child in group}
     if len(group) > 1 and len(styles) == 1 and all(str(child.tag).endswith("use") for child in group):
         (style,) = styles

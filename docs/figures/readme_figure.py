@@ -1,4 +1,4 @@
-"""Draws docs/images/landing.svg: `python -m docs.figures.readme_figure`, after build_fmus.py."""
+"""Figure docs/images/landing.svg: `python -m docs.figures.readme_figure`, after build_fmus.py."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ SAMPLE = 18  # trials behind it
 
 
 def sample_trials() -> list[int]:
-    """Return the trials behind the landing, which is not one of them."""
+    """Return the trials in the background of the landing, which is not among them."""
     return [trial for trial in range(SAMPLE + 1) if trial != LANDING]
 
 
 def draw_readme_figure(path: Path) -> None:
-    """Fly trials of the published campaign with its first method and write the figure."""
+    """Simulate trials of the published campaign with its first method and write the figure."""
     others = sample_trials()
     plan = read_plan(SYSTEM, CAMPAIGN, SystemOptions(), trials=max(LANDING, *others) + 1)
     flights = fly_landings(plan, plan.campaign.variants()[0], [LANDING, *others])

@@ -1,4 +1,4 @@
-"""Draws docs/images/rendezvous/*.svg: `python -m docs.figures.rendezvous_figures`, after build_fmus.py."""
+"""Figures docs/images/rendezvous/*.svg: `python -m docs.figures.rendezvous_figures`, after build_fmus.py."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ CAMERA, SPIN = 60.0, 45.0  # m of arrow, and of the spin axis either way
 
 
 def fly() -> Result:
-    """Fly the approach under the parameters that the figures show, with the first of the seeds."""
+    """Simulate the approach with the parameters of the figures and the first seed."""
     return simulate("robot_rendezvous", parameters=["best.ssv"])
 
 
 def draw_rendezvous_figures(flight: Result, folder: Path) -> list[Path]:
-    """Write the seven figures of a whole flight of `robot_rendezvous` to an existing folder and say where."""
+    """Write seven figures of a simulation of `robot_rendezvous` to an existing folder and print their paths."""
     paths = [folder / f"{name}.svg" for name in FIGURES]
     for path, draw in zip(paths, FIGURES.values(), strict=True):
         with house_style():
@@ -44,7 +44,7 @@ def draw_rendezvous_figures(flight: Result, folder: Path) -> list[Path]:
 
 
 def scene_figure(flight: Result) -> Figure:
-    """Draw paths of robot and object in the inertial frame, camera axes and the spin axis at the changes of phase."""
+    """Draw the paths of robot and object in the inertial frame, with camera axes and spin axis at changes of phase."""
     figure = new_figure(6.2, 7.2)
     axes: Any = figure.add_subplot(projection="3d", computed_zorder=False)
     rows, marks = _rows_at(flight, INTERVAL), np.searchsorted(flight.time, MOMENTS)
@@ -72,7 +72,7 @@ def scene_figure(flight: Result) -> Figure:
 
 
 def range_figure(flight: Result) -> Figure:
-    """Draw range, its error and the position error over time."""
+    """Draw range, range error and position error over time."""
     figure = new_figure(6.0)
     panels = figure.subplots(3, 1, sharex=True, height_ratios=[1.0, 1.3, 1.3])
     time = flight.time[rows := _rows_at(flight, INTERVAL)]
@@ -86,7 +86,7 @@ def range_figure(flight: Result) -> Figure:
 
 
 def thrust_figure(flight: Result) -> Figure:
-    """Force of the jets in body axes over time, above what the plan needs."""
+    """Draw the force of the jets in body axes over time, above the force that the plan requires."""
     figure = new_figure(6.0)
     panels = figure.subplots(3, 1, sharex=True, sharey=True)
     rows = _rows_at(flight, INTERVAL)
@@ -101,7 +101,7 @@ def thrust_figure(flight: Result) -> Figure:
 
 
 def gyros_figure(flight: Result) -> Figure:
-    """Draw gimbal angles over the whole flight and around the turn, not wrapped."""
+    """Draw gimbal angles over the whole simulation and around the turn, unwrapped."""
     figure = new_figure(4.2)
     whole, turn = figure.subplots(1, 2, sharey=True)
     angles = np.degrees(np.unwrap(np.stack([flight[f"robot.gimbal_angles[{i}]"] for i in (1, 2, 3, 4)])))
@@ -116,7 +116,9 @@ def gyros_figure(flight: Result) -> Figure:
 
 
 def momentum_figure(flight: Result) -> Figure:
-    """Draw the region of the gyros' momentum in three dimensions and its projections, with the path of the flight."""
+    """Draw the momentum envelope of the gyros in three dimensions and its projections, with the path of the
+    momentum.
+    """
     figure = new_figure(6.2)
     solid: Any = figure.add_subplot(2, 2, 1, projection="3d")
     path = np.stack([flight[f"robot.gyro_momentum[{i}]"] for i in (1, 2, 3)])[:, _rows_at(flight, 1.0, TURN)]
@@ -148,8 +150,10 @@ def momentum_figure(flight: Result) -> Figure:
 
 
 def turn_figure(flight: Result) -> Figure:
-    """Draw planned attitude, angular velocity and acceleration of the turn: components, sizes, and that of least
-    time."""
+    """Draw planned attitude, angular velocity and acceleration of the turn, as components and magnitudes.
+
+    The magnitudes of the time-optimal turn are shown for comparison.
+    """
     figure = new_figure(6.0)
     panels = figure.subplots(3, 1, sharex=True)
     rows = _rows_at(flight, 0.5, TURN)
@@ -188,8 +192,10 @@ def plan_figure(flight: Result) -> Figure:
 
 
 def _quickest_turn(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return sizes of Rodrigues parameters, angular velocity (deg/s) and acceleration (deg/s2)
-    of the turn of least time."""
+    """Return magnitudes for the time-optimal turn.
+
+    Rodrigues parameters, angular velocity (deg/s) and angular acceleration (deg/s2).
+    """
     guidance: Any = RendezvousGuidanceJerkLimited(attitude_period=0.0)
     guidance.initialize()
     motions = [guidance.turn_motion(float(time) - MOMENTS[1]) for time in times]
@@ -208,7 +214,7 @@ def _attitude(flight: Result, component: str, rows: np.ndarray) -> Rotation:
 
 
 def _over_time(figure: Figure, panels: Any, *labels: str, span: tuple[float, float] = WHOLE) -> Figure:
-    """Label panels with the same times, mark the phases in all and name them above the first."""
+    """Label the time axis of all panels, mark the phases in each, and name them above the first."""
     for axes, label in zip(panels, labels, strict=True):
         axes.set_ylabel(label)
         axes.set_xlim(*span)

@@ -1,4 +1,4 @@
-"""Takes docs/images/pages, pictures of pages in Chromium: `make screenshots`, after build_fmus.py."""
+"""Screenshots of pages in Chromium, docs/images/pages: `make screenshots`, after build_fmus.py."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def _scene(driver: Chrome) -> bytes:
 
 
 def _curves(driver: Chrome) -> bytes:
-    """Capture the last minute of the altitude and its neighbours, at the cursor."""
+    """Capture the last minute of the altitude and neighbouring panels, with a cursor."""
     frame = driver.find_element(By.XPATH, "//*[@aria-label='plant.altitude over time']/..")
     driver.execute_script(OPEN, frame)
     area = scroll_to_plot(driver, frame)
@@ -110,7 +110,7 @@ def _scroll_to(driver: Chrome, element: WebElement) -> None:
 
 
 def _settle(driver: Chrome) -> None:
-    """Wait until the page has drawn what it shows."""
+    """Wait until the page has finished drawing."""
     driver.execute_async_script("setTimeout(arguments[0], 1500)")
 
 

@@ -1,7 +1,8 @@
-"""Cost of stopping rules for 99.87 % at 90 %: `python -m docs.figures.stopping_comparison`.
+"""Cost of stopping rules for a success rate of 99.87 % at 90 % confidence: `python -m
+docs.figures.stopping_comparison`.
 
-Prints the tables of docs/campaigns.md. Nothing is drawn: risks and expectations are those of all courses that a
-campaign can take, by recursion over looks and counts of failures.
+Prints the tables of docs/campaigns.md. The numbers are exact, without random sampling: risks and expectations are
+computed over all possible campaigns, by recursion over looks and counts of failures.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ COUNTS = np.arange(150)  # failures: more are refused by every rule, and by then
 
 @dataclass(frozen=True)
 class Rule:
-    """Looks, and at each how many failures are met at most and refused at least."""
+    """A stopping rule: at each look, the most failures with verdict met, and the fewest with verdict not met."""
 
     name: str
     looks: Sequence[int]
@@ -36,8 +37,7 @@ class Rule:
 
 @dataclass(frozen=True)
 class Course:
-    """Statistics of all campaigns: the shares met and not met, the expected flights, and those within which 95 %
-    end."""
+    """Statistics over all campaigns: shares met and not met, expected trials, trials by which 95 % have ended."""
 
     met: float
     refused: float
@@ -46,8 +46,7 @@ class Course:
 
 
 def course(rule: Rule, rate: float) -> Course:
-    """Return the statistics of campaigns with a failure rate, which end with their first verdict or with the last
-    look."""
+    """Return the statistics of campaigns with a failure rate, which end with their first verdict or the last look."""
     alive, met, refused, expected, last, nearly_all = np.ones(1), 0.0, 0.0, 0.0, 0, rule.looks[-1]
     for flights, low, high in zip(rule.looks, rule.permitted, rule.refused, strict=True):
         expected += (flights - last) * alive.sum()
@@ -61,8 +60,10 @@ def course(rule: Rule, rate: float) -> Course:
 
 
 def _by_evidence(name: str, looks: Sequence[int], good: Callable, bad: Callable) -> Rule:
-    """Return verdicts where a likelihood ratio to the limit reaches 1 / risk, which it ever
-    does with that risk (Ville)."""
+    """Return a rule whose verdict falls when a likelihood ratio to the limit reaches 1 / risk.
+
+    By Ville's inequality it does so wrongly, at any time, with at most this risk.
+    """
     permitted: list[int] = []
     refused: list[int] = []
     for flights in looks:
@@ -80,7 +81,7 @@ def _point(rate: float) -> Callable:
 
 
 def _mixture(above: bool) -> Callable:
-    """Return Robbins' mixture of all rates below or above the limit, a beta distribution with the limit as its mean."""
+    """Return Robbins' mixture of all rates below or above the limit: a beta distribution whose mean is the limit."""
     a, b = 0.5, 0.5 / RATE
 
     def inside(first: np.ndarray | float, second: np.ndarray | float) -> np.ndarray:
@@ -91,7 +92,7 @@ def _mixture(above: bool) -> Callable:
 
 
 def _spent(name: str, looks: Sequence[int], spend: Callable[[int], float]) -> Rule:
-    """Spend the risk exactly, to be gone at the last look."""
+    """Return a rule that spends the risk exactly, all of it by the last look."""
     met, refused = Boundary(RATE, spend), Boundary(SHARE, spend)
     return Rule(
         name, looks, [met.add(n).most for n in looks], [flights - refused.add(flights).most for flights in looks]
@@ -104,7 +105,7 @@ def _one_size(name: str, looks: Sequence[int]) -> Rule:
 
 
 def rules() -> list[Rule]:
-    """Return the compared rules, ours last."""
+    """Return the compared rules, Perilune's last."""
     ours = StoppingRule(SHARE, CONFIDENCE)
     analyses = ours.looks(MOST)
     sizes = [flights_needed(failures, SHARE, CONFIDENCE) for failures in FURTHER]
@@ -124,7 +125,7 @@ def rules() -> list[Rule]:
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """Return a table as Markdown has it."""
+    """Return a table in Markdown."""
     lines = [list(head), *map(list, rows)]
     return "\n".join(f"| {' | '.join(line)} |" for line in [lines[0], ["---"] * len(lines[0]), *lines[1:]])
 

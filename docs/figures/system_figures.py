@@ -1,4 +1,4 @@
-"""Draws the picture of each system's page, one simulation each: `python -m docs.figures.system_figures`."""
+"""Pictures of the systems' pages, from one simulation each: `python -m docs.figures.system_figures`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ POINTS = 400  # of a curve
 
 @dataclass(frozen=True)
 class Panel:
-    """Axes with curves by label, each from a result; ``band`` are limits drawn as dashed lines."""
+    """Axes with curves by label, each computed from a result; ``band`` are limits drawn as dashed lines."""
 
     xlabel: str
     ylabel: str
@@ -35,7 +35,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class SystemPicture:
-    """The panels of a system's picture, row by row, and the options of its simulation."""
+    """Panels of a system's picture, row by row, and the options of its simulation."""
 
     panels: Sequence[Panel]
     options: Mapping[str, Any] = field(default_factory=dict)
@@ -43,7 +43,7 @@ class SystemPicture:
 
 
 def over_time(signal: str, factor: float = 1.0, less: str | None = None) -> Callable[[Result], Curve]:
-    """Return a signal over time, times ``factor``, perhaps less another."""
+    """Return a curve of a signal over time, minus the signal ``less`` if stated, multiplied by ``factor``."""
 
     def curve(flight: Result) -> Curve:
         values = flight[signal] if less is None else flight[signal] - flight[less]
@@ -53,27 +53,29 @@ def over_time(signal: str, factor: float = 1.0, less: str | None = None) -> Call
 
 
 def before_last(signal: str, factor: float = 1.0) -> Callable[[Result], Curve]:
-    """Return a command over time, times ``factor``, without the sample after which nothing is flown."""
+    """Return a curve of a command over time, multiplied by ``factor``, without the last sample, which has no effect."""
     return lambda flight: (flight.time[:-1], factor * flight[signal][:-1])
 
 
 def after_first(signal: str) -> Callable[[Result], Curve]:
-    """Return a signal of the last step over time, without the start, before which there is none."""
+    """Return a curve over time of a signal that refers to the last step, without the start, which has none."""
     return lambda flight: (flight.time[1:], flight[signal][1:])
 
 
 def against(x: str, y: str, factor: float = 1e-3) -> Callable[[Result], Curve]:
-    """Return a signal over another one, both times ``factor``."""
+    """Return a curve of one signal over another, both multiplied by ``factor``."""
     return lambda flight: (factor * flight[x], factor * flight[y])
 
 
 def size_over_time(vector: str, factor: float = 1.0) -> Callable[[Result], Curve]:
-    """Return the length of a vector over time."""
+    """Return a curve of the magnitude of a vector over time, multiplied by ``factor``."""
     return lambda flight: (flight.time, factor * np.linalg.norm(flight[vector], axis=1))
 
 
 def settled(signal: str, factor: float) -> Callable[[Result], Curve]:
-    """Return a signal over time, times ``factor``, once a satellite has pointed to nadir for ten minutes."""
+    """Return a curve over time, multiplied by ``factor``, from ten minutes after a satellite began to point to
+    nadir.
+    """
 
     def curve(flight: Result) -> Curve:
         rows = (flight["modes.mode"] == 2) & (flight["modes.time_in_mode"] > 600.0)
@@ -203,7 +205,7 @@ PICTURES = {
 
 
 def system_figure(picture: SystemPicture, flight: Result) -> Figure:
-    """Return the panels of a picture in its rows."""
+    """Return a picture's panels as a figure."""
     columns = len(picture.panels) // picture.rows
     figure = new_figure(2.5 * picture.rows, 3.4 * columns * 0.88)
     panels = figure.subplots(picture.rows, columns, squeeze=False).flatten()

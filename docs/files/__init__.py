@@ -1,4 +1,6 @@
-"""Files that pages show, kept in docs/files: a block of `file` with the path of one is its content in the site."""
+"""Files shown on pages, kept in docs/files: a code block `file` that contains a path is replaced by the file's
+content.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ LANGUAGES = {".py": "python", ".toml": "toml", ".ssd": "xml", ".ssv": "xml", ".x
 
 
 def insert_files(text: str) -> str:
-    """Return a page with the content of each file in the place of its path."""
+    """Return a page with each path replaced by the content of the file."""
     return SHOWN.sub(lambda block: _block(TOP / block[1]), text)
 
 

@@ -1,1 +1,1 @@
-"""The reference of the documentation site, as Markdown, derived from declarations, parsers and names."""
+"""Reference of the documentation site in Markdown, derived from declarations, parsers and names."""

@@ -1,4 +1,4 @@
-"""The page of a block: model and sources from its docstring, all else from its declaration and its check."""
+"""Page of a block: model and sources from its docstring, all else from its declaration and its check."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ROOT = "../../"  # from reference/blocks to the site's top
 
 
 def block_page(block: type[Block]) -> str:
-    """Return the Markdown of one block, to lie in reference/blocks."""
+    """Return the Markdown page of one block, for reference/blocks."""
     described = {each: describe_class(each, ROOT) for each in (block, *bases_of(block))}
     sections = [
         f"# {block.fmu_name}",
@@ -44,23 +44,23 @@ def block_page(block: type[Block]) -> str:
 
 
 def bases_of(block: type[Block]) -> list[type[Block]]:
-    """Return the blocks and interfaces that a block is derived from, the nearest first."""
+    """Return the base classes of a block that are blocks or interfaces, nearest first."""
     return [base for base in block.__mro__[1:] if issubclass(base, Block) and base is not Block]
 
 
 def slots_of(block: type[Block]) -> list[type[Block]]:
-    """Return the slots of a block, the nearest first."""
+    """Return the slots that a block fits, nearest base class first."""
     known = set(slots().values())
     return [base for base in block.__mro__[1:] if base in known]
 
 
 def source_of(block: type[Block]) -> str:
-    """Return the file that defines a block, below the package."""
+    """Return the path, within the package, of the file that defines a block."""
     return Path(*block.__module__.split(".")[1:]).with_suffix(".py").as_posix()
 
 
 def fitting(block: type[Block]) -> list[str]:
-    """Return other blocks of the catalogue that have all its inputs and outputs."""
+    """Return other blocks of the catalogue that have all inputs and outputs of a block."""
     wanted = _connectors(block)
     return [name for name, other in catalogue().items() if other is not block and wanted <= _connectors(other)]
 
@@ -102,7 +102,7 @@ def _feedthrough(block: type[Block]) -> str:
 
 
 def _model(described: dict[type[Block], Description]) -> str:
-    """Return the model of a block, and under headings of their own what its bases add."""
+    """Return the model of a block, followed by those of its bases under separate headings."""
     paragraphs = []
     for index, (each, description) in enumerate(described.items()):
         if index and description.model:
@@ -112,13 +112,13 @@ def _model(described: dict[type[Block], Description]) -> str:
 
 
 def _gathered(described: dict[type[Block], Description], part: str) -> str:
-    """Return a labelled section of the block and its bases as a list."""
+    """Return a labelled section of a block and its bases as a list."""
     entries = dict.fromkeys(entry for description in described.values() for entry in description.labelled[part])
     return "\n".join("- " + entry.replace("\n", "\n  ") for entry in entries)
 
 
 def _code(block: type[Block]) -> str:
-    """Return the text of the block's file, folded."""
+    """Return the source of the block's file, folded."""
     file = inspect.getsourcefile(block)
     assert file is not None
     lines = ["```python", *Path(file).read_text(encoding="utf-8").splitlines(), "```"]

@@ -1,4 +1,4 @@
-"""Builds the site: written and derived pages side by side in one folder, which Zensical then makes HTML of."""
+"""Builder of the site: written and derived pages in one folder, which Zensical converts to HTML."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ PYTHON = {
 
 
 def build_site(output: Path, sources: Path) -> None:
-    """Write the site to ``output``; its source files are kept in ``sources``.
+    """Write the site to ``output``, and its Markdown sources to ``sources``.
 
-    Raises InputError where a page is missing from the navigation, or a link, an anchor or an image leads nowhere.
+    Raises InputError for a page missing from the navigation, and for broken links, anchors and images.
     """
     for folder in (sources, output):
         shutil.rmtree(folder, ignore_errors=True)
@@ -76,7 +76,7 @@ def build_site(output: Path, sources: Path) -> None:
 
 
 def site_settings() -> dict[str, Any]:
-    """Return docs/site/site.toml with the reference in its navigation, and entries that depend on paths."""
+    """Return docs/site/site.toml with the reference and path-dependent entries added."""
     settings = tomllib.loads(SETTINGS.read_text(encoding="utf-8"))
     doors = [entries for door in settings["nav"] for entries in door.values()]
     (reference,) = [entry for entries in doors for entry in entries if "Reference" in entry]
@@ -88,7 +88,7 @@ def site_settings() -> dict[str, Any]:
 
 
 def pages_of(navigation: Any) -> list[str]:
-    """Return the pages of a ``nav``, in order."""
+    """Return the pages of a ``nav`` in order."""
     if isinstance(navigation, str):
         return [navigation]
     inner = navigation.values() if isinstance(navigation, dict) else navigation
@@ -96,7 +96,7 @@ def pages_of(navigation: Any) -> list[str]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Carry out build_docs.py; returns the exit status."""
+    """Run build_docs.py; return the exit status."""
     parser = argparse.ArgumentParser(prog="build_docs.py", description="Build the documentation site.")
     parser.add_argument("--output", type=Path, default=BUILD / "site", metavar="DIR", help="default: build/site")
     options = parser.parse_args(arguments)

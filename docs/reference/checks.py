@@ -1,4 +1,4 @@
-"""The check of a block: its truth, the tolerance of each output, and by how much the shipped FMU differs."""
+"""Check of a block: its reference solution, the tolerance of each output, and the error of the shipped FMU."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ def check_section(block: type[Block]) -> str:
 
 
 def check_file(block: type[Block]) -> str:
-    """Return the path of the check below the package."""
+    """Return the path of the check within the package."""
     return "/".join([*block.__module__.split(".")[1:-1], "checks", f"{block.fmu_name}.toml"])
 
 
 def _differences(block: type[Block], check: Check) -> dict[str, float]:
-    """Return the largest difference of each output, as recorded in the native FMU; empty where nothing is recorded."""
+    """Return the largest error of each output as recorded in the native FMU; empty without a record."""
     if block.python_only:
         return {}
     with zipfile.ZipFile(shipped_fmu(block.fmu_name, "native")) as archive:

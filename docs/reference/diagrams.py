@@ -1,4 +1,4 @@
-"""The block diagrams of the systems, for their pages in the site."""
+"""Block diagrams of the systems, for their pages on the site."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ CAPTION = (
 
 
 def add_diagrams(docs: Path) -> None:
-    """Draw the diagram of every system that has a page, before the page's first section; why, where there is none.
+    """Insert the diagram of every system with a page before the page's first section, or the reason why there is
+    none.
 
-    ``docs`` is the folder of the site's Markdown. Raises InputError where an FMU is not built.
+    ``docs`` is the folder of the site's Markdown. Raises InputError if an FMU is not built.
     """
     for name in system_names():
         page = docs / "systems" / f"{name}.md"

@@ -1,4 +1,4 @@
-"""The pages of the Python interface: every public name, whose signature and docstring mkdocstrings reads."""
+"""Pages of the Python interface: every public name; mkdocstrings reads signatures and docstrings."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ WRITING = [name for names in HOMES.values() for name in names]  # what one write
 
 
 def interface_pages() -> dict[str, str]:
-    """Return Markdown by file name, to lie in reference/python: running, writing blocks, modal synthesis."""
+    """Return the Markdown pages by file name, for reference/python: running, writing blocks, modal synthesis."""
     public = _names_of("perilune")
     flying = [name for name in public if name not in WRITING and name != "modal"]
     modal = import_module("perilune.modal")
@@ -56,7 +56,7 @@ def _page(title: str, words: str, module: str, names: Iterable[str]) -> str:
 
 
 def _keywords(verb: Verb | None) -> Iterator[str]:
-    """Yield the keywords of a verb's function and its example, which `help()` derives of the declaration, too."""
+    """Yield the keywords of a verb's function and its example, from the declaration that `help()` uses as well."""
     if verb is None:
         return
     rows = [

@@ -1,4 +1,4 @@
-"""The page of what a kernel may use: from the table that judges it, and from the functions of mathlib."""
+"""Page of the language of kernels: from the table that checks them, and from the functions of mathlib."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ FREE = ("{", "}")  # of words that a message fills in
 
 
 def kernel_page() -> str:
-    """Return Markdown of the page, to lie in reference."""
+    """Return the Markdown page, for reference."""
     operators = " ".join(f"`{SYMBOLS[kind]}`" for kind in (*OPERATORS, *COMPARISONS))
     constants = ", ".join(f"`math.{name}`" for name in MATH_CONSTANTS)
     parts = [
@@ -107,7 +107,7 @@ def _helpers() -> Iterator[tuple[str, list[FunctionType]]]:
 
 
 def _rows(functions: Mapping[str, MathFunction], prefix: str) -> list[list[str]]:
-    """Name, number of arguments and errors of functions."""
+    """Return table rows of functions: name, number of arguments, errors."""
     return [[f"`{prefix}{name}`", str(len(one.takes)), _raises(one.faults)] for name, one in functions.items()]
 
 
@@ -124,5 +124,5 @@ def _arguments(function: FunctionType) -> str:
 
 
 def _first(function: FunctionType) -> str:
-    """Return the first sentence of a docstring, which may go over lines."""
+    """Return the first sentence of a docstring, which may span lines."""
     return inspect.cleandoc(function.__doc__ or "").partition("\n\n")[0].replace("\n", " ")

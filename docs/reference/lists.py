@@ -1,4 +1,4 @@
-"""The pages that list blocks: all of them by kind, and the slots with what swaps there."""
+"""Pages that list blocks: all blocks by kind, and the slots with their interchangeable blocks."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def kind_of(block: type[Block]) -> str:
 
 
 def catalogue_page() -> str:
-    """Return Markdown of all blocks by kind, to lie in reference/blocks."""
+    """Return the Markdown list of all blocks by kind, for reference/blocks."""
     sections = [
         "# Blocks",
         f"All {len(catalogue())} blocks of the repository; each is an FMU of the same name. `perilune describe NAME` "
@@ -35,7 +35,7 @@ def catalogue_page() -> str:
 
 
 def slots_page() -> str:
-    """Return Markdown of all interfaces, to lie in reference."""
+    """Return the Markdown list of all interfaces, for reference."""
     sections = [
         "# Slots",
         "A slot is an interface, the common variables of its blocks, which `--use SLOT=FMU` exchanges. Some entries "

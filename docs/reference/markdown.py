@@ -1,4 +1,4 @@
-"""Pieces of Markdown: tables, docstrings as prose, links to the pages of docs/."""
+"""Elements of Markdown: tables, docstrings as prose, links to pages of docs/."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ CODE = re.compile(r"(``[^`]+``|`[^`]+`)")
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a table of cells that are Markdown already."""
+    """Return a Markdown table; the cells are Markdown."""
     lines = [list(head), ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(cell.replace("\n", " ") for cell in line) + " |" for line in lines)
 
 
 def escaped(text: str) -> str:
-    """Escape words for a table too: no tag, no link, no end of a cell, no emphasis but that of two asterisks."""
+    """Return text escaped for a table cell: no tags, links, cell separators, or emphasis except double asterisks."""
     parts = CODE.split(text)
     return "".join(
         part if index % 2 else re.sub(r"((?<!\*)\*(?!\*)|[_\[\]|\\])", r"\\\1", part).replace("<", "&lt;")
@@ -27,10 +27,10 @@ def escaped(text: str) -> str:
 
 
 def prose(docstring: str | None, root: str) -> str:
-    """Return a docstring as Markdown: indented equations stay, sources and frames get a paragraph, pages of docs a
-    link.
+    """Return a docstring as Markdown: equations unchanged, sources and frames as paragraphs, names of pages as
+    links.
 
-    ``root`` leads from the page to the site's own, such as ``../``.
+    ``root`` is the relative path from the page to the site's root, such as ``../``.
     """
     text = inspect.cleandoc(docstring or "")
     blocks = re.split(r"(\n(?:\n    .*(?:\n(?: {4}.*)?)*)+)", text)
@@ -44,7 +44,7 @@ def prose(docstring: str | None, root: str) -> str:
 
 
 def linked(text: str, root: str) -> str:
-    """Return the text with names of pages, such as docs/stability.md, as links; underscores may have been escaped."""
+    """Return the text with names of pages, such as docs/stability.md, as links; underscores may be escaped."""
 
     def link(match: re.Match[str]) -> str:
         name = match.group(1).replace("\\", "")

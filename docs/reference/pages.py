@@ -1,4 +1,4 @@
-"""All pages that are derived and not written, by path in the site, and their place in its navigation."""
+"""All derived pages, by path on the site, and their position in its navigation."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ LINK = re.compile(r"(\]\()([\w./-]+)((?:#[\w-]*)?\))")
 
 
 def derived_pages() -> dict[str, str]:
-    """Return Markdown by path in the site: the repository's front pages, and the reference."""
+    """Return the Markdown pages by path on the site: the repository's top-level pages, and the reference."""
     pages = {target: _front(TOP / source) for source, target in FRONT.items()}
     pages["reference/verbs.md"] = verbs_page()
     pages["reference/slots.md"] = slots_page()
@@ -35,7 +35,7 @@ def derived_pages() -> dict[str, str]:
 
 
 def reference_navigation() -> list[dict[str, Any]]:
-    """Return the reference as MkDocs' ``nav`` has it."""
+    """Return the reference in the format of MkDocs' ``nav``."""
     blocks: list[Any] = ["reference/blocks/index.md"]
     for kind in KINDS:
         names = [name for name, block in catalogue().items() if kind_of(block) == kind]
@@ -57,7 +57,7 @@ def reference_navigation() -> list[dict[str, Any]]:
 
 
 def _front(file: Path) -> str:
-    """Return a page of the repository's top as it reads in the site, where docs/ is the top."""
+    """Return a top-level page of the repository with links adapted to the site, whose root is docs/."""
     return LINK.sub(lambda link: f"{link[1]}{_moved(link[2])}{link[3]}", file.read_text(encoding="utf-8"))
 
 

@@ -1,4 +1,4 @@
-"""Parameters that a block never reads, and why it has them: others of the class that declares them do."""
+"""Parameters that a block never reads but inherits, because other blocks of the same base class read them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from perilune.fmus_src.export.judge.tunable import NEVER_READ, OTHER_PYTHON, PYT
 
 @dataclass(frozen=True)
 class Unread:
-    """A parameter that a block has from the class ``declared_in`` and never reads, and the blocks that read it."""
+    """A parameter that a block inherits from the class ``declared_in`` and never reads, and the blocks that read it."""
 
     name: str
     declared_in: type[Block]
@@ -20,12 +20,12 @@ class Unread:
 
 
 def find_unread(block: type[Block]) -> list[Unread]:
-    """Return the parameters of a block that the judge of tunable parameters finds in no function that it runs."""
+    """Return the parameters of a block that none of its executed functions reads."""
     return [_describe(block, name) for name, reason in find_fixed(block).items() if reason == NEVER_READ]
 
 
 def explain_unread(block: type[Block]) -> str:
-    """Return a sentence for the parameters that the same blocks read; nothing of a block that reads all."""
+    """Return a sentence for each group of unread parameters with the same readers; empty without unread ones."""
     names: dict[tuple[type[Block], tuple[str, ...]], list[str]] = defaultdict(list)
     for each in find_unread(block):
         names[each.declared_in, each.readers].append(f"`{each.name}`")

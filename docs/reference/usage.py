@@ -22,7 +22,7 @@ class Usage:
 
 @cache
 def usages() -> dict[str, Usage]:
-    """Return the use by FMU name, of every system under ssp_systems."""
+    """Return the use of every FMU by name, over all systems in ssp_systems."""
     uses: dict[str, Usage] = {}
     for system in system_names():
         archive = open_system(system)
@@ -37,7 +37,7 @@ def usages() -> dict[str, Usage]:
 
 
 def components_of(system: System, within: str = "") -> list[tuple[str, str]]:
-    """Return components of a system and of those nested in it, each with the name of its FMU."""
+    """Return the components of a system and its nested systems, each with the name of its FMU."""
     uses: list[tuple[str, str]] = []
     for element in system.elements.values():
         if isinstance(element, Component):

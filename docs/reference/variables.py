@@ -1,4 +1,4 @@
-"""Tables of the variables that a block declares: connectors, parameters, states."""
+"""Tables of a block's declared variables: connectors, parameters, states."""
 
 from __future__ import annotations
 
@@ -12,12 +12,15 @@ from .markdown import escaped, table
 
 
 def declared(block: type[Block], kind: type[Variable]) -> list[Variable]:
-    """Return its variables of one kind, in order of declaration."""
+    """Return the block's variables of one kind, in order of declaration."""
     return [variable for variable in block.variables.values() if isinstance(variable, kind)]
 
 
 def inputs(block: type[Block]) -> str:
-    """Return the table of its inputs; like the others here empty without any, and without empty columns."""
+    """Return the table of the block's inputs, without empty columns.
+
+    This and the other tables are empty texts without rows.
+    """
     rows = [
         [*_name(variable), *_range(variable), _frame(variable), _words(variable)] for variable in declared(block, Input)
     ]
@@ -25,7 +28,7 @@ def inputs(block: type[Block]) -> str:
 
 
 def outputs(block: type[Block]) -> str:
-    """Return the table of its outputs, with the inputs of the same communication point that each depends on."""
+    """Return the table of the block's outputs, with the inputs of the same communication point that each depends on."""
     rows = [
         [*_name(variable), *_range(variable), _frame(variable), _at_once(block, variable),
          _words(variable)]
@@ -35,7 +38,7 @@ def outputs(block: type[Block]) -> str:
 
 
 def parameters(block: type[Block]) -> str:
-    """Return the table of its parameters: default, bounds, and whether they are tunable."""
+    """Return the table of the block's parameters: default, bounds, and whether they are tunable."""
     rows = [
         [
             f"`{sized_name(variable)}`",
@@ -54,7 +57,7 @@ def parameters(block: type[Block]) -> str:
 
 
 def states(block: type[Block]) -> str:
-    """Return the table of its states."""
+    """Return the table of the block's states."""
     rows = []
     for variable in declared(block, State):
         if variable.record is None:
@@ -77,7 +80,7 @@ def states(block: type[Block]) -> str:
 
 
 def enumerations(block: type[Block]) -> str:
-    """Return the values of its inputs, outputs and parameters that have names."""
+    """Return a table of values for each enumeration among inputs, outputs and parameters."""
     tables = []
     for variable in block.variables.values():
         if variable.enumeration is None or isinstance(variable, State):
@@ -89,7 +92,7 @@ def enumerations(block: type[Block]) -> str:
 
 
 def _record_fields(record: type[Record], prefix: str) -> list[tuple[str, Field]]:
-    """Return name and field of all that is no record in a record and those within it."""
+    """Return name and field of each non-record field of a record, including those of nested records."""
     fields: list[tuple[str, Field]] = []
     for name, field in record.fields.items():
         label = f"{prefix}.{name}"
@@ -101,7 +104,7 @@ def _record_fields(record: type[Record], prefix: str) -> list[tuple[str, Field]]
 
 
 def _filled(head: list[str], rows: list[list[str]]) -> str:
-    """Return a table of the columns that are not empty; nothing without rows."""
+    """Return a table without empty columns; an empty text without rows."""
     retained = [index for index in range(len(head)) if any(row[index] for row in rows)]
     return (
         table([head[index] for index in retained], [[row[index] for index in retained] for row in rows]) if rows else ""
@@ -121,7 +124,7 @@ def _frame(variable: Variable) -> str:
 
 
 def _in_flight(block: type[Block], variable: Variable) -> str:
-    """Return ``tunable``, or why the parameter is fixed; nothing for those of an interface, which its blocks decide."""
+    """Return ``tunable``, or why the parameter is fixed; empty for an interface, whose blocks decide."""
     if block.is_interface:
         return ""
     reason = find_fixed(block)[variable.name]
@@ -129,7 +132,7 @@ def _in_flight(block: type[Block], variable: Variable) -> str:
 
 
 def _words(variable: Variable) -> str:
-    """Return the description, of an enumeration without its members, which have a section."""
+    """Return a variable's description, for an enumeration without its members, which have their own section."""
     if variable.enumeration is None:
         return escaped(variable.description)
     return escaped(variable.description.partition(f": {min(variable.enumeration.meanings)} ")[0])

@@ -1,4 +1,4 @@
-"""The page of the verbs: what each does, its options, examples and exit status, as its parser has them."""
+"""Page of the verbs: description, options, examples and exit status, from the parser."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .markdown import escaped, table
 
 
 def verbs_page() -> str:
-    """Return Markdown of all verbs, to be stored in reference."""
+    """Return the Markdown page of all verbs, for reference."""
     rows = [[f"[{name}](#{name.replace(' ', '-')})", escaped(verb.text)] for name, verb in VERBS.items()]
     parts = [
         "# Verbs",
@@ -30,14 +30,14 @@ def verbs_page() -> str:
 
 
 def _call(verb: Verb) -> Iterator[str]:
-    """Yield the example of the function's docstring."""
+    """Yield the example of the function's docstring as Markdown."""
     if example := find_example(verb):
         yield f"In Python, where `help(perilune.{verb.home[1]})` has its parameters:"
         yield f"```python\n{call_of(verb, example)}\n```"
 
 
 def verb_parser(name: str) -> argparse.ArgumentParser:
-    """Return the parser of a verb, with all options explained."""
+    """Return the parser of a verb with all options explained."""
     parser: argparse.ArgumentParser = parser_of([*name.split(), HELP_ALL])
     for token in name.split():
         (choices,) = (each.choices for each in parser._actions if isinstance(each, argparse._SubParsersAction))

@@ -1,4 +1,4 @@
-"""All importers that are compared: our loop, FMPy, libcosim, fmucontainer, and the fused limit."""
+"""All compared importers: Perilune's loop, FMPy, libcosim, fmucontainer, and the fused limit."""
 
 from functools import partial
 

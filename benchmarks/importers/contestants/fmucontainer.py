@@ -1,4 +1,4 @@
-"""fmucontainer of the FMU Manipulation Toolbox: one FMU that holds the system's FMUs and steps them in C."""
+"""fmucontainer of the FMU Manipulation Toolbox: one FMU that contains the system's FMUs and steps them in C."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from ..contestant import Course, Fly, Unavailable, Values
 def prepare(course: Course, sequential: bool = False) -> Fly:
     """Prepare a container FMU of the .ssp, simulated by FMPy with one doStep per communication point.
 
-    By itself it steps all FMUs and then exchanges (Jacobi); ``sequential`` makes it exchange after each FMU, in the
-    order of the SSD. Its initialisation goes through the FMUs in the order of their connections.
+    By default it steps all FMUs and then exchanges values (Jacobi); ``sequential`` exchanges after each FMU, in the
+    order of the SSD. FMUs are initialised in the order of their connections.
     """
     description, folder = _build(course, sequential)
     references = {
@@ -55,9 +55,9 @@ def prepare(course: Course, sequential: bool = False) -> Fly:
 
 
 def _build(course: Course, sequential: bool):  # type: ignore[no-untyped-def]
-    """Build the container; return its description and unpacked folder.
+    """Build the container; return its description and the unpacked folder.
 
-    The start values are arguments, since the toolbox does not read parameter bindings.
+    Start values are passed explicitly, because the toolbox does not read parameter bindings.
     """
     try:
         from fmu_manipulation_toolbox.assembly import Assembly

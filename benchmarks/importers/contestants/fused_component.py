@@ -1,4 +1,4 @@
-"""One component of a system as a C unit without FMI: its kernel, its instance, its life cycle."""
+"""One component of a system as a C unit without FMI: kernel, instance, life cycle."""
 
 from __future__ import annotations
 
@@ -64,8 +64,10 @@ const char *{instance}_step(double t, double h)
 
 @dataclass(frozen=True)
 class Part:
-    """A component in C: ``instance`` names its struct, ``members`` the place of each variable in it, ``structs`` those
-    of its members' types, by name."""
+    """A component in C: ``instance`` is the name of its struct, ``members`` map variables to its members.
+
+    ``structs`` are the structs of the members' types, by name.
+    """
 
     component: str
     instance: str
@@ -82,7 +84,7 @@ class Part:
 def write_part(
     component: str, number: int, fmu: Fmu, blocks: Mapping[str, type[Block]], parameters: Mapping[str, ParameterValue]
 ) -> Part:
-    """Return the unit of the ``number``-th component; raises `Unavailable` where its FMU is not one of ``blocks``."""
+    """Return the C unit of component ``number``. Raises `Unavailable` if its FMU is not among ``blocks``."""
     if fmu.name not in blocks:
         raise Unavailable(f"{component}: its FMU {fmu.name} is no block of the catalogue")
     block_class = blocks[fmu.name]
@@ -120,14 +122,13 @@ def write_part(
 
 
 def _check_sources(component: str, fmu: Fmu, block_class: type[Block]) -> None:
-    """Refuse a native FMU compiled from other sources than ours now: it would be compared with another program."""
+    """Reject a native FMU compiled from outdated sources, which would be a different program. Raises `Unavailable`."""
     if fmu.is_native and fmu.description.guid != native_guid(block_class):
         raise Unavailable(f"{component}: its FMU {fmu.name} is of other sources; run build_fmus.py")
 
 
 def _members(block_class: type[Block]) -> dict[str, dict[str, str]]:
-    """Return by variable the member of the struct by the name of its FMI variable:
-    ``position[1]`` is ``position.x[0]``."""
+    """Return the struct member of each FMI variable: ``position[1]`` is ``position.x[0]``."""
     members: dict[str, dict[str, str]] = {}
     for name, variable in block_class.variables.items():
         places = [member(variable, index) for index in range(variable.size)]

@@ -1,4 +1,4 @@
-"""Lower limit of the cost of co-simulation: the blocks fused into one compiled function, without FMI."""
+"""Lower limit of the cost of co-simulation: blocks fused into one compiled function, without FMI."""
 
 from __future__ import annotations
 
@@ -23,12 +23,11 @@ INCLUDED = [f"-I{C_FILES / folder}" for folder in ("instance", "kernel")]
 
 
 def prepare(course: Course, blocks: Mapping[str, type[Block]] | None = None) -> Fly:
-    """Prepare the same blocks, parameters and connections in the same order, inlined into each other as the compiler
-    likes.
+    """Prepare the same blocks, parameters and connections in the same order, with inlining left to the compiler.
 
-    Same C and same floating-point flags as the native FMUs, so the values are equal to the last bit. It checks for NaN
-    and infinity as our loop does, and records the first and the last point. ``blocks`` by FMU name are the catalogue's
-    by default. Raises `Unavailable` for a component that is not one of them.
+    The C source and floating-point flags are those of the native FMUs, so values are equal to the last bit. Like
+    Perilune's loop it checks for NaN and infinity, and records the first and the last point. ``blocks`` by FMU name are
+    by default those of the catalogue. Raises `Unavailable` for a component of another block.
     """
     library = ctypes.CDLL(str(compile_system(course, catalogue() if blocks is None else blocks)))
     function = library.fly
@@ -48,7 +47,7 @@ def prepare(course: Course, blocks: Mapping[str, type[Block]] | None = None) -> 
 
 
 def compile_system(course: Course, blocks: Mapping[str, type[Block]]) -> Path:
-    """Compile the shared library, in a new folder with its sources."""
+    """Compile the shared library in a new folder that also contains its sources; return its path."""
     platform = local_platform()
     if platform is None:
         raise Unavailable("there is no compiler for this platform")

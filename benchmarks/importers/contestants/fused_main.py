@@ -1,4 +1,4 @@
-"""The C unit that connects the components of a system and steps them, in the order of our sequential loop."""
+"""C unit that connects the components of a system and steps them in the order of Perilune's sequential loop."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ const char *fly(double start, double step, int64_t steps, double *record)
 
 
 def write_main(course: Course, parts: Sequence[Part]) -> str:
-    """Return the unit: ``fly`` simulates and records `Course.names`."""
+    """Return the unit; its function ``fly`` simulates and records `Course.names`."""
     return _Writer(course, parts).text()
 
 
@@ -73,8 +73,10 @@ class _Writer:
         return lines
 
     def _initial(self) -> list[str]:
-        """Return parameters and one exchange that settles the start; components before their
-        sources keep their start values."""
+        """Return the statements that set parameters and exchange values once at the start.
+
+        Components that step before their sources keep their start values.
+        """
         schedule = self.prepared.schedule
         lines = [f"{part.instance}_restart(start);" for part in self.parts.values()]
         known: list[str] = []
@@ -95,7 +97,9 @@ class _Writer:
         return lines + [line for component in schedule.sources_first for line in self._set(component)]
 
     def _set(self, component: str, known: Sequence[str] | None = None) -> list[str]:
-        """Return inputs of a component; with ``known`` only those that come from one of these components."""
+        """Return the statements that set the inputs of a component; with ``known`` only inputs driven by these
+        components.
+        """
         return [
             f"{self._member(link.target.name)} = {self._member(link.source.name)};"
             for link in self._links_to(component)
@@ -106,7 +110,7 @@ class _Writer:
         return f"if ((what = {self.parts[component].instance}_step(t, step)) != NULL) return what;"
 
     def _check(self, component: str) -> list[str]:
-        """Stop at a connected output that is NaN or infinite."""
+        """Return the statements that stop at a connected output that is NaN or infinite."""
         names = dict.fromkeys(
             link.source.name
             for link in self.prepared.network.driver.values()

@@ -19,11 +19,11 @@ ANNOTATION = """<ssc:Annotation type="com.opensimulationplatform"><osp:Algorithm
 
 
 def prepare(course: Course, threads: int = 0) -> Fly:
-    """Prepare an execution read from the .ssp for every simulation; ``threads`` step the FMUs in addition to the
-    calling one.
+    """Prepare an execution, read from the .ssp for every simulation; ``threads`` are in addition to the calling
+    thread.
 
-    Its fixed-step algorithm is Jacobi: all FMUs are set from the last exchange, all step, all are read. Before that it
-    exchanges as often as there are FMUs, which settles the values at the start.
+    Its fixed-step algorithm is Jacobi: all FMUs are set from the last exchange, all step, all are read. At the start
+    values are exchanged as often as there are FMUs, which settles them.
     """
     try:
         from libcosimpy import CosimEnums, CosimExecution, CosimLogging, CosimObserver
@@ -66,10 +66,10 @@ def prepare(course: Course, threads: int = 0) -> Fly:
 
 
 def _readable_copy(course: Course, threads: int) -> Path:
-    """Copy the .ssp without content that libcosim cannot read, and with its own annotation for step and threads.
+    """Copy the .ssp without content that libcosim cannot read, and add its annotation for step and threads.
 
-    It needs both ends of a connection to be elements, so those to the system's own connectors go; it does not read the
-    parameter bindings of a system, whose values are set in `prepare`.
+    libcosim requires both ends of a connection to be elements, so connections to system connectors are removed. It does
+    not read parameter bindings of a system; `prepare` sets their values.
     """
     target = Path(tempfile.mkdtemp(prefix="perilune_libcosim_")) / course.ssp.name
     with zipfile.ZipFile(course.ssp) as source, zipfile.ZipFile(target, "w") as copy:

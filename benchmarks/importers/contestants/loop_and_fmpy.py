@@ -1,4 +1,4 @@
-"""The ways of simulating a system with nothing else installed: this project's loop and FMPy."""
+"""Ways to simulate a system without further software: Perilune's loop and FMPy."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..contestant import Contestant, Course, Fly, Unavailable, Values
 
 
 def prepare_loop(course: Course, algorithm: str = "sequential", flavour: str | None = None) -> Fly:
-    """Prepare `Simulation`, its instances reset and reused; it continues after ``finished``, as the others do."""
+    """Prepare a `Simulation` that reuses its instances and, like the others, continues after ``finished``."""
     prepared = course.flight(1, algorithm)
     prepared = replace(prepared, options=replace(prepared.options, flavour=flavour))
     try:
@@ -39,7 +39,7 @@ def prepare_loop(course: Course, algorithm: str = "sequential", flavour: str | N
 
 @dataclass
 class _Unit:
-    """An FMU with its lists built once: value references and places in the common list of values."""
+    """An FMU with precomputed lists: value references, and positions in the common list of values."""
 
     slave: FMU2Slave
     inputs: list[int]
@@ -56,7 +56,7 @@ class _Unit:
 
 
 def prepare_calls(course: Course) -> Fly:
-    """Prepare one setReal, doStep and getReal per FMU and step, in the order of our sequential algorithm."""
+    """Prepare one setReal, doStep and getReal per FMU and step, in the order of Perilune's sequential algorithm."""
     prepared = course.prepared
     places: dict[str, int] = {}
     for component in prepared.network.fmus:
@@ -129,10 +129,10 @@ def _unit(course: Course, component: str, fmu: Fmu, places: dict[str, int]) -> _
 
 
 def prepare_ssp(course: Course) -> Fly:
-    """Prepare simulate_ssp; it unpacks and instantiates the FMUs again for every simulation.
+    """Prepare simulate_ssp, which unpacks and instantiates the FMUs for every simulation.
 
-    The parameters are handed to it, since it does not read the bindings of the SSD. It gives all inputs 0 in the first
-    step, exchanges after all have stepped, and records every connector.
+    Parameters are passed explicitly, because it does not read the bindings of the SSD. It sets all inputs to 0 in the
+    first step, exchanges values after all have stepped, and records every connector.
     """
     parameters = ParameterSet(
         name="benchmark",

@@ -1,1 +1,1 @@
-"""Figures of guidance laws on the same flight."""
+"""Figures that compare guidance laws on the same landing."""

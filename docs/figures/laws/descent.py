@@ -1,6 +1,6 @@
-"""Draws altitude over distance and thrust over time of the descent laws: `python -m docs.figures.laws.descent`.
+"""Figure of altitude over distance and thrust over time for the descent laws: `python -m docs.figures.laws.descent`.
 
-The main braking of `lunar_landing` from the middle of its box, without errors of sensors.
+The main braking of `lunar_landing` from the centre of its box of initial states, without sensor errors.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ ALONG = [f"plant.position[{i}]" for i in (1, 2)]
 
 
 def simulate_laws() -> dict[str, Result]:
-    """Return a flight of each law."""
+    """Simulate the landing with each law; return the results."""
     return {name: simulate(SYSTEM, parameters=["ideal.ssv"], use={"guidance": fmu}) for name, fmu in LAWS.items()}
 
 
 def descent_figure(flights: Mapping[str, Result]) -> Figure:
-    """Return the figure of flights by the name of their law."""
+    """Return the figure of these results, given by the name of the law."""
     figure = new_figure(3.2, 8.6)
     path, thrust = figure.subplots(1, 2)
     for index, (name, flight) in enumerate(flights.items()):

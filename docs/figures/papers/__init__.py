@@ -1,1 +1,1 @@
-"""Figures of papers, drawn from our own numbers."""
+"""Figures of papers, drawn from Perilune's simulations."""

@@ -1,8 +1,8 @@
-"""Draws velocity error over position error of three methods: `python -m docs.figures.papers.fomichev_li`.
+"""Figure 5 of Fomichev and Li 2017: velocity error over position error of three methods.
 
-Figure 5 of Fomichev and Li 2017, from the middle of the box of initial states, and the differences that its claim is
-about: relative difference of the velocity errors of two methods at the same position error, the largest over ranges of
-position error.
+`python -m docs.figures.papers.fomichev_li` draws it from the centre of the box of initial states, with the differences
+on which the paper's claim rests: the relative difference of the velocity errors of two methods at equal position error,
+the largest in ranges of the position error.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ Curve = tuple[np.ndarray, np.ndarray]  # position errors (m), descending, and ve
 
 
 def simulate_methods() -> dict[str, Curve]:
-    """Simulate each method; return the errors over its flight."""
+    """Simulate each method; return its errors over the landing."""
     return {
         method: _errors(simulate(SYSTEM, parameters=["paper.ssv"], use={"guidance": fmu}))
         for method, fmu in METHODS.items()
@@ -50,14 +50,14 @@ def _errors(flight: Result) -> Curve:
 
 
 def largest_difference(curve: Curve, other: Curve, nearest: float, farthest: float) -> float:
-    """Return the largest relative difference of velocity errors at equal position errors (m) of a range."""
+    """Return the largest relative difference of velocity errors at equal position errors (m) within a range."""
     distance = np.geomspace(nearest, farthest, POINTS)
     velocity, reference = (np.interp(distance, x[::-1], y[::-1]) for x, y in (curve, other))
     return float(np.max(np.abs(velocity / reference - 1.0)))
 
 
 def portrait_figure(curves: Mapping[str, Curve]) -> Figure:
-    """Draw velocity error over position error, and the distance of each method's from that of A*."""
+    """Draw velocity error over position error, and the difference of each method from A*."""
     figure = new_figure(3.2, 8.6)
     portrait, difference = figure.subplots(1, 2)
     reference = curves["A*"]

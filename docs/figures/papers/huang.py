@@ -1,4 +1,4 @@
-"""Draws figures 3 and 7 of Huang 2017: `python -m docs.figures.papers.huang` writes docs/images/hover_*.svg."""
+"""Figures 3 and 7 of Huang 2017: `python -m docs.figures.papers.huang` writes docs/images/hover_*.svg."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SIZE = (2.6, 3.6)  # in
 
 
 def duration_figure() -> Figure:
-    """Draw propellant of the programme over its duration t7: figure 3."""
+    """Draw propellant over the duration t7 of the programme: figure 3."""
     figure = new_figure(*SIZE)
     axes = figure.subplots()
     _plot(axes, DURATIONS, [find_programme(HOVER_VEHICLE, HOVER_TRANSFER, float(value)) for value in DURATIONS], 0, "")
@@ -37,7 +37,7 @@ def duration_figure() -> Figure:
 
 
 def distance_figure() -> Figure:
-    """Draw least propellant over the distance of the end: figure 7, with the turn in free fall."""
+    """Draw least propellant over the distance to the end: figure 7, with the turn in free fall."""
     figure = new_figure(*SIZE)
     axes = figure.subplots()
     programmes = [_programme(float(value)) for value in DISTANCES]

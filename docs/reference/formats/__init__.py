@@ -1,1 +1,1 @@
-"""Keys of files and of annotations, messages and numbers: a page of the site for each file of this folder."""
+"""Keys of files and of annotations, messages and numbers: each file of this folder is a page of the site."""

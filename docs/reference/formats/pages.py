@@ -1,4 +1,4 @@
-"""Pages of the keys of files and of annotations: the tables of docs/reference/formats, one file a page."""
+"""Pages about keys of files and annotations: the tables of docs/reference/formats, one file per page."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ ROLE_HEAD = ("variable", "declared as", "effect")
 
 
 def format_pages() -> dict[str, str]:
-    """Markdown by file name, to lie in reference/formats."""
+    """Return the Markdown pages by file name, for reference/formats."""
     pages = {f"{name}.md": _page(content) for name, content in _catalogues().items()}
     return pages | {"bounds.md": bounds_page(), "folders.md": folders_page()}
 
 
 def format_navigation() -> list[dict[str, str]]:
-    """Titles and pages in the order of the names."""
+    """Return titles and pages, ordered by name."""
     titles = {name: content["title"] for name, content in _catalogues().items()} | {
         "bounds": "Bounds",
         "folders": "Folders",
@@ -35,7 +35,7 @@ def format_navigation() -> list[dict[str, str]]:
 
 
 def bounds_page() -> str:
-    """Return the bounds of `common/bounds.py`."""
+    """Return the page of the bounds in `common/bounds.py`."""
     rows = [[f"`{bound.variable}`", f"{bound.default:g} {bound.unit}", bound.subject] for bound in BOUNDS]
     text = (
         "Files and options are checked before memory is taken for them. An environment variable changes a bound. "
@@ -47,7 +47,7 @@ def bounds_page() -> str:
 
 
 def folders_page() -> str:
-    """Return the folders of the sources with their contents, from the list by which their imports are checked."""
+    """Return the page of the source folders, from the list that import checks use."""
     folders = tomllib.loads(FOLDERS.read_text(encoding="utf-8"))
     rows = [[f"`{folder}`", contents] for folder, contents in folders.items()]
     text = (
@@ -84,7 +84,7 @@ def _section(section: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _searched(key: str) -> list[str]:
-    """Default and range of a key of a search, from its declaration."""
+    """Return default and range of a key of a search, from its declaration."""
     name = key.strip("`")
     low, high = LIMITS.get(name, (None, None))
     limits = "true or false" if low is None else f"{low:g} to {high:g}"

@@ -1,4 +1,4 @@
-"""Links from the written pages to those of blocks, which stand in the built site alone."""
+"""Links from written pages to the pages of blocks, which exist only in the built site."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ NAME = re.compile(r"(?<![\[`])`(\w+)`(?![\]`])")
 
 
 def link_blocks(page: str, path: str, blocks: Collection[str]) -> str:
-    """Return a page whose first mention of each block, as code outside of listings and headings, is a link.
+    """Return a page with the first mention of each block, as code outside listings and headings, turned into a link.
 
-    ``path`` is the page's in the site, such as ``systems/lunar_landing.md``.
+    ``path`` is the page's path on the site, such as ``systems/lunar_landing.md``.
     """
     linked: set[str] = set()
     root = os.path.relpath("reference/blocks", os.path.dirname(path) or ".").replace(os.sep, "/")

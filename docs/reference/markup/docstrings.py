@@ -1,4 +1,4 @@
-"""A block's docstring in texts: purpose, model with its equations, assumptions, frames, literature."""
+"""Sections of a block's docstring: summary, model with its equations, assumptions, frames, literature."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ OPENING = ("See", "Derivation")  # labels that a sentence keeps
 
 @dataclass(frozen=True)
 class Description:
-    """Markdown of a docstring: its first line, the paragraphs of the model, and those of each label."""
+    """Markdown of a docstring: summary, paragraphs of the model, and paragraphs by label."""
 
     summary: str
     model: list[str]
@@ -38,7 +38,7 @@ class Description:
 
 
 def describe_class(described: type, root: str) -> Description:
-    """Return the sections of a class's docstring; ``root`` leads from the page to the site's top."""
+    """Return the sections of a class's docstring; ``root`` is the relative path from the page to the site's root."""
     summary, *paragraphs = re.split(r"\n\s*\n", inspect.cleandoc(described.__doc__ or ""))
     description = Description(_prose(summary, root), [], {ASSUMPTIONS: [], FRAMES: [], SOURCES: []})
     equations = [line for paragraph in paragraphs for line in paragraph.splitlines() if line.startswith(INDENT)]
@@ -55,7 +55,7 @@ def describe_class(described: type, root: str) -> Description:
 
 
 def _with_equations(paragraph: str, root: str, symbols: Set[str]) -> str:
-    """Return a paragraph whose indented lines are equations, with their symbols typeset."""
+    """Return a paragraph with indented lines typeset as equations, and their symbols typeset in the text."""
     sections: list[str] = []
     for are_equations, lines in groupby(paragraph.splitlines(), lambda line: line.startswith(INDENT)):
         text = "\n".join(lines)
@@ -71,7 +71,7 @@ def _prose(text: str, root: str, symbols: Set[str] = frozenset()) -> str:
 
 
 def _with_formulas(text: str, symbols: Set[str]) -> str:
-    """Return text whose symbols, and the expressions around them, are formulas."""
+    """Return text with symbols, and expressions that contain them, as formulas."""
     if not symbols:
         return escaped(text)
     names = "|".join(sorted(map(re.escape, symbols - ARTICLES), key=len, reverse=True))
@@ -92,5 +92,5 @@ def _with_formulas(text: str, symbols: Set[str]) -> str:
 
 
 def _is_balanced(text: str) -> bool:
-    """Return True if parentheses and bars of an expression are in pairs."""
+    """Return True if parentheses and bars of an expression are balanced."""
     return text.count("(") == text.count(")") and not text.count("|") % 2 and not text.startswith(")")

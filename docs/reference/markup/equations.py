@@ -1,8 +1,8 @@
-"""Equations of docstrings, plain text on indented lines, as LaTeX.
+"""Conversion of equations in docstrings, plain text on indented lines, to LaTeX.
 
 In ``J ω' = (J ω) × ω + u`` a prime is a time derivative and a space a product; ``_`` begins an index, ``^T`` is a
-transpose, and ``/`` divides its two neighbours. A name of several letters is a function or a variable of the block, and
-three spaces divide the equations of a line.
+transpose, and ``/`` divides its two neighbours. A name of several letters is a function or a variable of the block;
+three spaces separate equations on a line.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def display(text: str) -> Iterator[str]:
 
 
 def to_latex(line: str) -> str:
-    """Return the LaTeX of a line, its equations a quad apart."""
+    """Return a line of equations as LaTeX, separated by quads."""
     formulas: list[str] = []
     for text in SEVERAL.split(line.strip()):
         condition = CONDITION.fullmatch(text)
@@ -49,13 +49,13 @@ def to_latex(line: str) -> str:
 
 
 def find_symbols(text: str) -> set[str]:
-    """Return the names of one letter, with their indices, in equations."""
+    """Return the one-letter names, with their indices, in equations."""
     tokens = {token for _, token in TOKEN.findall(text)}
     return {token for token in tokens if token.partition("_")[0].isalpha() and len(token.partition("_")[0]) == 1}
 
 
 class _Reader:
-    """Tokens of one equation, read from left to right."""
+    """Parser of one equation: its tokens, read from left to right."""
 
     def __init__(self, text: str) -> None:
         self.tokens = TOKEN.findall(text)
@@ -66,7 +66,7 @@ class _Reader:
         return " ".join(self._factors(None))
 
     def _next(self) -> str:
-        """Return the token to come; empty at the end."""
+        """Return the next token without consuming it; empty at the end."""
         token: str = self.tokens[self.position][1] if self.position < len(self.tokens) else ""
         return token
 
@@ -76,11 +76,11 @@ class _Reader:
         return token
 
     def _is_applied(self) -> bool:
-        """Return True if a parenthesis follows without a space: the arguments of a function."""
+        """Return True if a parenthesis follows without a space, which begins the arguments of a function."""
         return self._next() == "(" and not self.tokens[self.position][0]
 
     def _factors(self, end: str | None) -> list[str]:
-        """Return what stands before ``end``, which is taken, too."""
+        """Return the LaTeX before the token ``end``, and consume that token."""
         factors: list[str] = []
         while token := self._next():
             if token == end:
@@ -134,7 +134,7 @@ class _Reader:
 
 
 def _take_product(factors: list[str]) -> str:
-    """Return the factors at the end of factors, which are taken off, as far as the last sign or fraction."""
+    """Remove and return the trailing factors, back to the last sign or fraction."""
     start = len(factors)
     while start and factors[start - 1] not in TIGHT and not factors[start - 1].startswith(r"\frac"):
         start -= 1
@@ -145,7 +145,7 @@ def _take_product(factors: list[str]) -> str:
 
 
 def _derived(base: str, times: int) -> str:
-    """Return a time derivative, dotted above the letter and not above its index."""
+    """Return a time derivative, with the dot above the letter but not above its index."""
     letter, separator, index = base.partition("_{")
     dot = r"\dot" if times == 1 else r"\ddot"
     return f"{dot}{{{letter}}}{separator}{index}"
@@ -165,13 +165,13 @@ def _name(token: str) -> str:
 
 
 def _bare(operand: str) -> str:
-    """Return an operand without parentheses round the whole."""
+    """Return an operand without enclosing parentheses."""
     inner = operand.removeprefix(r"\left(").removesuffix(r"\right)")
     return inner if len(operand) - len(inner) == len(r"\left(\right)") and _is_balanced(inner) else operand
 
 
 def _is_balanced(text: str) -> bool:
-    """Return True if each parenthesis of a text is closed within it."""
+    """Return True if every parenthesis of a text is closed within it."""
     depth = 0
     for match in re.finditer(r"\\(left|right)\b", text):
         depth += 1 if match[1] == "left" else -1

@@ -1,4 +1,6 @@
-"""Formulas of a page, LaTeX between dollars as GitHub reads them, as MathML that a browser shows without a script."""
+"""Conversion of a page's formulas, LaTeX between dollars as on GitHub, to MathML, which browsers show without a
+script.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +14,9 @@ INLINE = re.compile(r"(?<![\\$\w])\$([^\s$](?:[^$\n]*[^\s$])?)\$(?![\w$])")
 
 
 def typeset(page: str) -> str:
-    """Return a page of Markdown with its formulas as MathML: ``$$...$$`` on separate lines, ``$...$`` in the text.
+    """Return a Markdown page with formulas as MathML: ``$$...$$`` on separate lines, ``$...$`` in the text.
 
-    Those in the text are in a span: Markdown ends a paragraph at a line that begins with ``<math``.
+    Formulas in the text are inside a span, because a line that begins with ``<math`` ends a Markdown paragraph.
     """
     parts = CODE.split(page)
     return "".join(part if index % 2 else _with_mathml(part) for index, part in enumerate(parts))
