@@ -51,8 +51,8 @@ class System:
     def add(self, name: str, fmu: FilePath, **parameters: SetValue) -> None:
         """Add a component; ``fmu`` is a name or a path, ``parameters`` are in their variables' units.
 
-        `write` copies an FMU given by path. Raises InputError for a second component of the same name, or a second FMU
-        file of the same name.
+        `write` copies an FMU stated by its path. Raises InputError for a second component of the same name, or a second
+        FMU file of the same name.
         """
         if name in self._source.components:
             raise InputError(self._source.name, name, "two components have this name", "rename one")

@@ -76,7 +76,7 @@ def fly_sample(plan: BatchPlan) -> tuple[Result, list[Result]]:
 
 
 def write_files(landing: Result, sample: list[Result], batch: CampaignResult, output: Path) -> Path:
-    """Write the raw landing, the two full reports and the page; those of the batch are there already."""
+    """Write the landing's data, the two full reports and the page; files of the batch exist already."""
     print("Writing pages ...", flush=True)
     landing.write(output / "landing.csv")
     title = f"Lunar landing: trial {LANDING} of campaign {CAMPAIGN}"

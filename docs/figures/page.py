@@ -43,7 +43,7 @@ COMPARED = ("position_error", "velocity_error")
 
 
 def write_demo_page(landing: Result, sample: list[Result], batch: CampaignResult, path: Path) -> None:
-    """Write the page. Raises KeyError for a variant that the publication does not have."""
+    """Write the page. Raises KeyError for a variant that the publication does not contain."""
     target = np.array([landing.provenance["parameters"][f"guidance.target_position[{i}]"] for i in (1, 2, 3)])
     campaign, content = batch.plan.campaign, BatchContent(batch)
     distributions = distribution_figures(content, [each for each in campaign.metrics if each.name in COMPARED])

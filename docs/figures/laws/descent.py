@@ -37,7 +37,7 @@ def simulate_laws() -> dict[str, Result]:
 
 
 def descent_figure(flights: Mapping[str, Result]) -> Figure:
-    """Return the figure of these results, given by the name of the law."""
+    """Return the figure of these results, by the name of the law."""
     figure = new_figure(3.2, 8.6)
     path, thrust = figure.subplots(1, 2)
     for index, (name, flight) in enumerate(flights.items()):
