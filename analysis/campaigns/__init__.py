@@ -1,1 +1,1 @@
-"""Campaigns: specification, draws, execution, trials, verdicts, comparison."""
+"""Campaigns: definition, draws, execution, trials, verdicts, comparison."""

@@ -1,4 +1,4 @@
-"""Limits that success and requirements set on single metrics, and the trial that is worst against them."""
+"""Limits that success and requirements impose on single metrics, and the worst trial with respect to them."""
 
 from __future__ import annotations
 
@@ -17,24 +17,25 @@ RISING, FALLING = (ast.Lt, ast.LtE), (ast.Gt, ast.GtE)
 
 @dataclass(frozen=True)
 class MetricLimits:
-    """The least and the greatest number that a metric may have, in its unit; infinite where there is none."""
+    """Least and greatest permitted value of a metric, in its unit; infinite without a limit."""
 
     low: float = -math.inf
     high: float = math.inf
 
     @property
     def better(self) -> int:
-        """-1 where less is better, 1 where more is, 0 where both ends are limited."""
+        """-1 if less is better, 1 if more is, 0 with limits on both sides."""
         return (self.low > -math.inf) - (self.high < math.inf)
 
     def excess(self, values: np.ndarray) -> np.ndarray:
-        """Return distances beyond the nearer limit, negative within both."""
+        """Return the distance beyond the nearer limit, negative within both."""
         return np.maximum(self.low - values, values - self.high)
 
 
 def metric_limits(expressions: Iterable[Expression]) -> dict[str, MetricLimits]:
-    """Return the limits on metrics that all expressions keep, by name; those of metrics in sums, `or` or `not` are left
-    out, as one of them alone decides nothing.
+    """Return the limits on single metrics implied by all expressions, by name.
+
+    Metrics in sums, `or` or `not` have none, since a single one of them decides nothing.
     """
     limits: dict[str, MetricLimits] = {}
     for expression in expressions:
@@ -45,7 +46,7 @@ def metric_limits(expressions: Iterable[Expression]) -> dict[str, MetricLimits]:
 
 
 def _comparisons(node: ast.expr) -> Iterator[tuple[str, float, float]]:
-    """Yield the metrics that comparisons joined by `and` compare with a number: name, least, greatest."""
+    """Yield name, least and greatest value for comparisons, joined by `and`, of a metric with a number."""
     if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
         for each in node.values:
             yield from _comparisons(each)
@@ -63,21 +64,21 @@ def _comparisons(node: ast.expr) -> Iterator[tuple[str, float, float]]:
 
 
 def _number(node: ast.expr) -> float | None:
-    """Return the number that an expression without variables is."""
+    """Return the value of an expression without variables, or None."""
     expression = Expression(ast.unparse(node))
     value = math.nan if expression.names else float(expression.evaluate({}))
     return value if math.isfinite(value) else None
 
 
 def worst_row(values: np.ndarray, excess: Callable[[np.ndarray], np.ndarray]) -> tuple[int, float]:
-    """Return the first row with the largest ``excess``, and that; nan is as bad as infinite."""
+    """Return the first row with the largest ``excess``, and that excess; nan counts as infinite."""
     beyond = np.where(np.isfinite(values), excess(values), np.inf)
     row = int(np.argmax(beyond))
     return row, float(beyond[row])
 
 
 def worst_trial(rows: TrialTable, metric: str, excess: Callable[[np.ndarray], np.ndarray]) -> tuple[int, float]:
-    """Return the first trial with the largest ``excess`` of a metric, and the metric there."""
+    """Return the first trial with the largest ``excess`` of a metric, and the metric's value there."""
     column, trial, value, largest = f"metric.{metric}", 0, math.nan, -math.inf
     for part in rows.parts("trial", column):
         row, beyond = worst_row(part[column], excess)

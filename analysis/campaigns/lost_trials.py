@@ -1,4 +1,4 @@
-"""Trials that ended with their process, or whose FMU did not return: counted with whatever they are results of."""
+"""Trials that crashed, hung or ran out of memory: counted in the text of every result that includes them."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from .summary import Summary
 
 
 def lost_status(status: str) -> str:
-    """Return ``crashed``, ``hung`` or ``out_of_memory`` if a trial's status begins so, else nothing."""
+    """Return ``crashed``, ``hung`` or ``out_of_memory`` if a trial's status begins with it, else ""."""
     beginning = status.partition(" (")[0]
     return beginning if beginning in LOST else ""
 
 
 def count_lost(statuses: Mapping[str, int]) -> Counter[str]:
-    """Count the trials that crashed, hung or ran out of memory, from the counts of all statuses."""
+    """Return the numbers of trials that crashed, hung or ran out of memory, from the counts of all statuses."""
     counts: Counter[str] = Counter()
     for status, count in statuses.items():
         if lost_status(status):
@@ -25,12 +25,12 @@ def count_lost(statuses: Mapping[str, int]) -> Counter[str]:
 
 
 def lost_words(counts: Mapping[str, int]) -> str:
-    """Return such counts in words: "2 crashed, 1 out of memory"; empty where there are none."""
+    """Return such counts as text: "2 crashed, 1 out of memory"; "" if there are none."""
     return ", ".join(f"{counts[status]} {status.replace('_', ' ')}" for status in LOST if counts.get(status))
 
 
 def lost_lines(statuses: Mapping[str, Mapping[str, int]]) -> list[str]:
-    """Return a line for each variant that has any, from the counts of its statuses."""
+    """Return a line for each variant with such trials, from the counts of its statuses."""
     words = {variant: lost_words(count_lost(counts)) for variant, counts in statuses.items()}
     return [
         f"{variant}: {text} of {sum(statuses[variant].values())} trials, which are no successes"
@@ -40,5 +40,5 @@ def lost_lines(statuses: Mapping[str, Mapping[str, int]]) -> list[str]:
 
 
 def lost_of(summary: Summary) -> list[str]:
-    """Return the lines of a summary's variants."""
+    """Return the lines for a summary's variants."""
     return lost_lines({variant: entry.statuses for variant, entry in summary.items()})

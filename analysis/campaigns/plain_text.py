@@ -1,4 +1,4 @@
-"""Lines for a terminal that need no trials: aligned columns, assumptions, faults, numbers."""
+"""Text for a terminal that is independent of trials: aligned columns, assumptions, faults, numbers."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 
 def align_columns(rows: list[list[str]]) -> list[str]:
-    """Return rows of cells as lines, the first column to the left, the others to the right."""
+    """Return rows of cells as lines, the first column left-aligned, the others right-aligned."""
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     return [
         "  ".join(
@@ -17,17 +17,17 @@ def align_columns(rows: list[list[str]]) -> list[str]:
 
 
 def assumption_lines(assumptions: Iterable[str]) -> list[str]:
-    """Return a result's assumptions where an FMU declares nothing, a line for each."""
+    """Return a line for each assumption of a result about undeclared dependencies of FMUs."""
     return [f"assumed: {assumption}" for assumption in assumptions]
 
 
 def faults_line(faults: Iterable[object]) -> str:
-    """Return the line of results on their faults."""
+    """Return a line that lists the faults of a result."""
     return f"with faults: {'; '.join(map(str, faults))}"
 
 
 def short(value: float | None) -> str:
-    """Return a number in four digits, a dash for none."""
+    """Return a number with four significant digits, a dash for None."""
     return "-" if value is None else f"{value:.4g}"
 
 

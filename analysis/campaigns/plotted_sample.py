@@ -1,4 +1,4 @@
-"""The trials that figures are drawn of: all of a campaign, or of a long one the first, and failures behind them."""
+"""Trials shown in figures: all of a campaign or, if it is long, the first ones and later failures."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ FAILURES = 20_000  # behind those
 
 @dataclass(frozen=True)
 class PlottedSample:
-    """``dots`` are the first trials of a variant and failures behind them, of ``trials`` and ``failures`` in all."""
+    """Sample for figures: ``dots`` are the first trials of a variant and later failures.
+
+    ``trials`` and ``failures`` are the numbers of all trials and failures.
+    """
 
     dots: TrialTable
     trials: int
@@ -25,12 +28,12 @@ class PlottedSample:
 
     @cached_property
     def first(self) -> TrialTable:
-        """The first trials, without failures behind them."""
+        """First trials, without later failures."""
         return self.dots.part(range(FIRST))
 
     @property
     def note(self) -> str:
-        """Note on trials left out, in words; nothing where none are."""
+        """Note on omitted trials, "" if none are."""
         if self.trials == len(self.first):
             return ""
         seen = int(np.count_nonzero(~self.dots.success))
@@ -39,7 +42,7 @@ class PlottedSample:
 
 
 def select_trials(rows: TrialTable, draws: list[str], metrics: list[str]) -> PlottedSample:
-    """Return the samples for figures of a variant's trials, with some draws and metrics."""
+    """Return the sample of a variant's trials for figures, with these draws and metrics."""
     names = ["trial", "status", "success", *(f"metric.{name}" for name in metrics), *(f"draw.{name}" for name in draws)]
     chosen: list[pyarrow.Table] = []
     trials = failures = retained = 0

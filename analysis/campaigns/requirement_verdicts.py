@@ -1,4 +1,4 @@
-"""Verdicts of a variant's trials on the campaign's requirements, and the trial after which all are decided."""
+"""Verdicts on the campaign's requirements from a variant's trials, and the trial after which all are decided."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ FIXED_SIZE, UNTIL_DECIDED = "fixed size", "until decided"
 
 @dataclass(frozen=True)
 class ToleranceBound:
-    """The tolerance bound ``value`` of a requirement's metric, on its ``side`` ("upper" or "lower"); may be infinite.
+    """Tolerance bound ``value`` of a requirement's metric, on its ``side`` ("upper" or "lower"); may be infinite.
 
-    It is the worst value of the first ``flights`` where ``rank`` is 1, the second worst where it is 2, and so on. Value
-    and rank are None where the flights are too few; ``flights_to_decide`` more would give one.
+    It is the ``rank``-th worst value of the first ``flights`` trials. Value and rank are None with too few trials;
+    ``flights_to_decide`` more would suffice.
     """
 
     metric: str
@@ -35,13 +35,13 @@ class ToleranceBound:
 
 @dataclass(frozen=True)
 class RequirementVerdict:
-    """The verdict on one requirement by the trials of one variant.
+    """Verdict on one requirement from the trials of one variant.
 
-    ``text`` is the requirement as declared: a fraction ``share`` of all flights satisfies it, shown with
-    ``confidence``. ``rule`` is `FIXED_SIZE` or `UNTIL_DECIDED`. ``decided_after`` is a number of flights, None where
-    undecided. ``flights_to_decide`` are the additional flights that would meet it with 0, 1 and 2 failures among them;
-    None where decided. ``bound`` is None where the requirement is not on one metric. ``unevaluated`` are the metrics of
-    the requirement that no flight has a value of; None where there are none of them.
+    ``text`` is the requirement as declared: a ``share`` of all simulations satisfies it, shown with ``confidence``.
+    ``rule`` is `FIXED_SIZE` or `UNTIL_DECIDED`. ``decided_after`` is a number of trials, None if undecided.
+    ``flights_to_decide`` are the numbers of further trials that would meet it with 0, 1 and 2 failures among them, None
+    if decided. ``bound`` is None unless the requirement is on one metric. ``unevaluated`` are the metrics of the
+    requirement that are nan in every trial, None if there are none.
     """
 
     text: str
@@ -59,7 +59,7 @@ class RequirementVerdict:
 
 
 def satisfies(requirement: Requirement, trials: TrialTable) -> np.ndarray:
-    """Return for each trial if it satisfies a requirement; one does not where a metric of it is not finite."""
+    """Return for each trial whether it satisfies a requirement; a trial with a non-finite metric does not."""
     names = {name: f"metric.{name}" for name in requirement.expression.names} | {SUCCESS: "success"}
     satisfied = []
     for part in trials.parts(*names.values()):
@@ -73,9 +73,9 @@ def satisfies(requirement: Requirement, trials: TrialTable) -> np.ndarray:
 def requirement_verdict(
     requirement: Requirement, trials: TrialTable, until_decided: bool = False
 ) -> RequirementVerdict:
-    """Return the verdict on one requirement by a variant's trials, in order of trial.
+    """Return the verdict on one requirement from a variant's trials, in order.
 
-    With ``until_decided``, where the campaign may have ended because it was decided, all of it is by `StoppingRule`.
+    With ``until_decided``, that is if the campaign may have ended once it was decided, all of it is by `StoppingRule`.
     """
     rule_of = stopping_rule if until_decided else FixedSize
     rule = rule_of(requirement.share, requirement.confidence)
@@ -100,7 +100,7 @@ def requirement_verdict(
 
 
 def _find_unevaluated(requirement: Requirement, trials: TrialTable) -> tuple[str, ...] | None:
-    """Return the metrics of a requirement that are nan in every trial."""
+    """Return the metrics of a requirement that are nan in every trial, None if there are none."""
     names = sorted(requirement.expression.names - {SUCCESS})
     read = list(trials.parts(*(f"metric.{name}" for name in names)))
     missing = [name for name in names if all(np.isnan(columns[f"metric.{name}"]).all() for columns in read)]
@@ -123,10 +123,10 @@ def _bound(
 
 
 def trials_to_decision(requirements: Sequence[Requirement], trials: Mapping[str, Sequence[np.ndarray]]) -> int | None:
-    """Return the number of trials after which every requirement of every variant is decided; None while one is not.
+    """Return the number of trials after which every requirement of every variant is decided, None if one is not.
 
-    ``trials`` are by variant, for each requirement, which of the first trials satisfy it, in order and without a gap.
-    The answer does not depend on how many more there are: it is the last interim analysis that any of them needed.
+    ``trials`` contains, by variant and for each requirement, whether the first trials satisfy it, in order and without
+    gaps. The result does not depend on later trials: it is the last interim analysis that any requirement needed.
     """
     decisions = [
         stopping_rule(requirement.share, requirement.confidence).decision(satisfied)

@@ -1,4 +1,4 @@
-"""One metric over trials: mean, deviation, root of the mean square, extremes and quantiles."""
+"""Statistics of one metric over trials: mean, standard deviation, root mean square, extremes and quantiles."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ IN_MEMORY = 2**20  # values of a column that are read once, 8 MB
 class MetricStatistics:
     """Statistics of one metric over trials, in ``unit``.
 
-    ``count`` is the number of finite values, of which are ``mean``, sample deviation ``std``, ``max``, ``min`` and
-    ``rms``. The quantiles ``p5`` to ``p99`` are over all values but nan: each is the value of a trial, and may be
-    infinite. None where there are too few values: one for a deviation, none for the others.
+    ``mean``, sample standard deviation ``std``, ``max``, ``min`` and ``rms`` are of the ``count`` finite values. The
+    quantiles ``p5`` to ``p99`` include infinite values but not nan; each is the value of a trial. Statistics are None
+    with too few values: fewer than two for ``std``, none for the others.
     """
 
     count: int
@@ -43,7 +43,7 @@ class MetricStatistics:
 
 
 def statistics(column: Blocks, unit: str) -> MetricStatistics:
-    """Return statistics of a column over trials; memory does not grow with their number, sums are rounded once."""
+    """Return the statistics of a column over trials, in bounded memory, with sums rounded only once."""
     column = _read_once(column)
     count, known, minimum, maximum = 0, 0, math.inf, -math.inf
     for values in column():
@@ -70,7 +70,7 @@ def statistics(column: Blocks, unit: str) -> MetricStatistics:
 
 
 def _read_once(column: Blocks) -> Blocks:
-    """Return the same column, in memory unless it is a very long one."""
+    """Return a column read into memory, or the column itself if it is too long."""
     blocks: list[np.ndarray] = []
     for values in column():
         blocks.append(values)
@@ -80,7 +80,7 @@ def _read_once(column: Blocks) -> Blocks:
 
 
 def _sum(column: Blocks, of: Callable[[np.ndarray], np.ndarray]) -> float:
-    """Return the sum of a function of the finite values, rounded once."""
+    """Return the sum of a function over the finite values, rounded only once."""
     terms = (of(values[np.isfinite(values)]).tolist() for values in column())
     try:
         return math.fsum(itertools.chain.from_iterable(terms))
@@ -89,9 +89,9 @@ def _sum(column: Blocks, of: Callable[[np.ndarray], np.ndarray]) -> float:
 
 
 def quantile(column: Blocks, fraction: float) -> float:
-    """Return the smallest value of a column that a ``fraction`` of all does not exceed; nan where there is no value.
+    """Return the smallest value of a column that a ``fraction`` of all does not exceed, nan if it is empty.
 
-    Exact; memory does not grow with the column. Raises ValueError unless 0 <= fraction <= 1.
+    The result is exact, and memory is bounded. Raises ValueError unless 0 <= fraction <= 1.
     """
     known = sum(int(np.count_nonzero(~np.isnan(values))) for values in column())
     return column_quantiles(column, known, [fraction])[0]

@@ -1,4 +1,4 @@
-"""System options in a campaign's manifest: all but those of whoever simulates."""
+"""System options in a campaign's manifest, without those that belong to the executing user."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ STORED = {name: each for name, each in options_of(Declared).items() if name not 
 
 
 def _in_json(annotation: object) -> Any:
-    """Return the type of an option in JSON, where paths are texts."""
+    """Return the type of an option in JSON, where paths are text."""
     types: list[Any] = []
     for member in members_of(annotation):
         origin, inner = get_origin(member), tuple(map(_in_json, get_args(member)))
@@ -38,7 +38,7 @@ StoredOptions = msgspec.defstruct(
 
 
 def store_options(options: SystemOptions) -> dict[str, Any]:
-    """Return the options of a campaign as JSON has them."""
+    """Return the options of a campaign as JSON."""
     stored = {name: setting for name, setting in options.by_name.items() if name in STORED}
     # Native FMUs are the default, and their fused steps have the same bits: these may change under way.
     stored["flavour"] = "python" if options.chosen["flavour"] == "python" else None
@@ -47,7 +47,7 @@ def store_options(options: SystemOptions) -> dict[str, Any]:
 
 
 def restore_options(stored: Mapping[str, Any], file: Path, remedy: str, *, of_fmu: bool) -> SystemOptions:
-    """Return the options of the manifest ``file``, whose types are checked; ``of_fmu`` of an FMU alone.
+    """Return the options in the manifest ``file``, with their types checked; ``of_fmu`` for a stand-alone FMU.
 
     Raises InputError, with the ``remedy``.
     """

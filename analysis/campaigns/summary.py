@@ -24,7 +24,7 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True)
 class Rate:
-    """The ``rate`` at which trials are a yes, ``count`` of ``trials``, with its `success_interval`."""
+    """Fraction ``rate`` = ``count`` / ``trials`` of trials with an outcome, with its `success_interval`."""
 
     count: int
     trials: int
@@ -34,10 +34,10 @@ class Rate:
 
 @dataclass(frozen=True, kw_only=True)
 class VariantSummary:
-    """Trials of one variant: all, or those of a group, whose ``value`` is then that of the draw that groups.
+    """Summary of the trials of one variant, or of one of its groups, whose ``value`` is that of the grouping draw.
 
-    ``statuses`` counts trials by status. ``metrics`` are statistics over successful trials, ``metrics_all`` over all.
-    A variant has ``groups`` by label and the verdicts on ``requirements`` by name, if the campaign declares any; in a
+    ``statuses`` counts trials by status. ``metrics`` are statistics over successful trials, ``metrics_all`` over all. A
+    variant has ``groups`` by label, and verdicts on ``requirements`` by name if the campaign declares any; in a
     comparison it has ``rates`` by name.
     """
 
@@ -59,12 +59,11 @@ Summary = Mapping[str, VariantSummary]  # by variant
 
 
 def success_interval(successes: int, trials: int, confidence: float = 0.95) -> Interval:
-    """Return the interval (low, high) of the probability of success after ``successes`` in ``trials`` independent
-    trials.
+    """Return the interval (low, high) of the probability of success after ``successes`` in independent ``trials``.
 
-    Clopper and Pearson's exact interval: it covers the true rate with at least ``confidence`` whatever that rate is.
-    Wilson's is shorter but covers less than it says near 0 and 1, and rates near 1 are what guidance is measured by.
-    Raises ValueError unless 0 <= successes <= trials, trials >= 1.
+    Clopper and Pearson's exact interval covers the true rate with at least ``confidence``, whatever it is. Wilson's is
+    shorter but covers less than stated near 0 and 1, and guidance is measured by rates near 1. Raises ValueError unless
+    0 <= successes <= trials, trials >= 1.
     """
     if not (trials >= 1 and 0 <= successes <= trials):
         raise ValueError(f"{successes} successes of {trials} trials")
@@ -75,7 +74,7 @@ def success_interval(successes: int, trials: int, confidence: float = 0.95) -> I
 
 
 def success_rate(yes: np.ndarray) -> Rate:
-    """Return the rate of trials that are a yes (booleans, one a trial, one trial or more)."""
+    """Return the rate of True among outcomes (booleans [trial], at least one trial)."""
     count = int(np.count_nonzero(yes))
     return Rate(count, yes.size, count / yes.size, success_interval(count, yes.size, CONFIDENCE))
 
@@ -113,9 +112,10 @@ def summarise(
     requirements: Sequence[Requirement] = (),
     until_decided: bool = False,
 ) -> Summary:
-    """Summarise all variants by name. Every variant has one trial or more; metrics and units are its columns'.
+    """Return the summary of all variants by name; metrics and units are those of the tables' columns.
 
-    ``groups`` are those of trials by the values of the draw ``by``. Verdicts are by `requirement_verdict`.
+    Every variant has at least one trial. ``groups`` are those of trials by the values of the draw ``by``. Verdicts are
+    from `requirement_verdict`.
     """
     summary = {}
     for name, rows in variants.items():
@@ -136,7 +136,7 @@ def summarise(
 
 
 class SummaryRow(NamedTuple):
-    """A row of a summary's tables: a variant, or one group of its trials by its label."""
+    """Row of a summary's tables: a variant, or one group of its trials by label."""
 
     variant: str
     group: str | None
@@ -144,7 +144,7 @@ class SummaryRow(NamedTuple):
 
 
 def summary_rows(summary: Summary) -> list[SummaryRow]:
-    """Return every variant, each followed by its groups."""
+    """Return the rows of every variant, each followed by its groups."""
     rows = []
     for name, variant in summary.items():
         rows.append(SummaryRow(name, None, variant))
@@ -153,10 +153,10 @@ def summary_rows(summary: Summary) -> list[SummaryRow]:
 
 
 def requirement_values(summary: Summary) -> dict[str, float]:
-    """Return every number of a summary under a dotted name, for requirements as expressions.
+    """Return every number of a summary under a dotted name, for use in expressions.
 
     ``variant.success_rate``, ``variant.success_interval[1]`` (low) and ``[2]`` (high), ``variant.metrics.NAME.mean``,
-    ``variant.groups["LABEL"].success_rate`` and so on; numbers that do not exist are nan.
+    ``variant.groups["LABEL"].success_rate`` and so on; missing numbers are nan.
     """
     values: dict[str, float] = {}
 

@@ -1,4 +1,4 @@
-"""Summaries for a terminal: rates, requirements, and the metrics that matter, in lines of at most `WIDTH` columns."""
+"""Summaries for a terminal: rates, requirements, and relevant metrics, in lines of at most `WIDTH` columns."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ LEFT_OUT = ("rms", "p99", "p5", "min", "std", "p50", "p95")  # in this order whe
 
 
 def select_metrics(named: Sequence[str], known: Sequence[str], needed: Collection[str]) -> list[str]:
-    """Return the metrics to print: those that are named, or all; else those that are needed, and all where none is.
+    """Return the metrics to print: the named ones, or all; by default those needed, or all if none is needed.
 
-    Raises InputError for a name that is not known.
+    Raises InputError for an unknown name.
     """
     if ALL in named:
         return list(known)
@@ -30,9 +30,9 @@ def select_metrics(named: Sequence[str], known: Sequence[str], needed: Collectio
 
 
 def metric_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> list[str]:
-    """Return a line per metric and row: statistics over successful trials.
+    """Return a line for each metric and row, with statistics over successful trials.
 
-    Metrics that are the same in all of them are in one line, and statistics that would make lines too long left out.
+    Metrics with one value in all trials share a line; statistics are omitted if lines would be too long.
     """
     same = {metric: number for metric in metrics if (number := _common_value(rows, metric)) is not None}
     varying = [metric for metric in metrics if metric not in same]
@@ -46,10 +46,10 @@ def metric_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str 
 
 
 def rate_lines(table: list[list[str]], first: int) -> list[str]:
-    """Return rows of rates as lines: column ``first`` has the trials, the next one success.
+    """Return rows of rates as lines; column ``first`` has the number of trials, the next one success.
 
-    Where lines would be longer than `WIDTH`, columns that are the same in all rows become a line, and after them the
-    last column a line for each row; never success.
+    If lines would be longer than `WIDTH`, columns that are equal in all rows become notes, and then the last column,
+    but never success.
     """
     columns, notes = list(range(len(table[0]))), []
 
@@ -67,7 +67,7 @@ def rate_lines(table: list[list[str]], first: int) -> list[str]:
 
 
 def _fit_lines(rows: Sequence[SummaryRow], metrics: Sequence[str], group: str | None) -> tuple[list[str], list[str]]:
-    """Return lines, and the statistics that are left out of them."""
+    """Return lines that fit `WIDTH`, and the statistics omitted for it."""
     for count in range(len(LEFT_OUT) + 1):
         left_out = LEFT_OUT[:count]
         columns = [key for key in STATISTICS if key not in left_out]
@@ -90,7 +90,7 @@ def _cells(
 
 
 def _common_value(rows: Sequence[SummaryRow], metric: str) -> float | None:
-    """Return the value that a metric has in all successful trials, where there are several; else None."""
+    """Return the value that a metric has in all of several successful trials, or None."""
     ends, several = set(), False
     for row in rows:
         values, successes = row.entry.metrics[metric], round(row.entry.success_rate * row.entry.trials)
@@ -102,7 +102,7 @@ def _common_value(rows: Sequence[SummaryRow], metric: str) -> float | None:
 
 
 def summary_text(summary: Summary, group: str | None = None, metrics: Sequence[str] | None = None) -> str:
-    """Return a summary for the terminal: success rates, requirements, then metrics of successful trials, of groups too.
+    """Return a summary for a terminal: success rates, requirements, and metrics of successful trials, also by group.
 
     ``metrics`` are those to print; None for all.
     """

@@ -1,4 +1,4 @@
-"""Summaries as plain text for a terminal: rows of cells as aligned lines."""
+"""Rows of summaries for a terminal: variants, groups, requirements and their verdicts as text."""
 
 from __future__ import annotations
 
@@ -10,18 +10,17 @@ from .verdicts.acceptance import AcceptanceVerdict
 
 
 def who_heads(group: str | None) -> list[str]:
-    """Return headings of `who_cells`; ``group`` is the draw by which trials are grouped, if any."""
+    """Return the headings of `who_cells`; ``group`` is the draw by which trials are grouped, or None."""
     return ["variant"] if group is None else ["variant", group]
 
 
 def who_cells(row: SummaryRow, group: str | None) -> list[str]:
-    """Return a row's variant and, where trials are grouped, its group's value, or that it is all of them."""
+    """Return a row's variant and, if trials are grouped, the value of its group or "all"."""
     return [row.variant] if group is None else [row.variant, row.group or "all"]
 
 
 def requirement_lines(summary: Summary) -> list[str]:
-    """Return a line per requirement and variant: the requirement, the figures and the verdict; then tolerance
-    bounds."""
+    """Return a line for each requirement and variant, with figures and verdict, followed by tolerance bounds."""
     head = ["requirement", "variant", "flights", "failures", "risk %", "verdict", "more for 0, 1, 2 failures"]
     cells, bounds = [head], []
     for variant, name, result in requirement_rows(summary):
@@ -39,13 +38,13 @@ def requirement_lines(summary: Summary) -> list[str]:
 
 
 def requirement_rows(summary: Summary) -> list[tuple[str, str, RequirementVerdict]]:
-    """Return variant, name and verdict of every requirement of every variant, those of one requirement together."""
+    """Return variant, name and verdict for every requirement, those of one requirement together."""
     names = dict.fromkeys(name for variant in summary.values() for name in variant.requirements)
     return [(variant, name, entry.requirements[name]) for name in names for variant, entry in summary.items()]
 
 
 def bound_text(result: RequirementVerdict, value: str) -> str:
-    """Return the tolerance bound of a requirement in words, with its ``value`` as text. The requirement has a bound."""
+    """Return the tolerance bound of a requirement as text, with its ``value`` as text. The bound must exist."""
     bound = result.bound
     assert bound is not None
     level = f"with {100 * result.share:.10g} % probability at {100 * result.confidence:.10g} % confidence"
@@ -58,7 +57,7 @@ def bound_text(result: RequirementVerdict, value: str) -> str:
 
 
 def unmet_lines(summary: Summary) -> list[str]:
-    """Return a line for each unmet or undecided requirement of each variant: its figures, what is missing."""
+    """Return a line for each unmet or undecided requirement of each variant, with its figures and what is missing."""
     return [
         f"{variant}: requirement {name}: {result.text}: {verdict_text(result)}"
         for variant, entry in summary.items()
@@ -68,7 +67,7 @@ def unmet_lines(summary: Summary) -> list[str]:
 
 
 def verdict_text(result: RequirementVerdict) -> str:
-    """Return a verdict in words: its flights and failures and, where undecided, those that would decide it."""
+    """Return a verdict as text: trials, failures and, if undecided, the further trials that would decide it."""
     if result.unevaluated:
         return f"{result.verdict}: {unevaluated_text(result)}"
     text = f"{result.verdict}: {result.failures} of {result.flights} flights fail it"
@@ -80,7 +79,7 @@ def verdict_text(result: RequirementVerdict) -> str:
 
 
 def unevaluated_text(judged: RequirementVerdict) -> str:
-    """Return the metrics of a requirement that no flight has a value of; empty where there are none of them."""
+    """Return a note on the metrics of a requirement that no trial has a value of, "" if there are none."""
     if not judged.unevaluated:
         return ""
     names, verb = " and ".join(judged.unevaluated), "are" if len(judged.unevaluated) > 1 else "is"

@@ -1,4 +1,4 @@
-"""The trials of a variant as one table, in memory; `execute/store.py` has the one that reads the shards of a folder."""
+"""Table of a variant's trials in memory; the table that reads the shards of a folder is in `execute/store.py`."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ Member = tuple[str, Callable[[np.ndarray], np.ndarray]]  # a column, and which o
 
 
 class TrialTable:
-    """Trials of one variant, in order of number, an entry per trial in every column.
+    """Trials of one variant, in order of number, with an entry per trial in every column.
 
-    Columns are named as in files of trials: ``trial``, ``status``, ``success``, ``message`` (why the flight failed,
-    empty where it did not), ``end_time`` (s), ``draw.NAME``, ``final.NAME``, ``metric.NAME``.
+    Columns are named as in files of trials: ``trial``, ``status``, ``success``, ``message`` (why the trial failed, else
+    empty), ``end_time`` (s), ``draw.NAME``, ``final.NAME``, ``metric.NAME``.
     """
 
     _describe: Describe | None = None
@@ -34,7 +34,7 @@ class TrialTable:
     def of(
         cls, columns: Mapping[str, np.ndarray | Sequence[str]], traces: Mapping[int, Trace] | None = None
     ) -> TrialTable:
-        """Return the table of columns by name: numbers or truths (trials,), or texts; ``traces`` are by trial."""
+        """Return the table of columns by name: numbers or Booleans (trials,), or texts; ``traces`` are by trial."""
         return cls(
             table_of(
                 {
@@ -52,7 +52,7 @@ class TrialTable:
 
     @property
     def schema(self) -> pyarrow.Schema:
-        """The columns in their order, with the metadata of each: kind, meaning and unit, where they are described."""
+        """Columns in order, with metadata of those that are described: kind, meaning and unit."""
         schema = self._schema.remove_metadata()
         return schema if self._describe is None else with_metadata(schema, self._describe)
 
@@ -62,7 +62,7 @@ class TrialTable:
 
     @property
     def names(self) -> list[str]:
-        """The columns in their order."""
+        """Names of the columns in order."""
         return list(self._schema.names)
 
     def described(self, describe: Describe) -> Self:
@@ -72,13 +72,13 @@ class TrialTable:
         return trials
 
     def _like(self, table: pyarrow.Table, traces: Mapping[int, Trace] | None = None) -> TrialTable:
-        """Return other trials whose columns mean the same."""
+        """Return another table with the same descriptions of columns."""
         trials = TrialTable(table, traces)
         trials._describe = self._describe
         return trials
 
     def units(self, prefix: str) -> dict[str, str]:
-        """Return the units of the columns whose names begin so, by the rest of the name; "1" where there is none."""
+        """Return the units of columns whose names have a prefix, by the rest of the name; "1" for those without."""
         fields = {field.name: field.metadata or {} for field in self.schema if field.name.startswith(prefix)}
         return {name.removeprefix(prefix): about.get(b"unit", b"1").decode() for name, about in fields.items()}
 
@@ -90,12 +90,11 @@ class TrialTable:
         yield self._table.select(names)
 
     def traced(self) -> list[int]:
-        """Return the trials with a trace, in order; of a folder those with a file of one, which may be another
-        batch's."""
+        """Return the trials with a trace, in order. In a folder these may be traces of another batch."""
         return sorted(self._traces)
 
     def trace(self, trial: int, names: Collection[str] | None = None) -> Trace | None:
-        """Return a trial's record of these signals, or of all, and ``time`` (s); None where it has no trace.
+        """Return a trial's trace of these signals (default: all) and ``time`` (s), or None if it has no trace.
 
         Raises InputError for a damaged file.
         """
@@ -109,7 +108,7 @@ class TrialTable:
         return self
 
     def parts(self, *names: str, members: Sequence[Member] = ()) -> Iterator[dict[str, np.ndarray]]:
-        """Yield some columns in numpy, consecutive trials at a time; of the trials that are in all of some groups."""
+        """Yield columns as numpy arrays for blocks of trials; with ``members``, only trials in all of these groups."""
         needed = list(dict.fromkeys((*names, *(name for name, _ in members))))
         for table in self.tables(needed):
             columns = {name: numpy_of(table[name]) for name in needed}
@@ -119,7 +118,7 @@ class TrialTable:
             yield {name: columns[name] for name in names}
 
     def blocks(self, name: str, members: Sequence[Member] = ()) -> Blocks:
-        """Return a column of numbers as blocks; of the trials that are in all of some groups."""
+        """Return a numeric column as blocks; with ``members``, only of trials in all of these groups."""
         return lambda: (np.asarray(part[name], dtype=float) for part in self.parts(name, members=members))
 
     def column(self, name: str) -> np.ndarray:
@@ -133,8 +132,7 @@ class TrialTable:
         return {name: np.concatenate([values, *(part[name] for part in others)]) for name, values in first.items()}
 
     def in_memory(self, names: Sequence[str], most: int) -> TrialTable:
-        """Read these columns once, if they have no more than ``most`` numbers in all; otherwise
-        return the table itself."""
+        """Return a table with these columns in memory, or this table if they have more than ``most`` numbers in all."""
         tables: list[pyarrow.Table] = []
         size = 0
         for table in self.tables(names):
@@ -145,7 +143,7 @@ class TrialTable:
         return self._like(pyarrow.concat_tables(tables).combine_chunks())
 
     def part(self, numbers: range) -> TrialTable:
-        """Return the trials with some consecutive numbers."""
+        """Return the trials with consecutive ``numbers``."""
         first, end = np.searchsorted(self.trial, [numbers.start, numbers.stop]).tolist()
         traces = {trial: trace for trial, trace in self.traces.items() if trial in numbers}
         return self._like(self.table.slice(first, end - first), traces)
@@ -163,7 +161,7 @@ class TrialTable:
 
     @property
     def statuses(self) -> list[str]:
-        """Ending of each flight, and the worst status that components had."""
+        """Status of each trial, with the worst status that components reported."""
         return list(self.column("status").tolist())
 
     @property
@@ -173,19 +171,19 @@ class TrialTable:
 
     @property
     def end_time(self) -> np.ndarray:
-        """Times of the last rows (trials,), s."""
+        """Times (s) of the last rows (trials,)."""
         return self.column("end_time")
 
     @property
     def messages(self) -> dict[int, str]:
-        """Why flights failed, by trial."""
+        """Reasons why trials failed, by trial."""
         columns = self._columns(["trial", "message"])
         numbers, texts = columns.values()
         return {int(numbers[row]): texts[row] for row in np.flatnonzero(texts != "")}
 
     @property
     def flown(self) -> np.ndarray:
-        """True for each flight that reached its end (trials,)."""
+        """True for each trial that reached its end (trials,)."""
         return np.asarray(self.column("message") == "", dtype=bool)
 
     @property
@@ -205,7 +203,7 @@ class TrialTable:
 
     @property
     def final(self) -> dict[str, np.ndarray]:
-        """Last values of the signals of which they are recorded, by name, each (trials,)."""
+        """Last values of the signals recorded as final values, by name, each (trials,)."""
         return self._kind("final.")
 
     def _kind(self, prefix: str) -> dict[str, np.ndarray]:

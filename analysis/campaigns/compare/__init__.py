@@ -1,1 +1,1 @@
-"""Stored batches and their variants side by side, on the same trials."""
+"""Comparison of stored batches and their variants on the same trials."""

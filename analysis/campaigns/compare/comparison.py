@@ -1,4 +1,4 @@
-"""Variants of one or several stored batches side by side: rates, metrics, and pairs on the same trials."""
+"""Comparison of the variants of stored batches: rates, metrics, and pairs on the same trials."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ NO_FAULTS = "without faults"
 
 @dataclass(frozen=True)
 class Contender:
-    """One variant of one batch; ``batch`` and ``variant`` number them, for looks that tell which is which."""
+    """One variant of one batch; figures derive its colour and marker from the numbers ``batch`` and ``variant``."""
 
     label: str
     stored: StoredBatch
@@ -247,7 +247,7 @@ class CampaignComparison:
 
 
 def rate_text(rate: Rate, text: Callable[[float], str] = percent) -> str:
-    """Format a rate with its interval, in per cent as ``text`` writes it."""
+    """Format a rate with its interval in per cent, as in `Comparison.text`."""
     low, high = rate.interval
     return f"{text(rate.rate)} ({text(low)} to {text(high)})"
 

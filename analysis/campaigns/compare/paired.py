@@ -1,4 +1,4 @@
-"""Two variants on the same trials: what can be said of their difference, and how surely."""
+"""Statistical comparison of two variants on the same trials: difference, interval and significance."""
 
 from __future__ import annotations
 
@@ -16,10 +16,11 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True)
 class PairedRates:
-    """Outcomes, yes or no, of variants A and B in the same trials.
+    """Counts of yes-or-no outcomes of variants A and B in the same trials.
 
-    ``difference`` is A's rate less B's with its ``interval``; ``p_value`` is that of McNemar's exact
-    test: how likely so uneven a split of the trials in which only one says yes is by chance.
+    ``difference`` is A's rate minus B's, with its ``interval``. ``p_value`` is that of McNemar's exact test: the
+    probability of a split at least as uneven of the trials in which A and B differ, if both outcomes were equally
+    likely.
     """
 
     both: int
@@ -33,12 +34,11 @@ class PairedRates:
 
 @dataclass(frozen=True)
 class PairedValues:
-    """A number of variants A and B in the same trials; ``count`` is of trials where both have a finite one.
+    """Comparison of a metric of variants A and B over the ``count`` trials in which both are finite.
 
-    ``smaller``, ``equal`` and ``larger`` count trials by what A's is against B's. ``median`` is that
-    of A less B (of an even number the lower of the two in the middle, as all our quantiles); its
-    ``interval`` is None where there are too few trials for one. ``p_value`` is that of the sign test, ties
-    left out. All None without trials.
+    ``smaller``, ``equal`` and ``larger`` count trials by A's value relative to B's. ``median`` is that of A minus B,
+    the lower of the two middle values for an even number; its ``interval`` is None with too few trials. ``p_value`` is
+    that of the sign test without ties. All three are None without trials.
     """
 
     count: int
@@ -51,11 +51,11 @@ class PairedValues:
 
 
 def compare_rates(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) -> PairedRates:
-    """Compare outcomes ``a`` and ``b`` (booleans, one per trial, one trial or more).
+    """Compare outcomes ``a`` and ``b`` (booleans [trial], at least one trial).
 
-    The interval of the difference is Bonett and Price's (2012, J. Educ. Behav. Stat. 37, 479): Wald's with
-    one trial added to each kind of disagreement, which Fagerland, Lydersen and Laake (2014, Stat. Med. 33,
-    2850) recommend since it covers as it should in small samples too.
+    The interval of the difference is Bonett and Price's (2012, J. Educ. Behav. Stat. 37, 479): Wald's with one trial
+    added to each kind of disagreement. Fagerland, Lydersen and Laake (2014, Stat. Med. 33, 2850) recommend it for its
+    coverage in small samples.
     """
     a, b = np.asarray(a, dtype=bool), np.asarray(b, dtype=bool)
     only_a, only_b = int(np.sum(a & ~b)), int(np.sum(~a & b))
@@ -75,10 +75,10 @@ def compare_rates(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) 
 
 
 def compare_values(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) -> PairedValues:
-    """Compare numbers ``a`` and ``b``, one per trial.
+    """Compare values ``a`` and ``b`` [trial] of a metric.
 
-    The median's interval lies between two order statistics of the differences and covers at least
-    with ``confidence`` whatever their distribution is.
+    The median's interval is between two order statistics of the differences, and covers the true median with at least
+    ``confidence`` for any distribution.
     """
     finite = np.isfinite(a) & np.isfinite(b)
     difference = np.asarray(a, dtype=float)[finite] - np.asarray(b, dtype=float)[finite]
@@ -99,10 +99,10 @@ def compare_values(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE)
 
 
 def holm_adjusted(p_values: Sequence[float]) -> np.ndarray:
-    """Return p-values adjusted for all tests together: those at most 0.05 err in one of 20 families at most.
+    """Return p-values adjusted for multiple tests: the family-wise error rate is at most 5 % for those up to 0.05.
 
-    Holm (1979, Scand. J. Statist. 6, 65): the smallest times the number n of tests, the next one times n - 1, and so
-    on, none smaller than those before it.
+    Holm (1979, Scand. J. Statist. 6, 65): the smallest of n values is multiplied by n, the next by n - 1, and so on;
+    none is smaller than the one before it.
     """
     p = np.asarray(p_values, dtype=float)
     order = np.argsort(p)
@@ -112,5 +112,5 @@ def holm_adjusted(p_values: Sequence[float]) -> np.ndarray:
 
 
 def _even_split(first: int, second: int) -> float:
-    """Return the probability that a fair coin splits so unevenly, either way; 1 where there is nothing to split."""
+    """Return the two-sided p-value of a fair coin for these counts; 1 if both are 0."""
     return float(binomtest(first, first + second).pvalue) if first + second else 1.0

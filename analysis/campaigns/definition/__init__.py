@@ -1,1 +1,1 @@
-"""Definition of a batch: file, draws, expressions, metrics, and the plan of all of it."""
+"""Definition of a batch: campaign file, draws, expressions, metrics, and the plan that combines them."""

@@ -1,4 +1,4 @@
-"""A campaign: what is flown, drawn, measured, recorded and called a success. See docs/campaigns.md."""
+"""Campaign: variants, draws, metrics, records, success and requirements. See docs/campaigns.md."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ Setting = float | int | bool | str | Sequence[float | int]
 class Metric:
     """One number per trial: an expression over the record, reduced over the rows of a window.
 
-    ``band`` (low, high) belongs to the reduction last_outside, ``condition`` and ``delay`` (s) to first;
-    ``window`` (t0, t1) is in s, both ends included, None for the whole flight. ``unit`` labels the value.
+    ``band`` (low, high) is used by the reduction last_outside, ``condition`` and ``delay`` (s) by first; ``window``
+    (t0, t1) is in s and includes both ends, None means the whole simulation. ``unit`` labels the value.
     """
 
     name: str
@@ -43,7 +43,7 @@ class Metric:
 
     @property
     def names(self) -> frozenset[str]:
-        """Names that its expressions refer to."""
+        """Names used in its expressions."""
         return self.expression.names | (self.condition.names if self.condition is not None else frozenset())
 
 
@@ -63,9 +63,9 @@ class TrialRecord:
 
 @dataclass(frozen=True)
 class Scatter:
-    """A figure that the page of a batch is to have: the metric ``y`` of every trial over ``x``.
+    """Scatter plot for a batch's page: the metric ``y`` of every trial over ``x``.
 
-    ``circle`` is the radius around the origin that is drawn, in the unit of both; None for none.
+    ``circle`` is the radius of a circle around the origin, in the unit of both, or None.
     """
 
     name: str
@@ -80,10 +80,10 @@ SCHEMES = ("table", "counter")  # one table of all trials, or every trial by its
 
 @dataclass(frozen=True)
 class Variant:
-    """One way to build the system: a configuration, or the FMUs of compared slots.
+    """Variant of the system: a configuration, or a combination of compared FMUs.
 
     ``use`` maps components to FMUs, ``parameters`` lists parameter sets, ``settings`` maps ``component.variable`` to
-    values; they come after the campaign's own.
+    values; they override the campaign's.
     """
 
     name: str
@@ -94,14 +94,14 @@ class Variant:
 
 @dataclass(frozen=True)
 class Campaign:
-    """A campaign as declared. Raises InputError where trials or seed make no sense, also after `replace`.
+    """Campaign as declared. Raises InputError for invalid numbers of trials or seeds, also after `replace`.
 
-    ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are expressions over draws and
-    earlier derived values. ``settings`` and ``compare`` are [set] and [compare], ``configurations``
-    [configuration.NAME], of which ``selected`` is the only one that is simulated; ``group`` is the drawn or derived
-    value by which [group] sums trials up, ``faults`` are [fault], ``scatters`` [scatter], ``requirements``
-    [requirement], ``lookups`` [lookup], ``draw_scheme`` is one of `SCHEMES`. ``file`` is what errors name. ``sweeps``
-    are the draws that the command line has added, as texts by name (sweeps.py).
+    ``metrics``, ``draws`` and ``derived`` are in the order of the file; ``derived`` are expressions over draws and
+    earlier derived values. ``settings`` and ``compare`` are [set] and [compare]; ``configurations`` are
+    [configuration.NAME], of which only ``selected`` is simulated, if set; ``group`` is the drawn or derived value by
+    which [group] groups trials; ``faults`` are [fault], ``scatters`` [scatter], ``requirements`` [requirement],
+    ``lookups`` [lookup]; ``draw_scheme`` is one of `SCHEMES`. ``file`` is named in errors. ``sweeps`` are the draws
+    added by the command line, as texts by name (sweeps.py).
     """
 
     file: str
@@ -128,11 +128,11 @@ class Campaign:
     lookups: tuple[Lookup, ...] = ()
 
     def judged_expressions(self) -> list[Expression]:
-        """Return success and the requirements' expressions."""
+        """Return the expressions of success and of the requirements."""
         return [self.success, *(requirement.expression for requirement in self.requirements)]
 
     def judged_names(self) -> set[str]:
-        """Return the names in success and requirements."""
+        """Return the names used in success and requirements."""
         bounds = {requirement.metric for requirement in self.requirements if requirement.metric is not None}
         return bounds.union(*(expression.names for expression in self.judged_expressions()))
 
@@ -149,7 +149,7 @@ class Campaign:
             raise InputError(self.file, "seed", f"{self.seed} is negative", "give a seed >= 0")
 
     def layer_of(self, variant: Variant) -> Layer:
-        """Return the FMUs, parameter sets and values of a variant, over those that all variants have."""
+        """Return the FMUs, parameter sets and values of a variant, including those common to all variants."""
         settings = {**self.settings, **variant.settings}
         places = dict.fromkeys(settings, (self.file, 0))
         return Layer(use=variant.use, parameters=self.parameters + variant.parameters, set=settings, places=places)
@@ -159,14 +159,14 @@ class Campaign:
         return input_names(self) + list(self.derived) + [lookup.name for lookup in self.lookups]
 
     def metrics_of_lookups(self) -> list[str]:
-        """Return the names of the metrics that need a lookup."""
+        """Return the names of the metrics that use a lookup."""
         looked_up = {lookup.name for lookup in self.lookups}
         return [metric.name for metric in self.metrics if metric.names & looked_up]
 
     def without_lookups(self) -> Campaign:
-        """Return the campaign for trials that are not its own: without lookups and the metrics that need them.
+        """Return the campaign for other trials than its own: without lookups and metrics that use them.
 
-        Raises InputError where [success] or [requirement] needs one of these.
+        Raises InputError if success or a requirement needs one of these metrics.
         """
         dropped = set(self.metrics_of_lookups())
         asking = {
@@ -185,14 +185,13 @@ class Campaign:
         )
 
     def place_of(self, drawn: str) -> str:
-        """Return the source of a drawn value, as errors name it: the file, or the option that sweeps it."""
+        """Return the origin of a drawn value for error messages: the file, or the option that sweeps it."""
         return SINGLE if drawn in self.sweeps else self.file
 
     def variants(self) -> list[Variant]:
-        """Return the configurations, or every combination of the compared FMUs, named by them; else one named
-        ``default``.
+        """Return the configurations, or all combinations of the compared FMUs, or one variant named ``default``.
 
-        Of these only the ``selected`` one, if any.
+        If one is ``selected``, only that one is returned.
         """
         return [each for each in self._list_variants() if self.selected in (None, each.name)]
 
@@ -205,7 +204,7 @@ class Campaign:
         return [Variant("__".join(fmus), dict(zip(self.compare, fmus, strict=True))) for fmus in combinations]
 
     def select(self, configuration: str) -> Campaign:
-        """Return the campaign with one of its variants only. Raises InputError."""
+        """Return the campaign with only one of its variants. Raises InputError."""
         names = [each.name for each in self._list_variants()]
         if configuration not in names:
             element = f"`configuration` {configuration}"
@@ -229,9 +228,9 @@ class TrialGroup:
 
 
 def groups_of(parts: Iterable[np.ndarray], where: tuple[str, str]) -> list[TrialGroup]:
-    """Return the groups of trials by their finite values, in blocks (trials,); in ascending order.
+    """Return the groups of trials with equal finite values, in ascending order; values come in blocks (trials,).
 
-    ``where`` (file, element) is what an error points to. Raises InputError for more than `MAXIMUM_GROUPS` groups.
+    ``where`` (file, element) is named in errors. Raises InputError for more than `MAXIMUM_GROUPS` groups.
     """
     distinct = np.empty(0)
     for values in parts:

@@ -1,4 +1,4 @@
-"""Checks of a plan before its simulation: every variant prepared, every draw looked at, every name found."""
+"""Checks of a plan before its simulation: every variant is prepared, every draw and every name is checked."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ OVER_TIME = ("output", "local", "calculatedParameter", "independent")  # causali
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
-    """Prepare every variant once, so that wrong input is reported before anything flies; by variant."""
+    """Check a plan completely, and return its prepared systems by variant. Raises InputError."""
     first = next(plan.draw_parts())  # samples of all trials are checked block by block, once the rest is right
     plan.values_from(first, range(first.trials))
     _ = plan.groups
@@ -40,12 +40,12 @@ def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
 
 
 def prepare_variants(plan: BatchPlan) -> dict[str, PreparedSystem]:
-    """Prepare every variant, by variant. Raises InputError."""
+    """Return the prepared system of every variant. Raises InputError."""
     return {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
 
 
 def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
-    """Refuse draws and drawn faults that a prepared system cannot have. Raises InputError."""
+    """Reject draws and drawn faults that a prepared system cannot have. Raises InputError."""
     systems = list(systems)
     _check_streams(plan, systems)
     sampled = set(plan.campaign.input_names())
@@ -65,7 +65,7 @@ def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
 
 
 def check_lookups(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> None:
-    """Refuse tables that are not those of the plan's trials in every variant. Raises InputError."""
+    """Reject lookup tables that were computed for other trials, in any variant. Raises InputError."""
     for lookup in plan.campaign.lookups:
         checked: list[dict[str, float]] = []
         for variant, prepared in systems.items():
@@ -81,9 +81,9 @@ def check_lookups(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> Non
 
 
 def lookup_constants(plan: BatchPlan, prepared: PreparedSystem, lookup: Lookup) -> dict[str, float]:
-    """Return the parameters of a variant that the inputs of a lookup refer to, without those that are drawn, by name.
+    """Return the undrawn parameters of a variant to which the inputs of a lookup refer, by name.
 
-    Raises InputError for a name that is none of either.
+    Raises InputError for a name that is neither drawn nor a parameter.
     """
     sampled = {*input_names(plan.campaign), *plan.campaign.derived}
     constants = {}
@@ -97,7 +97,7 @@ def lookup_constants(plan: BatchPlan, prepared: PreparedSystem, lookup: Lookup) 
 
 
 def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
-    """Refuse random streams for a component that has none."""
+    """Reject random streams for a component that has none."""
     if plan.given is None:
         return
     known = sorted({name for prepared in systems for name in with_streams(prepared)})
@@ -109,7 +109,7 @@ def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
 
 
 class _Variable(NamedTuple):
-    """The FMI type of a variable that is varied, and its limits."""
+    """FMI type and limits of a varied variable."""
 
     type: str
     minimum: float
@@ -117,7 +117,7 @@ class _Variable(NamedTuple):
 
 
 def _refuse_conflicts(plan: BatchPlan) -> None:
-    """Refuse options that the campaign would overrule: FMUs of a compared slot, values that are drawn."""
+    """Reject options that the campaign would override: FMUs of compared slots, values that are drawn."""
     variants = plan.campaign.variants()
     for slot in plan.options.use:
         if slot in plan.campaign.compare:
@@ -133,7 +133,7 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
 
 
 def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> _Variable:
-    """Return the variable that is varied under a name; refused where it is no parameter, or cannot be drawn."""
+    """Return the varied variable of this name. Raises InputError unless it is a parameter that can be drawn."""
     place = plan.campaign.place_of(name)
     known: list[str] = []
     for component, fmu in prepared.network.fmus.items():
@@ -156,7 +156,7 @@ def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> _Variable:
 
 
 def _check_values(plan: BatchPlan, name: str, variable: _Variable, values: np.ndarray, first: int) -> None:
-    """Refuse values that a parameter cannot have, of trials from ``first`` on."""
+    """Reject values that a parameter cannot have, in trials from ``first`` on."""
     place = plan.campaign.place_of(name)
     if variable.type != "Real" and np.any(values != np.round(values)):
         remedy = "sweep whole numbers" if name in plan.campaign.sweeps else "use a choice"
@@ -170,7 +170,7 @@ def _check_values(plan: BatchPlan, name: str, variable: _Variable, values: np.nd
 
 @dataclass(frozen=True)
 class VariantNames:
-    """Varied, recorded and constant names of one variant."""
+    """Names of the varied parameters, recorded signals and constants of one variant."""
 
     varied: list[str]
     signals: list[str]
@@ -179,7 +179,7 @@ class VariantNames:
 
 
 def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
-    """Return names that a variant's simulation needs. Raises InputError for one that does not exist."""
+    """Return the names that a variant's simulation needs. Raises InputError for unknown names."""
     campaign = plan.campaign
     needed = names_needed(campaign.metrics, campaign.input_names())
     recorded = {*campaign.record.final, *campaign.record.signals}
@@ -200,7 +200,7 @@ def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
 
 
 def _is_signal(prepared: PreparedSystem, name: str) -> bool:
-    """Return True if a connector's value comes from a connection or is a system's input."""
+    """Return True if a connector's value comes from a connection or is an input of the system."""
     if name in prepared.network.driven:
         return True
     node = prepared.network.nodes.get(name)
@@ -210,14 +210,14 @@ def _is_signal(prepared: PreparedSystem, name: str) -> bool:
 
 
 def _causality(prepared: PreparedSystem, name: str) -> str:
-    """Return the causality of an FMU's number or Boolean; nothing where there is none of this name."""
+    """Return the causality of an FMU's numeric or Boolean variable, "" if there is none of this name."""
     component, variable_name = split_name(name, prepared.network.fmus)
     variable = prepared.network.fmus[component].variables.get(variable_name) if component else None
     return "" if variable is None or variable.type in TEXTS else variable.causality
 
 
 def _constant(plan: BatchPlan, prepared: PreparedSystem, name: str) -> float:
-    """Return the value of a parameter that metrics refer to."""
+    """Return the value of a parameter to which metrics refer."""
     for component, fmu in prepared.network.fmus.items():
         variable = fmu.variables.get(name.removeprefix(f"{component}."))
         if not name.startswith(f"{component}.") or variable is None or variable.type in TEXTS:

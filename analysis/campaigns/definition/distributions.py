@@ -1,4 +1,4 @@
-"""The distributions that a campaign can name: uniform and single values, and the draw of a table [draw.NAME]."""
+"""Distributions of a campaign file: uniform and discrete ones, and the reader of [draw.NAME]."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ normal_distribution, normal_quantile = elementary("normal_distribution"), elemen
 
 @dataclass(frozen=True)
 class _Interval(Continuous):
-    """A value that is uniform between ``low`` and ``high``: low + (high - low) Phi(u) of a standard normal u."""
+    """Uniform value between ``low`` and ``high``; as a function of a standard normal u: low + (high - low) Phi(u)."""
 
     low: float
     high: float
@@ -31,7 +31,7 @@ class _Interval(Continuous):
 
     @classmethod
     def read(cls, table: TomlTable) -> Self:
-        """Read it from its table of a campaign. Raises InputError."""
+        """Return the distribution in its table of a campaign. Raises InputError."""
         table.only(["distribution", *cls.keys])
         return cls(*read_ends(table))
 
@@ -71,7 +71,7 @@ class Uniform(_Interval, Independent):
 
 
 class _UniformDesign(_Interval, Design):
-    """Uniform values whose whole table is designed; a block of trials is cut from it."""
+    """Uniform values of which the whole table is designed; blocks of trials are cut from it."""
 
     alternative: ClassVar[str] = Uniform.keyword
 
@@ -92,7 +92,7 @@ class _UniformDesign(_Interval, Design):
 
 
 class LatinHypercube(_UniformDesign):
-    """One value in each of as many equal strata as there are trials, shuffled independently per draw."""
+    """One value in each of as many equal strata as there are trials, shuffled independently for each draw."""
 
     keyword = "latin_hypercube"
 
@@ -105,7 +105,7 @@ class LatinHypercube(_UniformDesign):
 
 
 class Sobol(_UniformDesign):
-    """One scrambled Sobol sequence with a dimension per draw, in order of their names."""
+    """One scrambled Sobol sequence with a dimension for each draw, in order of their names."""
 
     keyword = "sobol"
 
@@ -120,7 +120,7 @@ class Sobol(_UniformDesign):
 
 
 def read_ends(table: TomlTable) -> tuple[float, float]:
-    """Read the ends of an interval. Raises InputError."""
+    """Return the ends of an interval. Raises InputError."""
     low, high = table.get("low", number), table.get("high", number)
     if not math.isfinite(high - low):
         raise table.error("high", f"{high!r} is too far from low = {low!r} for doubles", "give a smaller interval")
@@ -131,14 +131,14 @@ def read_ends(table: TomlTable) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Discrete(Distribution):
-    """A distribution of the single ``values``."""
+    """Distribution with single ``values``."""
 
     values: tuple[float, ...]
 
 
 @dataclass(frozen=True)
 class Choice(Discrete, Independent):
-    """One of the values at random, with probabilities in the ratio of ``weights``."""
+    """One of the values at random, with probabilities proportional to ``weights``."""
 
     weights: tuple[float, ...]
     keyword = "choice"
@@ -171,8 +171,10 @@ class Grid(Discrete, Design):
 
     @classmethod
     def read(cls, table: TomlTable) -> Self:
-        """Read it from its table of a campaign: its values, or ``count`` of them from low to high. Raises
-        InputError."""
+        """Return the grid in its table of a campaign: its values, or ``count`` values from low to high.
+
+        Raises InputError.
+        """
         table.only(["distribution", *cls.keys])
         if "values" in table.content:
             table.only(["distribution", "values"])
@@ -204,7 +206,7 @@ DISTRIBUTIONS = {kind.keyword: kind for kind in KINDS}
 
 
 def read_draw(name: str, table: TomlTable) -> Draw:
-    """Read the draw declared in the table [draw.NAME]. Raises InputError."""
+    """Return the draw declared in the table [draw.NAME]. Raises InputError."""
     kind = DISTRIBUTIONS[table.get("distribution", choice_of(*DISTRIBUTIONS))]
     distribution = kind.read(table)
     return Draw(name, table.get("names", names) if kind is CorrelatedNormal else (name,), distribution)

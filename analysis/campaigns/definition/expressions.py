@@ -1,10 +1,9 @@
 """Arithmetic expressions over named values, compiled once and safe to take from a file.
 
-The text is parsed as Python, every node is checked against a list of what is allowed and
-translated into a function of the names it uses. Nothing else is reachable from it: no
-attributes of objects, no builtins. The functions are those of kernels, with the same bits on
-every processor. All numbers are doubles with IEEE arithmetic (1/0 is inf,
-sqrt(-1) is nan), elementwise on arrays; true is 1, false is 0, and anything but 0 is true.
+The text is parsed as Python, every node is checked against a list of permitted ones, and the tree is translated to a
+function of the names that it uses. Attributes of objects and builtins are inaccessible. The functions are those of
+kernels, with the same bits on every processor. All numbers are doubles with IEEE arithmetic (1/0 is inf, sqrt(-1) is
+nan), elementwise on arrays; true is 1, false is 0, and anything but 0 is true.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ CONSTANTS = {"pi": math.pi, "e": math.e}
 
 
 def _over(function: Callable) -> Callable:
-    """Return a function of two values as one of two or more."""
+    """Return a function of two values extended to two or more."""
     return lambda *values: functools.reduce(function, values)
 
 
@@ -66,12 +65,12 @@ COMPARISONS: dict[type[ast.cmpop], Callable] = {
 
 
 def _truth(value: np.ndarray) -> np.ndarray:
-    """Return Booleans as doubles: numpy would add two of them to True instead of 2, and refuses to subtract them."""
+    """Return Booleans as doubles, since numpy would add two of them to True, and cannot subtract them."""
     return np.multiply(value, 1.0)
 
 
 def _chain(operators: list[Callable]) -> Callable:
-    """Return the function a < b <= c ... of its operands, for these comparisons in their order."""
+    """Return the function of its operands for a chain of comparisons, a < b <= c ..."""
 
     if len(operators) == 1:
         return lambda one, other: _truth(operators[0](one, other))
@@ -113,7 +112,7 @@ def path_name(node: ast.expr) -> str | None:
 
 
 def is_name(text: str) -> bool:
-    """Return True if ``text`` is a variable's name as expressions write it, without spaces and quotes."""
+    """Return True if ``text`` is a variable's name as in expressions, without spaces and quotes."""
     try:
         node = _parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -122,8 +121,7 @@ def is_name(text: str) -> bool:
 
 
 def _parse(text: str) -> ast.expr:
-    """Parse an expression. Raises SyntaxError, also where Python only warns: of ``1if x``,
-    which later versions may not read."""
+    """Parse an expression. Raises SyntaxError, also where Python only warns, as for ``1if x``."""
     with warnings.catch_warnings():
         for category in (SyntaxWarning, DeprecationWarning):  # the latter before Python 3.12
             warnings.simplefilter("error", category)
@@ -131,7 +129,7 @@ def _parse(text: str) -> ast.expr:
 
 
 class _Translator:
-    """Turns a checked syntax tree into one over slots: v0, v1, ... for variables, others for numbers."""
+    """Replaces the leaves of a checked syntax tree by slots: v0, v1, ... for variables, others for numbers."""
 
     def __init__(self, text: str, where: Where) -> None:
         self.text = text
@@ -212,12 +210,11 @@ class _Translator:
 
 
 class Expression:
-    """An arithmetic expression over named values.
+    """Arithmetic expression over named values.
 
-    ``text`` may span lines; ``where`` (file, element) is what errors point to. ``names`` are the
-    variables it needs: identifiers or dotted paths, with an index where there is one, as in
-    ``plant.position[1]``, or a text in quotes, as in ``default.groups["2.5"].trials``. Raises InputError
-    for a text that is not such an expression.
+    ``text`` may span lines; ``where`` (file, element) is named in errors. ``names`` are the variables it needs:
+    identifiers or dotted paths, with an index if there is one, as in ``plant.position[1]``, or a quoted text, as in
+    ``default.groups["2.5"].trials``. Raises InputError for invalid text.
     """
 
     def __init__(self, text: str, where: Where = ("expression", "")) -> None:
@@ -246,17 +243,17 @@ class Expression:
 
     @property
     def is_truth(self) -> bool:
-        """True if the value is a truth, 0 or 1: a comparison, or logic."""
+        """True if the value is 0 or 1 by construction: a comparison, or logic."""
         body = ast.parse(self.text, mode="eval").body
         return isinstance(body, ast.Compare | ast.BoolOp) or (
             isinstance(body, ast.UnaryOp) and isinstance(body.op, ast.Not)
         )
 
     def evaluate(self, values: Mapping[str, ArrayLike]) -> float | np.ndarray:
-        """Return the value: a float, or an array of doubles where a value it uses is an array.
+        """Return the value: a float, or an array of doubles if one of the values is an array.
 
         ``values`` maps at least ``names`` to floats, integers, booleans or arrays of one shape. Raises InputError for a
-        name that is missing. Division by zero and the like give inf or nan.
+        missing name. Division by zero and the like give inf or nan.
         """
         arguments = []
         for name in self._order:

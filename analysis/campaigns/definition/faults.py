@@ -1,4 +1,4 @@
-"""Faults of a campaign: each a connector, and expressions over draws for its value, its times and whether it flies."""
+"""Faults of a campaign: a connector, with expressions over draws for value, times and whether it acts."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ KEYS = ("connector", "kind", "value", "start", "end", "when")
 
 @dataclass(frozen=True)
 class CampaignFault:
-    """A fault as [fault.NAME] declares it: a `perilune.Fault` in every trial, or in those in which ``when`` is true.
+    """Fault declared in [fault.NAME]: a `perilune.Fault` in every trial, or in those in which ``when`` is true.
 
     ``value`` (in the connector's unit; None for freeze), ``start`` and ``end`` (s; None for no end) are expressions
-    over drawn and derived values; a Boolean connector's value may be a bool. ``file`` is what errors name.
+    over drawn and derived values; a Boolean connector's value may be a bool. ``file`` is named in errors.
     """
 
     name: str
@@ -56,7 +56,7 @@ def _write_number(part: Expression | bool) -> str:
 
 
 def read_fault(name: str, table: TomlTable) -> CampaignFault:
-    """Read the fault declared in the table [fault.NAME]. Raises InputError."""
+    """Return the fault declared in the table [fault.NAME]. Raises InputError."""
     table.only(KEYS)
     kind = table.get("kind", choice_of(*KINDS))
     if kind == "freeze" and "value" in table.content:
@@ -78,7 +78,7 @@ def _value(table: TomlTable, key: str, value: object) -> Expression | bool:
 
 
 def _formula(table: TomlTable, key: str, value: object) -> Expression:
-    """Read a finite number, or a text that is an expression."""
+    """Return a finite number, or an expression from text."""
     if isinstance(value, str):
         return expression(table, key, value)
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
@@ -88,10 +88,10 @@ def _formula(table: TomlTable, key: str, value: object) -> Expression:
 
 @dataclass(frozen=True)
 class DrawnFault:
-    """A campaign's fault in trials in a row: arrays with an entry for each.
+    """Fault of a campaign in consecutive trials, as arrays with one entry for each trial.
 
-    ``flies`` says in which trials there is a fault; ``value`` (in the connector's unit), ``start`` and ``end`` (s) are
-    nan in the others, ``end`` is inf where it has none. A Boolean's value is a bool array. A freeze has no ``value``.
+    ``flies`` is True where the fault acts; ``value`` (in the connector's unit), ``start`` and ``end`` (s) are nan
+    elsewhere, and ``end`` is inf without an end. A Boolean's value is a bool array. A freeze has no ``value``.
     """
 
     declared: CampaignFault
@@ -101,7 +101,7 @@ class DrawnFault:
     end: np.ndarray
 
     def in_trial(self, trial: int) -> Fault | None:
-        """Return the fault in one of them, counted from 0, if it acts."""
+        """Return the fault in one of the trials, counted from 0, or None if it does not act."""
         if not self.flies[trial]:
             return None
         value = 0.0 if self.value is None else self.value[trial].item()
@@ -121,15 +121,15 @@ class DrawnFault:
 
 
 def fault_columns(fault: Fault, flights: int) -> FaultColumns:
-    """Return a fault that is the same in all of ``flights`` flights."""
+    """Return a fault that is the same in all ``flights`` simulations."""
     value, start, end = (np.full(flights, float(number)) for number in (fault.value, fault.start, fault.stop))
     return FaultColumns(np.ones(flights, dtype=bool), value, start, end)
 
 
 def fault_of_trials(declared: CampaignFault, draws: Mapping[str, np.ndarray], numbers: range) -> DrawnFault:
-    """Evaluate a fault for consecutive trials, of these ``numbers``, from their ``draws``.
+    """Evaluate a fault for consecutive trials with these ``numbers``, from their ``draws``.
 
-    Raises InputError where an expression is not finite or a window is empty in a trial in which the fault acts.
+    Raises InputError if an expression is not finite, or a window empty, in a trial in which the fault acts.
     """
     trials = len(numbers)
     everywhere = np.ones(trials, dtype=bool)
@@ -160,7 +160,7 @@ def fault_of_trials(declared: CampaignFault, draws: Mapping[str, np.ndarray], nu
 
 
 def check_drawn(fault: DrawnFault, network: Network) -> None:
-    """Refuse a fault that the system cannot have. Raises InputError."""
+    """Reject a fault that the system cannot have. Raises InputError."""
     declared = fault.declared
     variable = changeable(network, declared.connector, declared.where("connector"), tunable=True)
     for value in () if fault.value is None else np.unique(fault.value[fault.flies]).tolist():

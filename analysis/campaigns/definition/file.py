@@ -1,4 +1,4 @@
-"""Reads a campaign from its TOML file; whatever is not understood is refused by name."""
+"""Reads a campaign from its TOML file; unknown entries are rejected by name."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ SCATTER = ("x", "y", "circle", "title")
 
 
 def _check_name(table: TomlTable, name: str, taken: Iterable[str]) -> None:
-    """Refuse a drawn, derived or metric name that is malformed, reserved or already ``taken``."""
+    """Reject a drawn, derived or metric name that is malformed, reserved or already ``taken``."""
     if not is_name(name):
         remedy = 'use letters, digits and _; for a parameter "component.variable" or "component.variable[1]"'
         raise table.error(name, f"{name!r} is not a name that expressions can use", remedy)
@@ -190,7 +190,7 @@ def _scatter(name: str, table: TomlTable, metrics: tuple[Metric, ...]) -> Scatte
 
 
 def parse_campaign(table: TomlTable) -> Campaign:
-    """Parse the campaign in a table read from a file or created in memory. Raises InputError."""
+    """Return the campaign in a table read from a file or created in memory. Raises InputError."""
     if SYNTHESIS in table.content:
         remedy = "search with perilune design search, then fly the law with a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
@@ -225,7 +225,7 @@ def parse_campaign(table: TomlTable) -> Campaign:
 
 
 def read_campaign(path: Path) -> Campaign:
-    """Read the campaign in a TOML file. Raises InputError."""
+    """Return the campaign in a TOML file. Raises InputError."""
     return parse_campaign(read_source_file(path).table())
 
 
@@ -233,7 +233,7 @@ KEYS = ("use", "parameters", "set")
 
 
 def read_settings(table: TomlTable, dispersed: Sequence[str]) -> dict[str, Setting]:
-    """Read the values of [set]. Raises InputError."""
+    """Return the values of [set]. Raises InputError."""
     settings: dict[str, Setting] = {}
     for name, value in table.flat():
         match value:
@@ -252,7 +252,7 @@ def read_settings(table: TomlTable, dispersed: Sequence[str]) -> dict[str, Setti
 
 
 def read_configurations(campaign: TomlTable, dispersed: Sequence[str]) -> tuple[Variant, ...]:
-    """Read the configurations of a campaign, in the order of its file. Raises InputError."""
+    """Return the configurations of a campaign, in the order of its file. Raises InputError."""
     declared = campaign.table("configuration")
     if declared.content and campaign.table("compare").content:
         remedy = "write the compared FMUs as configurations, or leave the configurations out"

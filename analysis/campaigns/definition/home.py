@@ -1,4 +1,4 @@
-"""The system that a campaign's file is for, where no command names it."""
+"""System to which a campaign's file belongs, if a command names none."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ FOLDERS = ("campaigns", SystemArchive.campaign_path(""))  # of a system's folder
 
 
 def find_system(raw: bytes, path: Path, named: Sequence[str]) -> str | None:
-    """Return the system that a campaign's file is checked with: the one in whose folder of campaigns it lies.
+    """Return the system with which a campaign's file is checked: the one in whose folder of campaigns it is.
 
-    Elsewhere it is that of the ``named`` ones, paths or names, whose name the file has, else their first; without any
-    it is Perilune's of this name, of a file that names none its first with a campaign that the file extends by name.
-    None where there is none. Raises InputError for a file that is not TOML.
+    For files elsewhere it is the one of the ``named`` systems (paths or names) whose name the file states, else the
+    first of them. Without ``named``, it is Perilune's system of that name; if the file states none, the first one with
+    a campaign that the file extends by name. None if there is none. Raises InputError for a file that is not TOML.
     """
     for folder in path.resolve().parents:
         holds = any(path.resolve().is_relative_to(folder / each) for each in FOLDERS)
@@ -38,12 +38,12 @@ def find_system(raw: bytes, path: Path, named: Sequence[str]) -> str | None:
 
 
 def is_called(text: str, name: str) -> bool:
-    """Return True if a campaign's ``system`` is a system of this name, with or without the suffix of its file."""
+    """Return True if a campaign's ``system`` is this name, with or without the suffix of the system's file."""
     return (text[:-4] if names_fmu(text) else text.removesuffix(".ssp")) == name
 
 
 def _names_of(systems: Iterable[str]) -> Iterator[tuple[str, str]]:
-    """Yield each system with its name, without those that cannot be opened: their own checks say so."""
+    """Yield each system with its name, except those that cannot be opened, which other checks report."""
     for system in systems:
         with suppress(InputError):
             yield system, open_system(system).name

@@ -1,4 +1,4 @@
-"""Metrics of trials from their records, and whether they make them successes."""
+"""Evaluates metrics of trials from their records, and success from metrics."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ TIME = "time"  # the name under which expressions see the record's times, s
 
 
 def names_needed(metrics: Iterable[Metric], drawn: Iterable[str]) -> set[str]:
-    """Return recorded signals and parameters that the metrics refer to: all their names but times and draws."""
+    """Return the signals and parameters to which the metrics refer: all their names except times and draws."""
     return {name for metric in metrics for name in metric.names} - set(drawn) - {TIME}
 
 
 def evaluate_metric(
     metric: Metric, times: np.ndarray, values: Mapping[str, np.ndarray | float], ends: np.ndarray
 ) -> np.ndarray:
-    """Evaluate one metric of consecutive flights (flights,), whose rows end before ``ends``.
+    """Evaluate one metric of consecutive simulations (simulations,), whose rows end before ``ends``.
 
-    ``times`` are in s, one per row; ``values`` arrays over rows, or floats. NaN for a flight without a row in the
-    window, as when it ended before it. Raises InputError for a name that ``values`` lacks.
+    ``times`` are in s, one per row; ``values`` are arrays over rows, or floats. The metric is NaN if a simulation has
+    no row in the window, because it ended earlier. Raises InputError for a name that ``values`` lacks.
     """
 
     def rows_of(formula: Expression) -> np.ndarray:
@@ -44,12 +44,14 @@ def evaluate_metric(
 
 
 def is_of_the_end(metric: Metric) -> bool:
-    """Return True if a metric needs no other row of a flight than the last one."""
+    """Return True if a metric only needs the last row of a simulation."""
     return metric.reduction == "final" and metric.window is None
 
 
 def successes(success: Expression, metrics: Mapping[str, np.ndarray], trials: int) -> np.ndarray:
-    """Return the trials that the metrics (trials,) make successes. A metric of the expression
-    that is not finite makes a failure."""
+    """Return for each trial whether it succeeds, from its metrics (trials,).
+
+    A trial fails if a metric in the expression is not finite.
+    """
     value = np.broadcast_to(success.evaluate(metrics), (trials,))
     return np.all(np.isfinite([value, *(metrics[name] for name in success.names)]), axis=0) & (value != 0.0)

@@ -1,7 +1,7 @@
-"""Normal values: one, or several that are correlated.
+"""Normal distributions: independent, or correlated ones.
 
-The isoprobabilistic transformation (Hohenbichler and Rackwitz 1981) in closed form: mean + sigma u, jointly normal ones
-mean + V sqrt(D) u with the eigenvalues D and eigenvectors V of their covariance.
+The isoprobabilistic transformation (Hohenbichler and Rackwitz 1981) is in closed form: mean + sigma u, or for jointly
+normal values mean + V sqrt(D) u, with the eigenvalues D and eigenvectors V of their covariance.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ FLAT = 1e-12  # of the largest eigenvalue of a covariance, below which nothing v
 
 
 class _Jointly(Continuous, Independent):
-    """Jointly normal values: means (names,) and ``factor`` (names, size) of the covariance factor factor^T."""
+    """Jointly normal values: ``means`` (names,) and ``factor`` (names, size) with covariance factor factor^T."""
 
     @property
     def means(self) -> Sequence[float]:
@@ -128,9 +128,9 @@ class CorrelatedNormal(_Jointly):
 
 @cache
 def principal_axes(covariance: tuple[tuple[float, ...], ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Return eigenvalues, the smallest first, and eigenvectors as columns of a symmetric matrix.
+    """Return eigenvalues in ascending order, and eigenvectors as columns, of a symmetric matrix.
 
-    In 30 digits: LAPACK's last bits depend on the processor, and so would the draws.
+    They are computed in 30 digits: LAPACK's last bits, and with them the draws, would depend on the processor.
     """
     from mpmath import mp
 

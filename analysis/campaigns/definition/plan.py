@@ -30,8 +30,10 @@ from .sweeps import with_sweeps
 
 @dataclass(frozen=True)
 class TrialSamples:
-    """Samples of the trials ``numbers`` of a plan with its campaign, its supplied samples
-    (``given``) and ``user_faults``."""
+    """Samples of the trials ``numbers`` of a plan.
+
+    ``given`` are samples supplied instead of drawn ones; ``user_faults`` are those of the command line.
+    """
 
     campaign: Campaign
     given: GivenDraws | None
@@ -41,13 +43,12 @@ class TrialSamples:
     faults: Sequence[DrawnFault]
 
     def columns_of(self, trials: range) -> dict[str, np.ndarray]:
-        """Return all drawn and derived values of some of them, by name."""
+        """Return all drawn and derived values of some of these trials, by name."""
         rows = self._rows(trials)
         return {name: column[rows] for name, column in self.table.columns.items()}
 
     def faults_of(self, trial: int) -> list[Fault | None]:
-        """Return the faults of a trial, in the order of `BatchPlan.list_faults`; None for one that does not act in
-        it."""
+        """Return the faults of a trial, in the order of `BatchPlan.list_faults`; None for those that do not act."""
         return [*(fault.in_trial(trial - self.numbers.start) for fault in self.faults), *self.user_faults]
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
@@ -56,7 +57,7 @@ class TrialSamples:
         return {name: column.item() for name, column in columns.items()}
 
     def flights(self, prepared: PreparedSystem, trials: range) -> FlightTable:
-        """Return the inputs of some of them, in the order of `BatchPlan.list_faults`."""
+        """Return the inputs of some of these trials, with faults in the order of `BatchPlan.list_faults`."""
         rows = self._rows(trials)
         drawn = [fault.columns_of(rows) for fault in self.faults]
         given = [fault_columns(fault, len(trials)) for fault in self.user_faults]
@@ -76,7 +77,7 @@ class TrialSamples:
 
 
 def with_streams(prepared: PreparedSystem) -> list[str]:
-    """Return the components that draw random numbers themselves."""
+    """Return the names of the components that generate random numbers."""
     return [name for name, fmu in prepared.network.fmus.items() if {SEED, STREAM} <= fmu.variables.keys()]
 
 
@@ -85,13 +86,12 @@ PART = 32768  # trials whose draws are looked at together; so few that their num
 
 @dataclass(frozen=True)
 class BatchPlan:
-    """Content of a batch; small enough to be sent to every worker.
+    """Complete definition of a batch, small enough to be sent to every worker.
 
-    ``options`` are the user's system options, which come after the campaign's own and win; draws win over parameter
-    sets. ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names parameters that the executor of the
-    plan sets for every simulation. ``faults`` are the user's, which act in every trial after the campaign's own,
-    ``series`` the inputs over time that all trials have; ``watch`` is the watch over each. ``given`` are samples that
-    replace drawn ones.
+    ``options`` are the user's system options, which override the campaign's; draws override parameter sets.
+    ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names parameters that the executor of the plan sets
+    in every simulation. ``faults`` are the user's, which act in every trial after the campaign's; ``series`` are the
+    inputs over time of all trials; ``watch`` supervises each simulation. ``given`` are samples that replace drawn ones.
     """
 
     system: str
@@ -120,11 +120,11 @@ class BatchPlan:
 
     @property
     def is_counted(self) -> bool:
-        """True if samples are drawn for each trial by itself, without a table."""
+        """True if samples are drawn separately for each block of trials, without a table."""
         return self.given is None and self.campaign.draw_scheme == "counter"
 
     def draw_parts(self, size: int = PART) -> Iterator[DrawTable]:
-        """Yield the samples of all trials, ``size`` of them at a time, none of it held. Raises InputError."""
+        """Yield the samples of all trials in blocks of ``size``, without keeping them in memory. Raises InputError."""
         if self.given is None and not self.is_counted and self.known_draws is None:
             yield from draw_parts(self.campaign, size)
             return
@@ -141,12 +141,14 @@ class BatchPlan:
         return TrialSamples(self.campaign, self.given, self.faults, trials, table, faults)
 
     def of_first(self, trials: int) -> BatchPlan:
-        """Return a plan of the first ``trials`` trials, with the draws that they have in this one."""
+        """Return a plan of the first ``trials`` trials, with unchanged draws."""
         return self.of_part(range(trials))
 
     def of_part(self, trials: range) -> BatchPlan:
-        """Return a plan of consecutive trials, with the draws that they have in this one; from
-        1 on, those must be supplied."""
+        """Return a plan of consecutive trials, with unchanged draws.
+
+        Unless they begin with trial 0, the draws must be supplied ones.
+        """
         given = None if self.given is None else self.given.of_part(trials)
         draws = None
         if not self.is_counted:  # drawn again for fewer trials they may differ
@@ -155,34 +157,34 @@ class BatchPlan:
         return replace(self, campaign=campaign, given=given, known_draws=draws)
 
     def of_samples(self, given: GivenDraws) -> BatchPlan:
-        """Return a plan of supplied samples, a trial for each: values derived of them, faults and metrics follow.
+        """Return a plan with one trial for each supplied sample, with derived values, faults and metrics from them.
 
-        Lookups, whose numbers are of the campaign's own draws, are left out. Raises InputError.
+        Lookups are omitted, since their numbers belong to the campaign's own draws. Raises InputError.
         """
         campaign = replace(self.campaign.without_lookups(), trials=given.trials)
         return replace(self, campaign=campaign, given=given, known_draws=None)
 
     @cached_property
     def groups(self) -> list[TrialGroup]:
-        """The groups of trials that results are summed up by; none without [group]. Raises InputError."""
+        """Groups of trials by which results are summarised; none without [group]. Raises InputError."""
         if self.campaign.group is None:
             return []
         parts = (part.columns[self.campaign.group] for part in self.draw_parts())
         return groups_of(parts, (self.campaign.file, "group.by"))
 
     def list_faults(self) -> list[Fault]:
-        """Return all faults, the campaign's first, with their connectors and kinds; value and times are a trial's."""
+        """Return all faults, the campaign's first; only connectors and kinds of the campaign's are significant."""
         return [*(Fault(fault.connector, fault.kind) for fault in self.campaign.faults), *self.faults]
 
     def faults_of(self, trial: int) -> list[Fault | None]:
-        """Return the faults of one trial, in the order of `list_faults`; None for one that does not act in it."""
+        """Return the faults of one trial, in the order of `list_faults`; None for those that do not act."""
         return self.values_of(range(trial, trial + 1)).faults_of(trial)
 
     def fault_texts(self) -> list[str]:
         return [str(fault) for fault in (*self.campaign.faults, *self.faults)]
 
     def prepare(self, variant: Variant) -> PreparedSystem:
-        """Prepare the system of one variant. Raises InputError."""
+        """Return the prepared system of one variant. Raises InputError."""
         options = self.options.among(campaign=self.campaign.layer_of(variant))
         try:
             return prepare_system(self.archive or self.system, options, series=self.series)
@@ -193,7 +195,7 @@ class BatchPlan:
             raise
 
     def _origin_of_fault(self, variant: Variant) -> str:
-        """Return the origin that errors name for the FMUs of a variant."""
+        """Return the origin of a variant's FMUs, for error messages."""
         if self.campaign.configurations:
             return f"{self.campaign.file}: configuration.{variant.name}.use"
         return self.compared_by or "compare"
@@ -203,7 +205,7 @@ class BatchPlan:
         return self.values_of(range(trial, trial + 1)).parameters(prepared, trial)
 
     def parameter_names(self, prepared: PreparedSystem) -> set[str]:
-        """Return the names of `parameters`, which are those of every trial."""
+        """Return the names of `parameters`, which are the same for every trial."""
         sampled = {name for name in self.campaign.input_names() if "." in name}
         return sampled | {f"{name}.{number}" for name in with_streams(prepared) for number in (SEED, STREAM)}
 
@@ -224,11 +226,11 @@ def read_plan(
     draws: Path | None = None,
     sweeps: Mapping[str, str] | None = None,
 ) -> BatchPlan:
-    """Read a campaign by name or path, with the command line's changes. Raises InputError.
+    """Return the plan of a campaign, by name or path, with the command line's changes. Raises InputError.
 
-    ``compare`` replaces the campaign's own comparison and its configurations; ``configuration`` selects one of its
-    variants, all are simulated without it. ``faults`` come after its own, ``series`` are inputs over time,
-    ``draws`` is a file of draws to fly in place of drawn ones, ``sweeps`` are parameters with their low:high:step.
+    ``compare`` replaces the campaign's own comparison and configurations; ``configuration`` selects one of its
+    variants, by default all are simulated. ``faults`` are added to its own; ``series`` are inputs over time; ``draws``
+    is a file of draws that replace drawn ones; ``sweeps`` are parameters with low:high:step.
     """
     archive = open_system(system)
     raw, label = archive.campaign(campaign)
@@ -260,7 +262,7 @@ def read_plan(
 
 
 def _check_changes(trials: int | None, draws: Path | None, sweeps: Mapping[str, str]) -> None:
-    """Refuse changes that exclude each other. Raises InputError."""
+    """Reject changes that exclude each other. Raises InputError."""
     if trials is not None and trials < 1:
         raise InputError("`trials`", str(trials), "not a positive number", "give 1 or more")
     if draws is not None and trials is not None:

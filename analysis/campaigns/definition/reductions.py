@@ -1,4 +1,4 @@
-"""Values over the rows of flights, one flight after another, reduced to one number for each, in C."""
+"""Reduction of values over the rows of consecutive simulations to one number for each, in C."""
 
 from __future__ import annotations
 
@@ -26,18 +26,19 @@ class ReductionRule(NamedTuple):
 def reduce_rows(
     rule: ReductionRule, times: np.ndarray, values: np.ndarray, condition: np.ndarray, ends: np.ndarray
 ) -> np.ndarray:
-    """Return a number (flights,) for each flight, whose rows end before ``ends`` (int64).
+    """Return one number (flights,) for each simulation, whose rows end before ``ends`` (int64).
 
-    NaN where a flight has no row in the window. ``times`` (s, growing within a flight), ``values`` and ``condition``
-    are float64, one per row.
+    It is NaN if a simulation has no row in the window. ``times`` (s, increasing within a simulation), ``values`` and
+    ``condition`` are float64, one per row.
 
-    - ``final``, ``min``, ``max``, ``mean``, ``rms``: all rows alike; a NaN makes those but the first NaN.
-    - ``last_outside``: the last time at which the values are outside the band, NaN being outside: the first time when
-      they never are, inf when they still are in the last row.
-    - ``settled``: the time from the window's start, or the flight's if that is later, to the first row from which on
-      the values are true to the last row; 0 when all are, inf when the last is not. NaN is not true.
-    - ``first``: the value in the first row ``delay`` or more after the first one in which the condition is true; NaN
-      when there is none. A millionth of a step may be missing to the delay.
+    - ``final``, ``min``, ``max``, ``mean``, ``rms``: of all rows, with equal weight; NaN if any is, except for
+      ``final``.
+    - ``last_outside``: the last time at which the values are outside the band, with NaN counting as outside; the
+      first time if they never are, inf if they still are in the last row.
+    - ``settled``: the time from the window's start, or the simulation's if later, to the first row from which on
+      all values are true; 0 if all are, inf if the last is not. NaN is not true.
+    - ``first``: the value in the first row at least ``delay`` after the first one in which the condition is true,
+      within a millionth of a step; NaN if there is none.
     """
     reduced = np.empty(ends.size)
     limits = np.array([*rule.window, *rule.band, rule.delay])
@@ -49,5 +50,5 @@ def reduce_rows(
 
 
 def largest(times: np.ndarray, values: np.ndarray, ends: np.ndarray) -> np.ndarray:
-    """Return the largest value of each flight (flights,), 0 for one without rows."""
+    """Return the largest value of each simulation (flights,), 0 for one without rows."""
     return np.nan_to_num(reduce_rows(ReductionRule(MAX, EVER, EVER, 0.0), times, values, values, ends))

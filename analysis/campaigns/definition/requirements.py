@@ -1,4 +1,4 @@
-"""Requirements of a campaign: what a share of all flights has to keep, to be shown with a confidence."""
+"""Requirements of a campaign: the share of all simulations that must satisfy a condition, and the confidence."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ SUCCESS = "success"  # whether the trial is a success, for expressions of requir
 
 @dataclass(frozen=True)
 class Requirement:
-    """Requirement of [requirement.NAME]: ``share`` of all flights keep ``expression``, with ``confidence``.
+    """Requirement [requirement.NAME]: a ``share`` of all simulations satisfies ``expression``, with ``confidence``.
 
-    ``expression`` is over the metrics of a trial, and `SUCCESS`. ``metric`` is one with a tolerance bound, the
-    ``bound`` ("upper", "lower") that the share keeps with the confidence; None for none.
+    ``expression`` is over the metrics of a trial, and `SUCCESS`. ``metric`` is one with a tolerance bound, ``bound``
+    ("upper" or "lower"), which the share satisfies with the confidence; None without one.
     """
 
     name: str
@@ -37,9 +37,10 @@ class Requirement:
 
 
 def read_requirements(table: TomlTable, metrics: Collection[str], draws: Iterable[Draw]) -> tuple[Requirement, ...]:
-    """Read the requirements of the table [requirement]; ``metrics`` are the campaign's by name. Raises InputError.
+    """Return the requirements in the table [requirement]; ``metrics`` are the campaign's by name.
 
-    Verdicts are on independent trials, so draws that are designed for all trials together are refused.
+    Verdicts need independent trials, so draws that are designed for all trials together are rejected. Raises
+    InputError.
     """
     for draw in draws:
         if table.content and isinstance(draw.distribution, Design):
@@ -72,7 +73,7 @@ def _requirement(name: str, table: TomlTable, metrics: Collection[str]) -> Requi
 
 
 def _share(table: TomlTable, key: str, value: object) -> float:
-    """Read a number between 0 and 1, or a text in per cent: "99.87 %"."""
+    """Return a number between 0 and 1, also from a text in per cent: "99.87 %"."""
     written = value.strip() if isinstance(value, str) else ""
     percent = written.endswith("%")
     fraction = number(table, key, written[:-1] if percent else value) / (100.0 if percent else 1.0)

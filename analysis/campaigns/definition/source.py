@@ -1,4 +1,4 @@
-"""A campaign's text: its TOML file with those that it extends, merged, and where each value is written."""
+"""Text of a campaign: its TOML file merged with those that it extends, and the file and line of each value."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ Attached = tuple[str, bytes | None]  # a file's label, and its content where the
 
 @dataclass(frozen=True)
 class CampaignSource:
-    """A campaign's file, ``raw`` with its ``label`` for messages, and the files that it ``extends``, in their order.
+    """File of a campaign, ``raw``, its ``label`` for messages, and the files that it ``extends``, in order.
 
-    ``position`` is the number of those whose entries come before its own, which are the last unless it says otherwise.
-    ``attached`` are the tables of its lookups, by their paths as it says them.
+    ``position`` is the number of those whose entries precede its own; by default all of them. ``attached`` are the
+    tables of its lookups, by the paths that it states.
     """
 
     label: str
@@ -40,7 +40,7 @@ class CampaignSource:
 
     @property
     def sha256(self) -> str:
-        """Digest of the file, of the tables that it looks up, and of all that it extends."""
+        """Digest of the file, of its lookup tables, and of all files that it extends."""
         digest = hashlib.sha256(self.raw)
         for _, content in self.attached.values():
             digest.update(hashlib.sha256(content or b"").digest())
@@ -57,9 +57,8 @@ class CampaignSource:
     def table(self) -> TomlTable:
         """Return the merged content. A later file's entry replaces an earlier one of the same name.
 
-        The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables, those of
-        [set], [derive], [compare], [record], [group] and [success] are values, as are all in [lookup]. Raises
-        InputError.
+        The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables; those of
+        [set], [derive], [compare], [record], [group] and [success], and all in [lookup], are values. Raises InputError.
         """
         content: dict[str, object] = {}
         origins: dict[str, Origin] = {}
@@ -82,8 +81,10 @@ class CampaignSource:
 
 
 def read_source(raw: bytes, label: str, archive: SystemArchive | None = None) -> CampaignSource:
-    """Read a campaign's file with those that it extends, perhaps in an ``archive``. Raises InputError, for a cycle
-    too."""
+    """Read a campaign's file, in an ``archive`` or elsewhere, with those that it extends.
+
+    Raises InputError, also for a cycle.
+    """
     return _read_source(raw, label, archive, (), [label])
 
 
@@ -95,7 +96,7 @@ def read_source_file(path: Path) -> CampaignSource:
 def _read_source(
     raw: bytes, label: str, archive: SystemArchive | None, chain: tuple[str, ...], files: list[str]
 ) -> CampaignSource:
-    """Read a file with those that it extends, which ``files`` collects; ``chain`` leads to it."""
+    """Read a file with those that it extends, collected in ``files``; ``chain`` are the files that lead to it."""
     content = parse_toml(raw, label)
     names = content.get(EXTENDS, [])
     names = [names] if isinstance(names, str) else names
@@ -120,7 +121,7 @@ def _read_source(
 
 
 def _lookup_files(content: Mapping[str, object]) -> list[str]:
-    """Return the paths that the lookups of a file's content refer to."""
+    """Return the paths to which the lookups in a file's content refer."""
     lookups = content.get(LOOKUP)
     tables = lookups.values() if isinstance(lookups, Mapping) else ()
     files = [table[FILE].strip() for table in tables if isinstance(table, Mapping) and isinstance(table.get(FILE), str)]
@@ -128,7 +129,7 @@ def _lookup_files(content: Mapping[str, object]) -> list[str]:
 
 
 def _attach(name: str, origin: str, archive: SystemArchive | None) -> Attached:
-    """Return the file at a path relative to the file ``origin``, whose content may be missing."""
+    """Return the file at a path relative to the file ``origin``; its content is None if it is missing."""
     inside = None if archive is None else archive.name_of(origin)
     if archive is not None and inside is not None:
         path = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
@@ -138,7 +139,7 @@ def _attach(name: str, origin: str, archive: SystemArchive | None) -> Attached:
 
 
 def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes, str]:
-    """Find a file that ``origin`` extends, by its path relative to that, else a campaign of the system by name."""
+    """Find a file that ``origin`` extends: by relative path, else by name among the system's campaigns."""
     inside = None if archive is None else archive.name_of(origin)
     if archive is not None and inside is not None:
         path = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
@@ -160,7 +161,7 @@ def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes,
 
 
 def parse_toml(raw: bytes, label: str) -> dict[str, object]:
-    """Parse the content of a TOML file. Raises InputError."""
+    """Return the content of a TOML file. Raises InputError."""
     CAMPAIGN_BYTES.check(len(raw), label, "")
     try:
         text = raw.decode("utf-8")
@@ -181,7 +182,7 @@ def parse_toml(raw: bytes, label: str) -> dict[str, object]:
 
 
 def _check_integers(entry: object, name: str, label: str) -> None:
-    """Refuse integers of more bits than TOML's."""
+    """Reject integers with more bits than TOML permits."""
     if isinstance(entry, dict):
         for key, inner in entry.items():
             _check_integers(inner, f"{name}.{key}" if name else key, label)
@@ -193,7 +194,7 @@ def _check_integers(entry: object, name: str, label: str) -> None:
 
 
 def _merge(content: dict[str, object], later: Mapping[str, object], label: str) -> None:
-    """Put the entries of a later file into ``content``: the tables entry by entry, everything else whole.
+    """Merge a later file into ``content``: tables by entry, everything else as a whole.
 
     Its configurations replace earlier compared FMUs, its compared FMUs earlier configurations.
     """
@@ -211,7 +212,7 @@ def _merge(content: dict[str, object], later: Mapping[str, object], label: str) 
 
 
 def _join(earlier: Mapping[str, object], later: Mapping[str, object], deep: bool) -> dict[str, object]:
-    """Join two tables, where ``deep`` also those of one name in both."""
+    """Return two merged tables; if ``deep``, entries of the same name are merged as well."""
     both = {
         name: _join(earlier[name], table, deep)  # type: ignore[arg-type]
         for name, table in later.items()
@@ -234,7 +235,7 @@ TOKEN = re.compile(r"""\"{3}|\'{3}|"(?:[^"\\\n]|\\.)*"|'[^'\n]*'|#[^\n]*|[\[\]{}
 
 
 def key_lines(text: str) -> dict[str, int]:
-    """Return the line of each key by its name, ``draw.x.low``; quoted names without quotes. ``text`` is TOML."""
+    """Return the line of each key by its dotted name, ``draw.x.low``, without quotes. ``text`` is TOML."""
     lines: dict[str, int] = {}
     prefix, position, number = "", 0, 1
     while position < len(text):
@@ -258,7 +259,7 @@ def _plain(name: str) -> str:
 
 
 def _value_end(text: str, position: int) -> int:
-    """Return the end of the line on which a value ends that begins at a position."""
+    """Return the end of the line on which the value that begins at a position ends."""
     depth = 0
     while position < len(text):
         if text[position] == "\n" and not depth:

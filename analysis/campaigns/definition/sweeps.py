@@ -1,4 +1,4 @@
-"""Sweeps: what `--set` of a batch gives as low:high:step becomes a grid draw of the campaign."""
+"""Sweeps: a parameter that `--set` of a batch sets to low:high:step becomes a grid draw of the campaign."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from .distributions import Grid
 
 
 def part_sweeps(options: SystemOptions) -> tuple[SystemOptions, dict[str, str]]:
-    """Return system options without their sweeps, and these as texts by parameter.
+    """Return system options without their sweeps, and the sweeps as texts by parameter.
 
-    A sweep is a text of three numbers with colons between. Others are left to what sets single values, which knows
-    whether a parameter takes such a text.
+    A sweep is a text of three numbers separated by colons. Other texts are left to the code that sets single values,
+    which knows whether a parameter accepts text.
     """
     sweeps = {name: value.strip() for name, value in options.set.items() if isinstance(value, str) and _ends(value)}
     single = {name: value for name, value in options.set.items() if name not in sweeps}
@@ -27,10 +27,10 @@ def part_sweeps(options: SystemOptions) -> tuple[SystemOptions, dict[str, str]]:
 
 
 def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
-    """Replace swept parameters by draws on a grid, with the campaign's grids every combination of them.
+    """Return the campaign with swept parameters on a grid, in every combination with its own grids.
 
-    ``sweeps`` are texts low:high:step by parameter, in its unit; the values are low + k step, high included. They
-    replace those of the campaign's [set]; a single sweep also groups the results where the campaign has no group.
+    ``sweeps`` are texts low:high:step by parameter, in its unit; the values are low + k step, up to and including high.
+    They replace those of the campaign's [set]; a single sweep also groups the results if the campaign has no group.
     Raises InputError for a malformed sweep, or one that the campaign excludes.
     """
     if not sweeps:
@@ -61,7 +61,7 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
 
 
 def _ends(text: str) -> list[float]:
-    """Return the three numbers of a sweep; none where the text is no sweep."""
+    """Return the three numbers of a sweep, or none if the text is not a sweep."""
     try:
         ends = [float(part) for part in text.split(":")]
     except ValueError:
@@ -88,7 +88,7 @@ def _values(name: str, text: str) -> tuple[float, ...]:
 
 
 def _check_trials(campaign: Campaign) -> None:
-    """Refuse trials that are not as many for each point of the grid, which has the campaign's own grids in it too."""
+    """Reject a number of trials that is not a multiple of the grid's points, the campaign's own grids included."""
     grids = [draw.distribution for draw in campaign.draws if isinstance(draw.distribution, Grid)]
     points = math.prod(len(grid.values) for grid in grids)
     if campaign.trials % points:

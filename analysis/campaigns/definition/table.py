@@ -1,4 +1,4 @@
-"""Checked reading of a TOML file: every value has its kind, every key is known, or an InputError says which."""
+"""Checked reading of a TOML file: InputError names any unknown key and any value of a wrong kind."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ class TomlTable:
 
 
 def text(table: TomlTable, key: str, value: object) -> str:
-    """Read a string that is not empty."""
+    """Return a string that is not empty."""
     if not isinstance(value, str) or not value.strip():
         raise table.error(key, f"{value!r} is not a text", 'write it in quotes: "..."')
     return value.strip()
@@ -117,7 +117,7 @@ def integer(table: TomlTable, key: str, value: object) -> int:
 
 
 def bound(table: TomlTable, key: str, value: object) -> float:
-    """Read a number, infinite ones included, or a text that is a constant expression, such as "-pi/4"."""
+    """Return a number, possibly infinite, also from a constant expression such as "-pi/4"."""
     if isinstance(value, str):
         formula = Expression(value, table.where(key))
         if formula.names:
@@ -129,7 +129,7 @@ def bound(table: TomlTable, key: str, value: object) -> float:
 
 
 def number(table: TomlTable, key: str, value: object) -> float:
-    """Read a finite number, or a text that is a constant expression."""
+    """Return a finite number, also from a constant expression."""
     read = bound(table, key, value)
     if not math.isfinite(read):
         raise table.error(key, f"{value!r} is not finite", "write a finite number")
@@ -137,7 +137,7 @@ def number(table: TomlTable, key: str, value: object) -> float:
 
 
 def sequence(kind: Callable[[TomlTable, str, object], T]) -> Callable[[TomlTable, str, object], tuple[T, ...]]:
-    """Return a reader of an array of at least one value, each of one kind."""
+    """Return a reader of arrays with at least one value, all read by ``kind``."""
 
     def read(table: TomlTable, key: str, value: object) -> tuple[T, ...]:
         if not isinstance(value, list) or not value:
@@ -148,12 +148,12 @@ def sequence(kind: Callable[[TomlTable, str, object], T]) -> Callable[[TomlTable
 
 
 def numbers(table: TomlTable, key: str, value: object) -> tuple[float, ...]:
-    """Read an array of at least one finite number."""
+    """Return an array of at least one finite number."""
     return sequence(number)(table, key, value)
 
 
 def names(table: TomlTable, key: str, value: object) -> tuple[str, ...]:
-    """Read an array of at least one text, none of them twice."""
+    """Return an array of at least one text, without repetitions."""
     listed = sequence(text)(table, key, value)
     for name in listed:
         if listed.count(name) > 1:
@@ -162,7 +162,7 @@ def names(table: TomlTable, key: str, value: object) -> tuple[str, ...]:
 
 
 def expression(table: TomlTable, key: str, value: object) -> Expression:
-    """Read a text that is an expression, see `Expression`."""
+    """Return the expression in a text, see `Expression`."""
     return Expression(text(table, key, value), table.where(key))
 
 

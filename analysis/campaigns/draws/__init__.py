@@ -1,1 +1,1 @@
-"""Samples of the trials of a campaign."""
+"""Samples for the trials of a campaign."""

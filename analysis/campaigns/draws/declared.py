@@ -1,4 +1,4 @@
-"""Declarations for sampling a campaign: its draws with their distributions, and its derived values."""
+"""Interfaces for sampling a campaign: draws with their distributions, and derived values."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ Argument: TypeAlias = "float | tuple[Argument, ...]"
 
 
 class Distribution(ABC):
-    """A distribution with its arguments, which are the fields of a frozen dataclass under the keys of the file.
+    """Distribution with its arguments, which are the fields of a frozen dataclass under the keys of the file.
 
-    ``keyword`` is its name in a campaign's file, ``size`` the number of its independent coordinates: 0 where it has
-    single values only.
+    ``keyword`` is its name in a campaign's file; ``size`` is the number of its independent coordinates, 0 if it is
+    discrete.
     """
 
     keyword: ClassVar[str]
@@ -28,29 +28,29 @@ class Distribution(ABC):
 
     @property
     def arguments(self) -> dict[str, Argument]:
-        """Its arguments, floats or tuples of floats, under the keys of the campaign file."""
+        """Arguments, floats or tuples of floats, under the keys of the campaign file."""
         return {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
 
     def describe(self) -> str:
-        """Return its arguments as a text, long lists shortened."""
+        """Return the arguments as text, with long lists shortened."""
         return ", ".join(f"{key} {_number_text(value)}" for key, value in self.arguments.items())
 
 
 class Independent(Distribution):
-    """A distribution whose trials are independent of each other."""
+    """Distribution whose trials are independent of each other."""
 
     @abstractmethod
     def sample(self, trials: int, source: np.random.Generator) -> list[np.ndarray]:
-        """Draw the next ``trials`` values from a stream, an array (trials,) for each name that the draw fills.
+        """Draw the next ``trials`` values from a random stream; an array (trials,) for each name of the draw.
 
-        Blocks of any size yield the values of one block of all.
+        The values do not depend on how trials are divided into blocks.
         """
 
 
 class Design(Distribution):
-    """A distribution whose draws are one design of all trials, of all draws with this distribution together.
+    """Distribution sampled by one design of all trials, for all draws with this distribution together.
 
-    ``alternative`` is the distribution with independent trials, ``is_periodic``: any block of trials can be drawn
+    ``alternative`` is the distribution with independent trials. ``is_periodic``: any block of trials can be drawn
     without the others.
     """
 
@@ -60,43 +60,46 @@ class Design(Distribution):
     @classmethod
     @abstractmethod
     def design(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> Callable[[range], Columns]:
-        """Return a function of the columns of some trials, of ``draws`` in order of their names. Raises InputError."""
+        """Return a function that maps a range of trials to columns; ``draws`` are in order of name.
+
+        Raises InputError.
+        """
 
 
 class Continuous(Distribution):
-    """A distribution with coordinates: independent standard normal variables (points, size), or a unit cube.
+    """Distribution with coordinates: independent standard normal variables (points, size), or a unit cube.
 
     The cube spans intervals, and normal distributions within ``sigmas`` standard deviations along their axes. Columns
-    are arrays (points,), one for each name that the draw fills.
+    are arrays (points,), one for each name of the draw.
     """
 
     @abstractmethod
     def from_normals(self, u: np.ndarray) -> list[np.ndarray]:
-        """Return columns at standard normal values ``u``: the isoprobabilistic transformation."""
+        """Return columns for standard normal values ``u`` (points, size): the isoprobabilistic transformation."""
 
     @abstractmethod
     def to_normals(self, columns: Sequence[np.ndarray]) -> np.ndarray:
-        """Return the inverse of `from_normals`; infinite at the ends of an interval."""
+        """Return the inverse of `from_normals`, infinite at the ends of an interval."""
 
     @abstractmethod
     def from_box(self, points: np.ndarray, sigmas: float) -> list[np.ndarray]:
-        """Return columns at ``points`` of the unit cube."""
+        """Return columns for ``points`` (points, size) of the unit cube."""
 
     @abstractmethod
     def to_box(self, columns: Sequence[np.ndarray], sigmas: float) -> np.ndarray:
-        """Return the inverse of `from_box`; below 0 or above 1 outside of the box."""
+        """Return the inverse of `from_box`, below 0 or above 1 outside the box."""
 
     @abstractmethod
     def ranges(self, sigmas: float) -> list[tuple[float, float]]:
-        """Return minimum and maximum of each column in the box, reached one at a time where columns are correlated."""
+        """Return minimum and maximum of each column in the box; correlated columns do not reach them jointly."""
 
 
 @dataclass(frozen=True)
 class Draw:
-    """One dispersed input: the values it fills (``names``) and its distribution.
+    """Dispersed input: the values that it draws (``names``) and their distribution.
 
-    ``names`` is the draw's name, except for correlated_normal, which fills several. A name with a dot is a component's
-    parameter; others are for [derive] and the metrics only.
+    ``names`` consists of the draw's name, except for correlated_normal, which draws several. A name with a dot is a
+    component's parameter; others are for [derive] and the metrics only.
     """
 
     name: str
@@ -105,7 +108,7 @@ class Draw:
 
 
 class Formula(Protocol):
-    """An expression over draws; ``where`` (file, element) is what errors name."""
+    """Expression over draws; ``where`` (file, element) is named in errors."""
 
     @property
     def text(self) -> str: ...
@@ -125,7 +128,10 @@ class Numbers(Protocol):
 
 
 class CampaignDraws(Protocol):
-    """A campaign, as far as its draws go. ``derived`` are formulas over draws and earlier derived values."""
+    """Properties of a campaign that determine its samples.
+
+    ``derived`` are formulas over draws and earlier derived values.
+    """
 
     @property
     def file(self) -> str: ...
@@ -142,12 +148,12 @@ class CampaignDraws(Protocol):
 
 
 def input_names(campaign: CampaignDraws) -> list[str]:
-    """Return the values that the draws fill, in their order."""
+    """Return the names of the drawn values, in order."""
     return [name for draw in campaign.draws for name in draw.names]
 
 
 def designs_of(draws: Sequence[Draw]) -> dict[type[Design], list[Draw]]:
-    """Return the draws of each kind of design, in their order."""
+    """Return the draws of each kind of design, in order."""
     groups: dict[type[Design], list[Draw]] = {}
     for draw in draws:
         if isinstance(draw.distribution, Design):
@@ -156,7 +162,7 @@ def designs_of(draws: Sequence[Draw]) -> dict[type[Design], list[Draw]]:
 
 
 def _number_text(value: Argument) -> str:
-    """Format a number, or numbers in brackets, shortened where they are many."""
+    """Format a number, or a list of numbers in brackets, shortened if it is long."""
     if not isinstance(value, tuple):
         return f"{value:.10g}"
     inner = [_number_text(entry) for entry in value]

@@ -1,4 +1,4 @@
-"""Counter-based random generators, a separate stream for each draw; random streams of components with noise."""
+"""Counter-based random generators, with a separate stream for each draw; random streams of components with noise."""
 
 from __future__ import annotations
 
@@ -14,30 +14,28 @@ STEP = 2.0**-30
 
 
 def generator(seed: int, name: str) -> np.random.Generator:
-    """Return the random stream of the draw that fills ``name``: counter-based (Philox), independent of all other
-    names."""
+    """Return the random stream of the draw ``name``: counter-based (Philox), independent of all other names."""
     return np.random.Generator(np.random.Philox(_sequence(seed, name)))
 
 
 def generator_at(seed: int, name: str, block: int) -> np.random.Generator:
-    """Return the stream of a block of trials: that of `generator`, its 256-bit counter begun at ``block`` times
-    2^192."""
+    """Return the stream of `generator` for a block of trials, with its 256-bit counter starting at ``block`` 2^192."""
     key = _sequence(seed, name).generate_state(2, np.uint64)
     return np.random.Generator(np.random.Philox(key=key, counter=np.array([0, 0, 0, block], dtype=np.uint64)))
 
 
 def standard_normals(source: np.random.Generator, shape: int | tuple[int, ...]) -> np.ndarray:
-    """Draw standard normal values, the same on every processor: those above ``TAIL`` are rounded to multiples of
-    ``STEP``.
+    """Draw standard normal values that are the same on every processor.
 
-    The C library's log1p has other last bits on another processor.
+    Values above ``TAIL`` are rounded to multiples of ``STEP``, because the last bits of the C library's log1p depend on
+    the processor.
     """
     values = source.standard_normal(shape)
     return np.where(np.abs(values) > TAIL, np.rint(values / STEP) * STEP, values)
 
 
 def stream_of(draw: Draw) -> str:
-    """Return the name of a draw's random stream, different for each draw."""
+    """Return the unique name of a draw's random stream."""
     return " ".join(draw.names)
 
 
@@ -51,7 +49,7 @@ def independent_draws(draws: Sequence[Draw]) -> list[tuple[Draw, Independent]]:
 
 
 def sample_columns(draw: Draw, distribution: Independent, trials: int, source: np.random.Generator) -> Columns:
-    """Draw the next ``trials`` values from a draw's stream, an array (trials,) for each name."""
+    """Draw the next ``trials`` values from a draw's stream; an array (trials,) for each name."""
     return dict(zip(draw.names, distribution.sample(trials, source), strict=True))
 
 
@@ -61,10 +59,10 @@ INTEGER_RANGE = 2**31  # FMI Integers have 32 bits
 def stream_numbers(
     seed: int, trials: np.ndarray, component: str, component_names: Iterable[str], where: str = "campaign"
 ) -> tuple[int, np.ndarray]:
-    """Return the seed of a component, and its random stream in ``trials`` (n,), the same for every variant.
+    """Return the seed of a component, and its stream numbers in ``trials`` (n,), the same for every variant.
 
     No two pairs (trial, component) share a stream. ``component_names`` are all components, in any order; ``where`` is
-    the file that an error names. Raises InputError when a stream number exceeds an FMI Integer.
+    the file named in errors. Raises InputError if a stream number exceeds an FMI Integer.
     """
     names = sorted(set(component_names))
     last = int(trials.max(initial=0))

@@ -1,4 +1,4 @@
-"""Samples supplied instead of drawn: a trial for each row."""
+"""Samples supplied by the user instead of drawn: one trial for each row."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ Streams = Mapping[str, np.ndarray]
 
 @dataclass(frozen=True, eq=False)
 class GivenDraws:
-    """Draws for all trials: ``columns`` maps every name that a campaign draws to an array (trials,) of doubles.
+    """Supplied draws for all trials: ``columns`` maps every drawn name to an array (trials,) of doubles.
 
-    ``streams`` are by component the numbers of the trials (trials,) whose random streams it flies with; `ALL` stands
-    for the components that are not named. A component without either flies with the streams of the trial itself.
-    ``file`` and ``sha256`` say where they come from. There is a column or a stream.
+    ``streams`` maps a component to the numbers of the trials (trials,) whose random streams it uses; `ALL` stands for
+    the components that are not named. A component without either uses the streams of the trial itself. ``file`` and
+    ``sha256`` are the origin. There is at least one column or stream.
     """
 
     columns: Mapping[str, np.ndarray]
@@ -47,11 +47,11 @@ class GivenDraws:
 
     @property
     def table(self) -> dict[str, np.ndarray]:
-        """Its columns, with those of the streams where trials do not have their own."""
+        """All columns, including those of streams if trials use other streams than their own."""
         return dict(self.columns) | {stream_column(name): values.astype(float) for name, values in self.streams.items()}
 
     def streams_of(self, trials: range, component: str) -> np.ndarray:
-        """Return the trials whose random streams a component uses in these."""
+        """Return the numbers of the trials whose random streams a component uses in these trials."""
         streams = self.streams.get(component, self.streams.get(ALL))
         return np.arange(trials.start, trials.stop) if streams is None else streams[trials.start : trials.stop]
 
@@ -68,19 +68,19 @@ class GivenDraws:
 
 
 def stream_column(component: str) -> str:
-    """Return the column that names the trial whose random stream a component uses."""
+    """Return the name of the column with the trials whose random streams a component uses."""
     return STREAMS if component == ALL else f"{STREAMS}.{component}"
 
 
 def stream_component(column: str) -> str | None:
-    """Return the component of a column of `stream_column`; None for another column."""
+    """Return the component in the name of a stream column; None for other columns."""
     if column == STREAMS:
         return ALL
     return column.removeprefix(f"{STREAMS}.") if column.startswith(f"{STREAMS}.") else None
 
 
 def part_streams(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Split columns of a file into draws, and streams by component as whole numbers."""
+    """Split the columns of a file into draws, and streams by component as integers."""
     components = {name: stream_component(name) for name in columns}
     draws = {name: values for name, values in columns.items() if components[name] is None}
     streams = {
@@ -90,10 +90,10 @@ def part_streams(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarra
 
 
 def read_given(path: Path, campaign: CampaignDraws) -> GivenDraws:
-    """Read the draws of a campaign in a Parquet file, a row per trial, as draws.parquet of a batch. Raises InputError.
+    """Read the draws of a campaign from a Parquet file with a row per trial, like a batch's draws.parquet.
 
-    Columns ``streams_of.COMPONENT`` say with which trial's random stream a component flies in a row, ``streams_of``
-    those of the others; without it that is the row's number. Derived values are not read: they are derived anew.
+    Columns ``streams_of.COMPONENT`` state which trial's random stream a component uses in a row, ``streams_of`` that of
+    the others; the default is the row's number. Derived values are not read, but evaluated again. Raises InputError.
     """
     import pyarrow.parquet
 
@@ -121,7 +121,7 @@ def read_given(path: Path, campaign: CampaignDraws) -> GivenDraws:
 
 
 def _check_columns(path: Path, schema: pyarrow.Schema, campaign: CampaignDraws) -> None:
-    """Refuse missing, unknown and duplicate columns, and columns without numbers."""
+    """Reject missing, unknown and duplicate columns, and columns without numbers."""
     import pyarrow
 
     sampled = input_names(campaign)

@@ -29,7 +29,7 @@ InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name one or more numbers
 
 
 def input_hashes(columns: InputColumns) -> list[str]:
-    """Return the hash of every trial's inputs, every bit of them, whatever their order."""
+    """Return a hash of each trial's inputs, of all their bits, independent of their order."""
     rows = {name: np.stack(values, axis=1).tolist() for name, values in sorted(columns.items())}
     trials = len(next(iter(rows.values())))
     hashes = []
@@ -41,7 +41,7 @@ def input_hashes(columns: InputColumns) -> list[str]:
 
 @dataclass(frozen=True)
 class LookupTable:
-    """The ``columns`` of a table, arrays (trials,) by name, and the ``hashes`` of its trials' inputs.
+    """Table of ``columns``, arrays (trials,) by name, with the ``hashes`` of the trials' inputs.
 
     ``inputs`` are the formulas of the inputs, a text for each name; ``command`` is the one that wrote the table, "" if
     unknown.
@@ -54,11 +54,11 @@ class LookupTable:
 
     @property
     def remedy(self) -> str:
-        """Remedy where it is not the table of a campaign's trials."""
+        """Remedy if the table was computed for other trials than the campaign's."""
         return f"make it again: {self.command}" if self.command else WRITE
 
     def write(self, decimals: Mapping[str, int]) -> bytes:
-        """Return the table as CSV; ``decimals`` are those of each column."""
+        """Return the table as CSV, with ``decimals`` of each column."""
         lines = [f"{MADE_BY}{self.command}"] if self.command else []
         lines += [f"{INPUT}{name} = {text}" for name, text in self.inputs.items()]
         lines.append(",".join((TRIAL, INPUTS, *self.columns)))
@@ -97,9 +97,9 @@ def read_lookup_table(content: bytes, file: str) -> LookupTable:
 class Lookup:
     """Numbers of trials under a ``name`` that metrics can use: a ``column`` of a table.
 
-    The table is computed from ``inputs``: by name one or more formulas over draws, derived values and parameters.
-    ``file`` is its path as the campaign's file ``origin`` says it, ``label`` that of messages, ``content`` None where
-    there is no such file.
+    The table was computed from ``inputs``: by name, one or more formulas over draws, derived values and parameters.
+    ``file`` is its path as stated in the campaign's file ``origin``, ``label`` its name in messages; ``content`` is
+    None if the file is missing.
     """
 
     name: str
@@ -112,7 +112,7 @@ class Lookup:
 
     @property
     def element(self) -> str:
-        """The place in the campaign's file."""
+        """Path of the lookup in the campaign's file."""
         return f"lookup.{self.name}"
 
     @property
@@ -122,7 +122,7 @@ class Lookup:
 
     @cached_property
     def table(self) -> LookupTable:
-        """The table. Raises InputError where there is none, or it has no such column."""
+        """The lookup's table. Raises InputError if the file or the column is missing."""
         if self.content is None:
             raise InputError(self.origin, f"{self.element}.file", f"no file {self.file}", WRITE)
         table = read_lookup_table(self.content, self.label)
@@ -132,7 +132,7 @@ class Lookup:
         return table
 
     def numbers_of(self, trials: range) -> np.ndarray:
-        """Return the numbers of consecutive trials. Raises InputError where the table has fewer."""
+        """Return the numbers of consecutive trials. Raises InputError if the table has fewer trials."""
         rows = len(self.table.hashes)
         if trials.stop > rows:
             problem = f"{rows} trials, and the campaign has {trials.stop} or more"
@@ -140,14 +140,14 @@ class Lookup:
         return self.table.columns[self.column][trials.start : trials.stop]
 
     def input_columns(self, known: Mapping[str, np.ndarray | float], trials: int) -> InputColumns:
-        """Return the inputs of a number of ``trials``; ``known`` are draws, derived values and parameters by name."""
+        """Return the inputs of ``trials`` trials; ``known`` are draws, derived values and parameters by name."""
         return {
             name: [np.array(np.broadcast_to(formula.evaluate(known), (trials,)), dtype=float) for formula in formulas]
             for name, formulas in self.inputs.items()
         }
 
     def check(self, columns: InputColumns, trials: range, variant: str) -> None:
-        """Refuse a table computed from other inputs than these ``columns`` of a variant. Raises InputError."""
+        """Reject a table computed from other inputs than these ``columns`` of a variant. Raises InputError."""
         different = sorted(self.table.inputs.keys() ^ self.inputs.keys())
         if different:
             problem = f"made with, or without, {', '.join(different)}, unlike [{self.element}.inputs]"

@@ -1,12 +1,12 @@
-"""The draws of all trials, from the root seed: as one table, or counted.
+"""Draws of all trials from the root seed: as one table, or counter-based.
 
-In a table each draw has a separate random stream, keyed by the seed and the name it fills, of which trial k uses the
-k-th portion: a trial's values depend neither on how many trials there are nor on what else is drawn. Grids, Latin
-hypercubes and Sobol sequences are designs of the whole table instead.
+In a table each draw has a separate random stream, with the seed and its name as the key, of which trial k uses the k-th
+portion: a trial's values depend neither on the number of trials nor on other draws. Grids, Latin hypercubes and Sobol
+sequences are designs of the whole table instead.
 
-Counted draws need no table. Trials are divided into blocks of 1024, whatever shards there are. The values of a draw in
-a block come from Philox (Salmon et al. 2011) with the key of the draw's name and a counter that begins with the block's
-number: no two blocks and no two names share a number. The values differ from those of a table.
+Counter-based draws need no table. Trials are divided into blocks of 1024, independently of shards. The values of a draw
+in a block come from Philox (Salmon et al. 2011) with the key of the draw's name and a counter that begins with the
+block's number: no two blocks and no two names share a number. The values differ from those of a table.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from .given import stream_component
 
 
 class Draws(Protocol):
-    """All drawn and derived values of a campaign, wherever they lie."""
+    """All drawn and derived values of a campaign, stored or computed on demand."""
 
     def of_first(self, trials: int) -> Draws:
         """Return the samples of the first ``trials`` trials."""
         ...
 
     def of_part(self, trials: range) -> DrawTable:
-        """Return the samples of consecutive trials, which are counted from 0 then."""
+        """Return the samples of consecutive trials, renumbered from 0."""
         ...
 
 
@@ -54,7 +54,7 @@ class DrawTable:
         return {name: column.item(trial) for name, column in self.columns.items()}
 
     def parameters(self, rows: slice) -> dict[str, np.ndarray]:
-        """Return the columns of some trials that are component parameters: those with a dot in their name, of draws."""
+        """Return the columns of some trials that are component parameters: drawn ones with a dot in their name."""
         return {
             name: column[rows]
             for name, column in self.columns.items()
@@ -63,15 +63,16 @@ class DrawTable:
 
 
 def split_trials(trials: int, size: int) -> Iterator[range]:
-    """Yield all trials, ``size`` of them at a time."""
+    """Yield the ranges of all trials, ``size`` trials at a time."""
     return (range(first, min(first + size, trials)) for first in range(0, trials, size))
 
 
 def draw_parts(campaign: CampaignDraws, size: int) -> Iterator[DrawTable]:
     """Yield the table of draws and derived values, ``size`` trials at a time, columns in the file's order.
 
-    Neither the size nor the order in which draws are declared changes values. Only designs are held whole. Raises
-    InputError where the number of trials does not suit a design, or a table, or a derived value is not finite.
+    Values depend neither on the size nor on the order in which draws are declared. Only designs are kept in memory as a
+    whole. Raises InputError if the number of trials does not suit a design or a table, or a derived value is not
+    finite.
     """
     trials, seed, file = campaign.trials, campaign.seed, campaign.file
     if trials > TABLE_TRIALS.limit:
@@ -90,15 +91,15 @@ def draw_parts(campaign: CampaignDraws, size: int) -> Iterator[DrawTable]:
 
 
 def draw_table(campaign: CampaignDraws) -> DrawTable:
-    """Return all blocks of `draw_parts` in one. Raises InputError."""
+    """Return all blocks of `draw_parts` in one table. Raises InputError."""
     return next(draw_parts(campaign, campaign.trials))
 
 
 def table_of(campaign: CampaignDraws, drawn: Mapping[str, np.ndarray], trials: range | None = None) -> DrawTable:
-    """Return the table with these draws, an array (trials,) by name, the campaign's derived values and its lookups.
+    """Return the table of these draws, arrays (trials,) by name, with the campaign's derived values and lookups.
 
-    ``trials`` are the numbers of their trials, by default all of the campaign. Raises InputError where a derived value
-    is not finite, or a lookup has fewer trials.
+    ``trials`` are the numbers of the trials, by default all of the campaign. Raises InputError if a derived value is
+    not finite, or a lookup has fewer trials.
     """
     numbers = range(campaign.trials) if trials is None else trials
     names = input_names(campaign)
@@ -117,7 +118,7 @@ BLOCK = 1024  # trials
 
 
 class CountedDraws:
-    """The draws of a campaign with draw_scheme = "counter". Raises InputError for designs that need a table."""
+    """Draws of a campaign with draw_scheme = "counter". Raises InputError for designs that need a table."""
 
     def __init__(self, campaign: CampaignDraws) -> None:
         for draw in campaign.draws:
@@ -136,12 +137,11 @@ class CountedDraws:
         self._independent = independent_draws(ordered)
 
     def of_first(self, trials: int) -> CountedDraws:
-        """Return the samples of the first ``trials`` trials, which are the same in every campaign of as many or
-        more."""
+        """Return the samples of the first ``trials`` trials, which do not depend on the number of trials."""
         return self
 
     def of_part(self, trials: range) -> DrawTable:
-        """Return the samples of consecutive trials, counted from 0 then. Raises InputError where one is not finite."""
+        """Return the samples of consecutive trials, renumbered from 0. Raises InputError if one is not finite."""
         first = trials.start // BLOCK
         blocks = [self._block(block) for block in range(first, -(-trials.stop // BLOCK))]
         rows = slice(trials.start - first * BLOCK, trials.stop - first * BLOCK)

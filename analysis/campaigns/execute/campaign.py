@@ -1,4 +1,4 @@
-"""A campaign that is ready to fly: its plan, systems and manifest, in a folder if it has one."""
+"""Campaign that is ready for simulation: its plan, systems and manifest, in a folder if it has one."""
 
 from __future__ import annotations
 
@@ -136,11 +136,11 @@ def open_campaign(
     workers: int | None = None,
     elsewhere: str | None = None,
 ) -> LoadedCampaign:
-    """Check a plan and store it. Raises InputError before anything is written or flown.
+    """Check a plan and store it. Raises InputError before anything is written or simulated.
 
-    With ``output`` a campaign begins in that folder, in place of what is there, or goes on there with ``resume``; what
-    flies are the files that the folder then holds, whatever becomes of their originals. ``elsewhere`` says who
-    simulates it, where that is not this process.
+    With ``output`` a campaign is started in that folder, replacing its content, or resumed there with ``resume``. The
+    files stored in the folder are simulated, even if their originals change. ``elsewhere`` names the executor if it is
+    not this process.
     """
     if elsewhere is not None and plan.options.chosen["flavour"] == FUSED:
         problem = f"{elsewhere} compile steps where that pays, and do not know of the option"
@@ -163,7 +163,7 @@ def open_campaign(
 
 
 def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> LoadedCampaign:
-    """Open the campaign whose manifest is in a folder; ``trust`` is what foreign FMUs may do. Raises InputError."""
+    """Open the campaign with a manifest in a folder; ``trust`` are permissions of foreign FMUs. Raises InputError."""
     named, folder = folder, folder.absolute()
     manifest = read_manifest(folder)
     plan = restore(folder, manifest, trust=trust)  # whose draws were checked when the folder was created
@@ -171,7 +171,7 @@ def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> LoadedCampaign:
 
 
 def read_folder(folder: Path) -> CampaignFolder:
-    """Read the folder of a campaign that is complete, or still running. Raises InputError for any other."""
+    """Return the folder of a campaign that is complete or still running. Raises InputError for other folders."""
     folder = folder.absolute()
     check_folder(folder / FOLDER, NEW_FOLDER)
     if (folder / SUMMARY).is_file():

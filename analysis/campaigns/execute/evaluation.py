@@ -1,8 +1,7 @@
-"""Evaluation of the trials of one variant: metrics, success, records, of several simulations at once where possible.
+"""Evaluation of the trials of one variant: metrics, success and records, for several simulations at once.
 
-A metric of the end needs the last row of a simulation only: these rows are collected, and each expression is evaluated
-once for the simulations of a task. A metric over time is evaluated as soon as its simulations are there, since the next
-ones overwrite them.
+Metrics that need only the last row are evaluated once for all simulations of a task, on their collected last rows.
+Metrics over time are evaluated immediately, since the next simulations overwrite the rows.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ COMPLETE = "complete"  # true of a simulation that did not fail
 
 
 class MetricEvaluator:
-    """Metrics, success and records of a variant's simulations, which are added group by group."""
+    """Evaluator of metrics, success and records of a variant's simulations, which are added group by group."""
 
     def __init__(self, campaign: Campaign, names: VariantNames) -> None:
         self._campaign = campaign
@@ -46,7 +45,7 @@ class MetricEvaluator:
         self._traces: dict[int, dict[str, np.ndarray]] = {}
 
     def add(self, group: FlightGroup, trials: range, sampled: TrialSamples) -> None:
-        """Evaluate simulations of these trials; nothing of them is needed afterwards."""
+        """Evaluate the simulations of these trials; their rows are not needed afterwards."""
         signals, draws = group.signals, sampled.columns_of(trials)
         lengths = group.ends - group.starts
         rows = {name: np.repeat(draws[name], lengths) for name in self._draws_over_time}
@@ -69,7 +68,7 @@ class MetricEvaluator:
         self._keep_signals(group, trials, columns)
 
     def _keep_signals(self, group: FlightGroup, trials: range, columns: Columns) -> None:
-        """Copy the stored time histories of flights: sampled signals, or everything of some trials."""
+        """Copy the stored time histories of simulations: sampled signals, or everything of some trials."""
         record = self._campaign.record
         if record.traces == "none" and record.every is None:
             return
@@ -88,7 +87,7 @@ class MetricEvaluator:
             }
 
     def trials(self) -> TrialTable:
-        """Return the table of the simulations added since the last call, one or more."""
+        """Return the table of the simulations added since the last call, at least one."""
         columns = {name: np.concatenate([group[name] for group in self._groups]) for name in self._groups[0]}
         metrics = self._metrics(columns)
         trials = TrialTable.of(
@@ -123,7 +122,7 @@ class MetricEvaluator:
         return metrics
 
     def _success(self, columns: Columns, metrics: Mapping[str, np.ndarray]) -> np.ndarray:
-        """Return which simulations are successes (simulations,)."""
+        """Return for each simulation whether it is a success (simulations,)."""
         complete = columns[COMPLETE]
         return successes(self._campaign.success, metrics, complete.size) & complete
 
@@ -132,7 +131,7 @@ WORST = re.compile(r"([^\s(),]+) (-?\d+)[,)]")
 
 
 def trial_statuses(group: FlightGroup, statuses: Iterable[str]) -> list[str]:
-    """Return how each simulation ended, with the worst status of every component that reported other than 0.
+    """Return the status of each simulation, with the worst status of every component that reported other than 0.
 
     For instance ``finished`` or ``finished (guidance.status 2)``.
     """
@@ -148,5 +147,5 @@ def trial_statuses(group: FlightGroup, statuses: Iterable[str]) -> list[str]:
 
 
 def worst_statuses(text: str) -> dict[str, int]:
-    """Read the brackets of `trial_statuses`: the worst status other than 0 by the signal that reported it."""
+    """Return the worst component statuses in a text of `trial_statuses`, by signal."""
     return {name: int(value) for name, value in WORST.findall(text)}

@@ -1,4 +1,4 @@
-"""Flies shards: the trials of each parted among workers, and put together again."""
+"""Simulates shards: the trials of each are divided among workers and reassembled."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ TASKS = 16  # for each worker, at least: few trials at the end, when some have n
 def fly_shards(
     numbering: Numbering, shards: Sequence[int], pool: FlyerPool, size: int
 ) -> Generator[tuple[int, dict[str, TrialTable]]]:
-    """Fly shards of the pool's plan, in tasks of ``size`` trials.
+    """Simulate shards of the pool's plan, in tasks of ``size`` trials.
 
-    Each one's trials come by variant, as soon as all are there, in any order of shards.
+    Yields each shard's number and trials by variant on completion, in any order of shards.
     """
     variants = [variant.name for variant in pool.plan.campaign.variants()]
     owners: dict[int, tuple[int, str]] = {}  # of tasks that are handed out: shard and variant
@@ -48,7 +48,7 @@ def task_size(trials: int, workers: int, threads: bool) -> int:
 
 
 class ShardAssembler:
-    """Takes pieces of shards in any order, and gives a shard back as soon as all of its trials are there."""
+    """Assembles shards from pieces in any order, and returns a shard once all of its trials are present."""
 
     def __init__(self, numbering: Numbering, variants: Sequence[str]) -> None:
         self._numbering = numbering
@@ -56,7 +56,7 @@ class ShardAssembler:
         self._pieces: dict[int, dict[str, list[TrialTable]]] = {}
 
     def add(self, shard: int, variant: str, trials: TrialTable) -> dict[str, TrialTable] | None:
-        """Add trials of a shard; return all by variant, if these were its last ones."""
+        """Add trials of a shard; if the shard is complete, return all of its trials by variant, else None."""
         pieces = self._pieces.setdefault(shard, {name: [] for name in self._variants})
         pieces[variant].append(trials)
         flown = sum(len(piece) for parts in pieces.values() for piece in parts)

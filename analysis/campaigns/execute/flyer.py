@@ -1,4 +1,4 @@
-"""Flies trials of a plan in one worker: one simulation per variant, reset and reused."""
+"""Simulates trials of a plan in one worker, with one reused simulation for each variant."""
 
 from __future__ import annotations
 
@@ -36,9 +36,10 @@ class TrialResult(NamedTuple):
 
 
 class Flyer:
-    """Holds the simulations of a plan's variants; created once per worker, not shared between threads.
+    """Simulations of a plan's variants, for one worker. Not shared between threads.
 
-    ``in_child``: all run in children, also those that may run here. ``trials`` and ``workers`` are as in `Fusing`.
+    With ``in_child`` all run in children, even those that could run in this process. ``trials`` and ``workers`` are as
+    in `Fusing`.
     """
 
     def __init__(self, plan: BatchPlan, *, in_child: bool = False, trials: int | None = None, workers: int = 1) -> None:
@@ -53,7 +54,7 @@ class Flyer:
         self.halted = False
 
     def simulation(self, variant: str) -> tuple[BaseSimulation, VariantNames]:
-        """Return the simulation of a variant, opened at its first use."""
+        """Return the simulation of a variant, opened at first use."""
         if variant not in self._ready:
             with LOADING:
                 prepared = self.plan.prepare(self.variants[variant])
@@ -77,7 +78,7 @@ class Flyer:
         return self._ready[variant]
 
     def _log_of(self, variant: str) -> Log | None:
-        """Return the log of a variant's FMUs, if they log."""
+        """Return the log for a variant's FMUs, None without a log level."""
         if self.plan.watch.log is None:
             return None
         self._logs[variant] = Log(self.plan.watch.log)
@@ -92,7 +93,7 @@ class Flyer:
         return self._drawn
 
     def fly_others(self, variant: str, plan: BatchPlan) -> TrialTable:
-        """Fly all trials of another plan for the same system. Raises KeyboardInterrupt after an `interrupt`."""
+        """Simulate all trials of another plan for the same system. Raises KeyboardInterrupt after an `interrupt`."""
         trials = range(plan.campaign.trials)
         self._drawn = plan.values_of(trials)
         try:
@@ -101,18 +102,18 @@ class Flyer:
             self._drawn = None
 
     def interrupt(self) -> None:
-        """End what flies in another thread at its next communication point."""
+        """End the simulation running in another thread at its next communication point."""
         self.halted = True
         for simulation, _ in list(self._ready.values()):
             simulation.interrupt()
 
     def give_up(self) -> None:
-        """End what flies in another thread and has not reached a communication point, where it can be ended."""
+        """End a simulation in another thread that has not reached a communication point, if possible."""
         for simulation, _ in list(self._ready.values()):
             simulation.give_up("was interrupted")
 
     def fly(self, variant: str, trials: range) -> TrialTable:
-        """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
+        """Simulate trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
         simulation, names = self.simulation(variant)
         evaluator = MetricEvaluator(self.plan.campaign, names)
         size = simulation.group_size if self.plan.watch.timeout is None else 0
@@ -136,7 +137,7 @@ class Flyer:
         return evaluator.trials()
 
     def _fly_next(self, variant: str, trial: int, trials: range) -> FlightGroup:
-        """Return one of ``trials``, with the next one announced."""
+        """Simulate one of ``trials``, with the next one announced."""
         if trial == trials.start:
             self._announce(variant, trial)
         if trial + 1 in trials:
@@ -144,17 +145,17 @@ class Flyer:
         return FlightGroup.of(self._flight(variant, trial))
 
     def fly_one(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> TrialResult:
-        """Fly one trial; the result does not depend on what was flown before.
+        """Simulate one trial; the result does not depend on earlier simulations.
 
-        ``overlay`` gives all of the plan's overlaid parameters their values; without it they keep those of
-        the variant's last flight.
+        ``overlay`` sets all of the plan's overlaid parameters; without it they keep their values in the variant's last
+        simulation.
         """
         return self._look_at(self._flight(variant, trial, overlay), trial, self.simulation(variant)[1])
 
     def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
-        """Fly one trial with every signal recorded; same bits as in the batch.
+        """Simulate one trial with every signal recorded, with the same bits as in the batch.
 
-        Where an output that the batch does not read is not finite, only what the batch reads is recorded.
+        If an output that the batch does not read is not finite, only signals that the batch reads are recorded.
         """
         prepared = self.plan.prepare(self.variants[variant])
         names = variant_names(self.plan, prepared)
@@ -169,7 +170,7 @@ class Flyer:
     def _fly_recorded(
         self, variant: str, prepared: PreparedSystem, trial: int, names: VariantNames, wanted: set[str] | None
     ) -> Result:
-        """Return a trial with these signals recorded, None for all."""
+        """Simulate a trial with these signals recorded, None for all."""
         faults, log, sampled = self.plan.list_faults(), self._log_of(variant), self.values_for(trial)
         with open_simulation(
             prepared,
@@ -208,7 +209,7 @@ class Flyer:
             return nothing_flown(simulation, str(error))
 
     def _warn_once(self, variant: str, text: str) -> None:
-        """Say what was not as it should be in a trial of a variant; of those that follow nothing."""
+        """Warn of problems in a trial of a variant, only the first time."""
         if variant not in self._warned:
             self._warned.add(variant)
             warnings.warn(f"{variant}: {text}", stacklevel=2)
@@ -220,9 +221,10 @@ class Flyer:
             simulation.announce(sampled.parameters(simulation.prepared, trial), sampled.faults_of(trial))
 
     def _is_to_be_repeated(self, simulation: BaseSimulation, flight: Flight) -> bool:
-        """Return True if a simulation that lost its process is repeated in a new one: its FMU may not be the cause.
+        """Return True if a simulation whose process ended is to be repeated in a new one.
 
-        An earlier simulation may have harmed the process, and another program may have killed it.
+        Its FMU may not be the cause: an earlier simulation may have corrupted the process, or another program killed
+        it.
         """
         is_lost = flight.status in LOST and not self.halted
         return is_lost and (flight.status == CRASHED or simulation.flights > 1)
@@ -234,7 +236,7 @@ class Flyer:
 
 
 def result_of(trials: TrialTable, row: int) -> TrialResult:
-    """Return one of some trials in memory, by its row."""
+    """Return the result of one trial, by its row in a table in memory."""
     entries = trials.table.slice(row, 1).to_pylist()[0]
     return TrialResult(
         status=entries["status"],

@@ -1,4 +1,4 @@
-"""The folder of a campaign: begun, or found again and gone on with."""
+"""Folder of a campaign: created, or found and resumed."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .identity import differences
 
 
 def begin(folder: Path, manifest: CampaignManifest, contents: dict[str, bytes], plan: BatchPlan) -> CampaignManifest:
-    """Write a folder with a campaign's manifest, contents and draws, and none of the trials of another."""
+    """Write a campaign's manifest, contents and draws to a folder, and remove trials of other campaigns."""
     for name in (FILE, SUMMARY):  # first, so that what is left of another campaign is no result any more
         (folder / name).unlink(missing_ok=True)
     clear(folder)
@@ -30,7 +30,7 @@ def begin(folder: Path, manifest: CampaignManifest, contents: dict[str, bytes], 
 def resume_folder(
     folder: Path, manifest: CampaignManifest, contents: dict[str, bytes], plan: BatchPlan
 ) -> CampaignManifest:
-    """Resume a folder that holds this campaign already, or its first trials. Raises InputError for another one."""
+    """Resume a folder that contains this campaign or its first trials. Raises InputError for another campaign."""
     held = read_manifest(folder)
     manifest = replace(manifest, shard_size=held.shard_size)  # which followed from fewer trials
     difference = differences(held, manifest)
@@ -52,7 +52,7 @@ def resume_folder(
 
 
 def _check_draws(folder: Path, held: CampaignManifest, plan: BatchPlan) -> None:
-    """Refuse a plan that does not draw for the first trials what is held for them."""
+    """Reject a plan whose draws for the first trials differ from the stored ones."""
     names = plan.campaign.input_names()
     stored, first = read_draws(folder, held.trials, names), 0
     for part in plan.draw_parts(held.shard_size):
@@ -67,7 +67,7 @@ def _check_draws(folder: Path, held: CampaignManifest, plan: BatchPlan) -> None:
 
 
 def cut(folder: Path, manifest: CampaignManifest, plan: BatchPlan) -> CampaignManifest:
-    """Cut the folder to a campaign of fewer trials, those of the plan: whole shards, and the traces of these."""
+    """Reduce the folder to the plan's trials, which are fewer: whole shards and their traces."""
     manifest = replace(manifest, trials=plan.campaign.trials)
     numbering = Numbering(manifest.trials, manifest.shard_size)
     for path in (folder / FOLDER).glob("[0-9]*.parquet"):
@@ -83,7 +83,7 @@ def cut(folder: Path, manifest: CampaignManifest, plan: BatchPlan) -> CampaignMa
 
 
 def tidy(folder: Path) -> None:
-    """Remove what writers that were killed left in a campaign's folder, in which all shards lie."""
+    """Remove temporary files of killed writers from the folder of a campaign whose shards are all stored."""
     for place in (folder, folder / FOLDER, folder / CONTENTS, *trace_path(folder, "", 0).parent.glob("*/")):
         remove_partial(place)
 

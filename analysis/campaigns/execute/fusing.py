@@ -1,4 +1,4 @@
-"""When the steps of a batch are worth compiling: judged by how long its trials take, and how many are left."""
+"""Decision whether to compile the steps of a batch, from the duration of its trials and the number that remains."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ _compiling = threading.Lock()  # one worker at a time, while the others go on
 
 
 class Fusing:
-    """Compiles the steps of one worker's simulations where that pays and the user gives no flavour.
+    """Compiles the steps of one worker's simulations if it saves time and the user sets no flavour.
 
-    Results have the same bits before and after. ``trials`` are those of each variant that all ``workers`` together
-    simulate; None: nobody knows, and as many are expected as have been simulated.
+    Results have the same bits before and after. ``trials`` is the number of each variant's trials for all ``workers``
+    together; if it is None, as many as have been simulated are expected to follow.
     """
 
     def __init__(self, flavour: str | None, trials: int | None, workers: int) -> None:
@@ -29,10 +29,10 @@ class Fusing:
         self._decided: set[str] = set()  # variants
 
     def consider(self, variant: str, simulation: BaseSimulation, count: int, seconds: float) -> None:
-        """Compile the steps of a variant, ``count`` trials of which took so long (s), if those left save enough.
+        """Compile a variant's steps if it saves enough, where ``count`` of its trials took ``seconds``.
 
-        Not behind the first trials, whose time is that of loading the loop, too. Warns where the compiler refuses them;
-        then trials are simulated as before.
+        Not after the first trials, whose duration includes loading the loop. Warns if the compiler rejects the steps;
+        trials are then simulated as before.
         """
         if not self._is_open or variant in self._decided:
             return

@@ -1,4 +1,4 @@
-"""Identity of a campaign: what its numbers depend on, without names, limits and forms of FMUs."""
+"""Identity of a campaign: the inputs that determine its numbers, without names, limits and flavours of FMUs."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ SCRIPT = "resources/slavemodule.txt"  # of pythonfmu: the name of the module tha
 
 
 def identity_of(fmu: Fmu) -> str:
-    """Return what tells an FMU from others: the GUID of the native FMU, of either flavour of Perilune's blocks.
+    """Return the identity of an FMU: for Perilune's blocks of either flavour, the GUID of the native FMU.
 
-    Of others it is the SHA-256 of the file, as of Python FMUs whose block is not here, or has other sources here.
+    For others it is the SHA-256 of the file, also for Python FMUs whose block is not installed here, or has other
+    sources.
     """
     if not fmu.is_self_contained:
         return fmu.digest
@@ -30,10 +31,10 @@ def identity_of(fmu: Fmu) -> str:
 
 
 def campaign_key(manifest: CampaignManifest) -> str:
-    """Return what tells a campaign from others, however many trials it has.
+    """Return the identity of a campaign, independent of its number of trials.
 
-    It is the same whatever its system and its files are called, whoever simulates it, with which limits of wall-clock
-    time and memory, in either flavour of Perilune's FMUs. In a manifest of an earlier version all of that counts.
+    It does not depend on names of the system and files, on the executor, on limits of time and memory, or on the
+    flavour of Perilune's FMUs. For a manifest of an earlier version it does.
     """
     document = {**manifest.document(), "trials": None}
     if manifest.identities is not None:
@@ -42,9 +43,9 @@ def campaign_key(manifest: CampaignManifest) -> str:
 
 
 def differences(stored: CampaignManifest, requested: CampaignManifest) -> str:
-    """Return what two manifests differ in, as one phrase.
+    """Return the differences of two manifests as one phrase.
 
-    It is empty where they differ in the number of trials, names and limits alone; of an earlier version limits count.
+    It is empty if only the number of trials, names and limits differ; in a manifest of an earlier version limits count.
     """
     one, other = ({**_without_names(manifest.document()), "trials": None} for manifest in (stored, requested))
     for document in (one, other):
@@ -58,7 +59,7 @@ def differences(stored: CampaignManifest, requested: CampaignManifest) -> str:
 
 
 def _content(document: dict[str, Any], identities: Mapping[str, str]) -> dict[str, Any]:
-    """Return a manifest's document with FMUs by their identities, and without what changes no number."""
+    """Return a manifest's document with FMUs replaced by their identities, without entries that affect no number."""
 
     def identify(stored: str) -> str:
         return identities.get(stored.partition(".")[0], stored)
@@ -84,7 +85,7 @@ def _drop_limits(document: dict[str, Any]) -> None:
 
 
 def _without_names(document: Any) -> Any:
-    """Return a manifest's document without what its user calls the system, the campaign's files and tables."""
+    """Return a manifest's document without the user's names of the system, the campaign's files and tables."""
     if isinstance(document, list):
         return [_without_names(each) for each in document]
     if not isinstance(document, dict):
@@ -96,7 +97,7 @@ def _without_names(document: Any) -> Any:
 
 
 def _pairs(name: str, left: object, right: object) -> Iterator[tuple[str, object, object]]:
-    """Yield the values in which two documents differ, by dotted name."""
+    """Yield dotted name and both values of the entries in which two documents differ."""
     if isinstance(left, dict) and isinstance(right, dict):
         for key in {**left, **right}:
             yield from _pairs(f"{name}.{key}" if name else key, left.get(key), right.get(key))

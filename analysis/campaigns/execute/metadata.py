@@ -1,4 +1,4 @@
-"""Metadata of a stored batch: inputs of its numbers, and units, types, expressions of its columns."""
+"""Metadata of a stored batch: inputs that determine its numbers; units, types and expressions of its columns."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 
 
 def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> CampaignProvenance:
-    """Return the inputs of a batch's numbers; ``systems`` are the prepared ones by variant."""
+    """Return the inputs that determine a batch's numbers; ``systems`` are the prepared ones by variant."""
     first = next(iter(systems.values()))
     options = plan.options
     metadata: CampaignProvenance = {
@@ -105,7 +105,7 @@ def _metric(metric: Metric, signals: Mapping[str, SignalMetadata]) -> MetricMeta
 
 
 def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]:
-    """Return unit, type and axis of every signal of any variant by name."""
+    """Return unit, type and axis of every signal of any variant, by name."""
     signals: dict[str, SignalMetadata] = {}
     for prepared in systems.values():
         network = prepared.network
@@ -124,7 +124,7 @@ def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, SignalMetadata]
 
 
 def _targets(prepared: PreparedSystem) -> dict[str, float]:
-    """Return parameters called target_position and target_velocity, as one variant's flights begin with them."""
+    """Return parameters named target_position and target_velocity, with one variant's initial values."""
     targets = {}
     for component, fmu in prepared.network.fmus.items():
         for variable in fmu.variables.values():

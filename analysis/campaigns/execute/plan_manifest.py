@@ -1,4 +1,4 @@
-"""From a plan and its prepared systems to the manifest with its contents, and from a folder back to the plan."""
+"""Conversion of a plan and its prepared systems to a manifest with contents, and of a folder back to the plan."""
 
 from __future__ import annotations
 
@@ -50,25 +50,25 @@ from .identity import identity_of
 
 
 class _Contents(dict[str, bytes]):
-    """Contents of files by the names under which a campaign's folder has them."""
+    """Contents of files under their names in a campaign's folder."""
 
     def keep(self, content: bytes, name: str) -> str:
-        """Add the content of a file; return the name."""
+        """Add the content of a file, and return its name in the folder."""
         stored = content_name(content, PurePath(name).suffix)
         self[stored] = content
         return stored
 
     def keep_table(self, label: str, sha256: str, columns: Mapping[str, np.ndarray]) -> TableDocument:
-        """Add columns as Parquet, every bit of them."""
+        """Add columns as Parquet, which preserves every bit."""
         sink = pyarrow.BufferOutputStream()
         pyarrow.parquet.write_table(pyarrow.table(dict(columns)), sink)
         return {"label": label, "sha256": sha256, "content": self.keep(bytes(sink.getvalue()), ".parquet")}
 
 
 def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[CampaignManifest, dict[str, bytes]]:
-    """Return the manifest of a plan that was read from a campaign's file, and the contents that it names.
+    """Return the manifest of a plan read from a campaign's file, and the contents that it refers to.
 
-    ``systems`` are those of `check_plan`, by variant. FMUs that are not ours have their reset tried here, at first use.
+    ``systems`` are those of `check_plan`, by variant. Foreign FMUs are tested for their reset here, at first use.
     """
     campaign, contents, given, series = plan.campaign, _Contents(), plan.given, plan.series
     fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
@@ -109,7 +109,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Camp
 
 
 def _system_document(archives: Sequence[SystemArchive], contents: _Contents) -> SystemDocument:
-    """Return the document of a system, read for each variant; its list of files may lack some that variants read."""
+    """Return the document of a system read once for each variant, with the files of all of them."""
     archive = archives[0]
     unlisted = dict.fromkeys(name for each in archives for name in each.besides)
     return {
@@ -138,7 +138,7 @@ def _campaign_document(plan: BatchPlan, contents: _Contents) -> CampaignDocument
 
 
 def _source_document(source: CampaignSource, label: str, contents: _Contents) -> SourceDocument:
-    """Return the contents of a campaign's file, and of those that it extends."""
+    """Return the document of a campaign's file and of those that it extends."""
     extends = [_source_document(part, part.label, contents) for part in source.extends]
     document: SourceDocument = {"label": label, "content": contents.keep(source.raw, source.label)}
     attached: dict[str, AttachedDocument] = {
@@ -163,10 +163,10 @@ def restore(
     draws: Path | None = None,
     trust: Trust = UNTRUSTED,
 ) -> BatchPlan:
-    """Return the plan of a campaign's folder, with the draws that are stored there. Raises InputError.
+    """Return the plan in a campaign's folder, with the stored draws. Raises InputError.
 
-    ``log`` is the level of the FMUs' messages, which changes no result; ``draws`` is the folder of the table of draws
-    where that is another; ``trust`` is what foreign FMUs may do.
+    ``log`` is the level of the FMUs' messages, which affects no result; ``draws`` is the folder of the table of draws
+    if it is another one; ``trust`` are permissions of foreign FMUs.
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
     source = _restore_source(contents, manifest.campaign)
@@ -198,7 +198,7 @@ def restore(
 
 
 def _restore_campaign(source: CampaignSource, manifest: CampaignManifest, folder: Path) -> Campaign:
-    """Return the campaign of a file with the changes of its manifest. Raises InputError."""
+    """Return the campaign in a file with the changes recorded in its manifest. Raises InputError."""
     parsed, compare = parse_campaign(source.table()), manifest.campaign["compare"]
     read = replace(
         parsed,
@@ -217,7 +217,7 @@ def _restore_campaign(source: CampaignSource, manifest: CampaignManifest, folder
 
 
 def _restore_series(contents: Path, manifest: CampaignManifest) -> InputSeries | None:
-    """Return the inputs over time, None without."""
+    """Return the inputs over time, or None."""
     if manifest.series is None:
         return None
     columns = _read_columns(contents, manifest.series)
@@ -225,7 +225,7 @@ def _restore_series(contents: Path, manifest: CampaignManifest) -> InputSeries |
 
 
 def _restore_verdict(document: ResetDocument) -> ResetVerdict:
-    """Return a verdict; one of an earlier version knew of resets and new instances alone."""
+    """Return a verdict, also from an earlier version, which only distinguished resets and new instances."""
     earlier = Renewal.RESET if document.get("resets", False) else Renewal.INSTANCE
     return ResetVerdict(document.get("renewal", earlier), document["reason"])
 

@@ -1,4 +1,4 @@
-"""Repeated trial of a stored campaign, from its folder alone, and its comparison with the stored result."""
+"""Repetition of a trial of a stored campaign, from its folder alone, and comparison with the stored result."""
 
 from __future__ import annotations
 
@@ -24,11 +24,12 @@ CUT_OFF = ("interrupted", TIMED_OUT)
 
 @dataclass(frozen=True)
 class ReplayedTrial:
-    """One trial of one ``configuration`` of a campaign: its ``flight`` with every signal, what it came to.
+    """Repeated trial of one ``configuration`` of a campaign: its ``flight`` with every signal, metrics and success.
 
-    ``faults`` flew in it. ``stored`` says whether the folder has the trial, ``differences`` how the flight differs from
-    it: nothing where this version of Perilune flew the campaign, foreign FMUs on this machine, and the
-    flight was not cut off by ``timeout`` or Ctrl-C (``is_cut_off``), after which the rest is not compared.
+    ``faults`` acted in it. ``stored`` is True if the folder contains the trial; ``differences`` are those from the
+    stored result. There are none if this version of Perilune simulated the campaign, foreign FMUs were simulated on
+    this machine, and the simulation was not cut off by ``timeout`` or Ctrl-C (``is_cut_off``), after which the rest is
+    not compared.
     """
 
     plan: BatchPlan
@@ -43,7 +44,7 @@ class ReplayedTrial:
 
     @property
     def is_cut_off(self) -> bool:
-        """True if the flight ended early by a limit of wall-clock time, or by Ctrl-C."""
+        """True if the simulation was ended by a limit of wall-clock time, or by Ctrl-C."""
         return self.outcome.status in CUT_OFF
 
 
@@ -56,10 +57,10 @@ def replay_trial(
     timeout: float | None = None,
     trust: Trust = UNTRUSTED,
 ) -> ReplayedTrial:
-    """Fly a trial of a campaign's folder again, to the bits of the campaign. Raises InputError and StuckError.
+    """Repeat a trial of a campaign's folder with the campaign's bits. Raises InputError and StuckError.
 
-    ``configuration`` names the variant where the campaign compares several. ``log`` is the level of the FMUs' messages;
-    ``timeout`` (s, wall clock) takes the place of the campaign's own, ``trust`` is what foreign FMUs may do.
+    ``configuration`` names the variant if there are several. ``log`` is the level of the FMUs' messages; ``timeout`` (s
+    of wall time) replaces the campaign's; ``trust`` are permissions of foreign FMUs.
     """
     folder = folder.absolute()  # FMUs may change the working folder
     campaign = open_folder(folder, trust)
@@ -71,7 +72,7 @@ def replay_trial(
 
 
 def replay_plan(plan: BatchPlan, trial: int, configuration: str | None = None) -> ReplayedTrial:
-    """Simulate a trial of a plan again, which no folder holds. Raises InputError and StuckError."""
+    """Repeat a trial of a plan without a folder. Raises InputError and StuckError."""
     check_plan(plan)
     variant = _variant_of(plan, plan.campaign.file, configuration)
     _check_trial(plan.campaign.file, trial, plan.campaign.trials)
@@ -81,7 +82,7 @@ def replay_plan(plan: BatchPlan, trial: int, configuration: str | None = None) -
 def _replay(
     plan: BatchPlan, prepared: PreparedSystem, variant: Variant, trial: int, campaign: LoadedCampaign | None
 ) -> ReplayedTrial:
-    """Repeat a trial; compare it with the stored one in the folder of ``campaign``, if there is one."""
+    """Repeat a trial, and compare it with the stored one in the folder of ``campaign``, if there is one."""
     flight, outcome = Flyer(plan).replay(variant.name, trial)
     stored = None if campaign is None else _read_stored(campaign, variant, trial)
     return ReplayedTrial(
@@ -113,7 +114,7 @@ def _variant_of(plan: BatchPlan, file: str | Path, name: str | None) -> Variant:
 
 
 def _read_stored(campaign: LoadedCampaign, variant: Variant, trial: int) -> TrialResult | None:
-    """Return the stored result of a trial; None where its shard is missing. Raises InputError for a damaged one."""
+    """Return the stored result of a trial, None if its shard is missing. Raises InputError for a damaged one."""
     shard = trial // campaign.numbering.size
     if not campaign.has(shard):
         return None
@@ -124,7 +125,7 @@ def _read_stored(campaign: LoadedCampaign, variant: Variant, trial: int) -> Tria
 
 
 def _differences(stored: TrialResult, flown: TrialResult) -> tuple[str, ...]:
-    """Return the differences of two outcomes of one trial, to the last bit, a phrase each."""
+    """Return the bitwise differences between two results of one trial, a phrase each."""
     if flown.status in CUT_OFF:
         return (f"status {stored.status!r} is stored, {flown.status!r} was flown: the rest is not compared",)
     pairs: dict[str, tuple[object, object]] = {

@@ -1,4 +1,4 @@
-"""Results of a batch: a table of trials, a summary, files."""
+"""Result of a batch: table of trials, summary, files."""
 
 from __future__ import annotations
 

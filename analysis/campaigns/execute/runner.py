@@ -1,4 +1,4 @@
-"""Runs a campaign: manifest, draws, shards flown by workers, results."""
+"""Runs a campaign: manifest, draws, shards simulated by workers, results."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ def run_batch(
     engine: str | None = None,
     elsewhere: Elsewhere | None = None,
 ) -> CampaignResult:
-    """Simulate every trial of every variant of a plan. Raises InputError before anything flies.
+    """Simulate every trial of every variant of a plan. Raises InputError before any simulation.
 
-    ``workers`` is the number of parallel flights (default: one per processor), ``engine`` one of `ENGINES` (default:
-    threads where the FMUs can fly in them); ``elsewhere`` flies in place of both. With ``output`` every shard is
-    written there as soon as it is flown, and the summary at the end: whatever ends it early, ``resume`` goes on from
-    there. Without it Ctrl-C leaves nothing.
+    ``workers`` is the number of parallel simulations (default: one per processor), ``engine`` one of `ENGINES`
+    (default: threads if the FMUs permit); ``elsewhere`` is an executor that replaces both. With ``output`` every shard
+    is stored in that folder on completion, and the summary at the end, so that ``resume`` can continue after an
+    interruption. Without it nothing remains after Ctrl-C.
     """
     campaign = open_campaign(plan, output, resume=resume, engine=engine, workers=workers)
     rows = fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine, elsewhere=elsewhere)
@@ -48,8 +48,7 @@ def run_batch(
 
 
 def merge_rows(campaign: LoadedCampaign) -> Mapping[str, TrialTable]:
-    """Return the trials by variant of a campaign whose shards are in its folder. Raises
-    InputError where some are missing."""
+    """Return the trials by variant of a campaign whose shards are stored. Raises InputError if some are missing."""
     missing = campaign.missing()
     decision = _decision(campaign, missing)
     if missing and not decision.is_decided:
@@ -67,10 +66,9 @@ def fly_campaign(
     engine: str | None = None,
     elsewhere: Elsewhere | None = None,
 ) -> Mapping[str, TrialTable]:
-    """Fly some shards of a campaign, and write them where it has a folder; all of its trials by variant then.
+    """Simulate shards of a campaign, store them if it has a folder, and return all of its trials by variant.
 
-    Where the campaign ends as soon as it is decided, those behind the shard at whose end it was are missing, however
-    many of them have flown.
+    If the campaign ends once it is decided, trials after the deciding shard are omitted, even if they were simulated.
     """
     store = campaign.store()
     decision = _decision(campaign, campaign.missing())
@@ -93,7 +91,7 @@ def fly_campaign(
 
 
 def _decision(campaign: LoadedCampaign, missing: Collection[int]) -> CampaignDecision:
-    """Return the decision by the shards in a campaign's folder."""
+    """Return the decision from the stored shards of a campaign."""
     decision, store, numbering = CampaignDecision(campaign.plan), campaign.store(), campaign.numbering
     if campaign.plan.until_decided and campaign.folder is not None:
         for shard in sorted(set(range(numbering.count)) - set(missing)):
@@ -102,7 +100,7 @@ def _decision(campaign: LoadedCampaign, missing: Collection[int]) -> CampaignDec
 
 
 def _rows(campaign: LoadedCampaign, store: ShardStore, decision: CampaignDecision) -> dict[str, TrialTable]:
-    """Return the trials of the shards that decide a campaign, or else of all, by variant."""
+    """Return the trials of a campaign by variant, up to the shard that decides it."""
     numbering = campaign.numbering
     if decision.shards is not None:
         numbering = replace(numbering, trials=numbering.of(decision.shards - 1).stop)
@@ -128,10 +126,10 @@ def _fly_here(
 
 
 class CampaignDecision:
-    """Looks at the shards of a campaign in order of number, whatever the order in which they come.
+    """Decision of a campaign from its shards in order of number, regardless of the order in which they arrive.
 
-    ``shards`` is how many of the first ones decide the campaign, None as long as they do not: so it depends neither on
-    workers nor on what else has flown. A campaign that is not to end early is never decided.
+    ``shards`` is the number of first shards that decide the campaign, None while it is undecided: it depends neither on
+    workers nor on other simulated shards. A campaign that is not to end early is never decided.
     """
 
     def __init__(self, plan: BatchPlan) -> None:
@@ -146,7 +144,7 @@ class CampaignDecision:
         return self.shards is not None
 
     def add(self, shard: int, variants: Mapping[str, TrialTable]) -> None:
-        """Look at the trials of a shard by variant, as soon as all before it are there."""
+        """Add the trials of a shard by variant, evaluated once all earlier shards are present."""
         if not self._plan.until_decided:
             return
         requirements = self._plan.campaign.requirements

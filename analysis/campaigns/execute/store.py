@@ -1,4 +1,4 @@
-"""Destination of the shards of a campaign, its folder or memory, and the trials of a variant in them."""
+"""Storage of the shards of a campaign, in its folder or in memory, and table of a variant's trials in them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..trials import Trace, TrialTable, join_trials
 
 
 class ShardTable(TrialTable):
-    """The trials of one variant in ``shards`` that all lie in a folder, read whenever they are needed."""
+    """Trials of one variant in stored ``shards``, read on demand."""
 
     def __init__(self, stored: CampaignFolder, variant: str, shards: Sequence[Shard]) -> None:
         self._stored, self._variant, self._shards = stored, variant, shards
@@ -26,13 +26,13 @@ class ShardTable(TrialTable):
 
     @property
     def _schema(self) -> pyarrow.Schema:
-        """The columns of the first shard. Raises InputError where it lacks one."""
+        """Columns of the first shard. Raises InputError if it lacks one."""
         schema = self._stored.schema(self._shards[0])
         return schema.remove(schema.names.index("variant"))
 
     @property
     def table(self) -> pyarrow.Table:
-        """All columns in memory. Raises InputError for a shard that is damaged, or has other columns than the first."""
+        """All columns in memory. Raises InputError for a shard that is damaged or has other columns than the first."""
         tables: list[pyarrow.Table] = []
         for shard in self._shards:
             table = self._read(shard, None).drop_columns(["variant"])
@@ -45,7 +45,7 @@ class ShardTable(TrialTable):
         return pyarrow.concat_tables(tables, promote_options="permissive").combine_chunks()
 
     def tables(self, names: Sequence[str]) -> Iterator[pyarrow.Table]:
-        """Yield some columns, a shard at a time. Raises InputError for a shard that is damaged."""
+        """Yield some columns, a shard at a time. Raises InputError for a damaged shard."""
         for shard in self._shards:
             yield self._read(shard, names).select(names)
 
@@ -69,21 +69,21 @@ class ShardTable(TrialTable):
 
 
 class ShardStore:
-    """The shards of a campaign, in memory where ``stored`` is None, else in its folder as soon as they are added."""
+    """Shards of a campaign, in memory if ``stored`` is None, else written to its folder when they are added."""
 
     def __init__(self, plan: BatchPlan, stored: CampaignFolder | None) -> None:
         self._plan, self._stored = plan, stored
         self._flown: dict[int, Mapping[str, TrialTable]] = {}
 
     def add(self, shard: int, trials: Mapping[str, TrialTable]) -> None:
-        """Keep the trials of a shard by variant."""
+        """Store the trials of a shard by variant."""
         if self._stored is None:
             self._flown[shard] = trials
         else:
             self._stored.write(shard, self._plan, trials)
 
     def rows(self, numbering: Numbering, shards: range | None = None) -> dict[str, TrialTable]:
-        """Return the trials of shards that are all there, of all or of some, by variant."""
+        """Return the trials of all shards, or of some, by variant; these shards must be present."""
         some = range(numbering.count) if shards is None else shards
         if self._stored is not None:
             files = [Shard(shard_path(self._stored.folder, shard), numbering.of(shard)) for shard in some]

@@ -1,4 +1,4 @@
-"""Many trials on this machine: a thread for each worker, and for what does not fly in threads a process for each."""
+"""Parallel trials on this machine: a thread for each worker, and a child process for FMUs that cannot share one."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ WAITING = 4  # tasks that are handed out ahead, for each worker
 
 
 def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
-    """Return True if trials run in threads: as requested, or wherever they can. Raises InputError where they cannot."""
+    """Return True if trials run in threads, as requested or if possible. Raises InputError if it is impossible."""
     systems = list(systems)
     foreign = not all(map(may_load_here, systems))
     can = all(prepared.flies_in_threads for prepared in systems) and not foreign
@@ -57,12 +57,12 @@ def worker_count(workers: int | None) -> int:
 
 
 class FlyerPool:
-    """Workers that each hold a `Flyer` of one plan, for as long as the pool is open.
+    """Workers that each have a `Flyer` of one plan, while the pool is open.
 
-    Each is a thread; with one worker everything happens in the caller's. Native FMUs of our own fly there. Python FMUs
-    hold the interpreter lock, and others' are not to be trusted: what is not for ``threads`` flies in children of the
-    flight server, with two workers or more, or ``in_child``. ``trials`` are those of each variant, if
-    their number is known.
+    Each is a thread; a single worker uses the caller's. Perilune's native FMUs are simulated there. Python FMUs hold
+    the interpreter lock, and foreign FMUs are not trusted: unless ``threads``, simulations run in children of the
+    flight server if there are two workers or more, or ``in_child``. ``trials`` is the number of each variant's trials,
+    if known.
     """
 
     def __init__(
@@ -83,9 +83,9 @@ class FlyerPool:
         self._flyers.append(self._thread.flyer)
 
     def work(self, function: Callable[..., Result], tasks: Iterable[tuple]) -> Iterator[tuple[int, Result]]:
-        """Call ``function(flyer, *task)`` for every task: (place of the task, result), in any order.
+        """Call ``function(flyer, *task)`` for every task; yield (index of the task, result), in any order.
 
-        What has not begun when the iterator is closed is not done any more.
+        Tasks that have not begun when the iterator is closed are dropped.
         """
         if self._executor is not None:
             yield from self._hand_out(self._executor, function, enumerate(tasks))
@@ -100,7 +100,7 @@ class FlyerPool:
     def _hand_out(
         self, executor: ThreadPoolExecutor, function: Callable[..., Result], tasks: Iterator[tuple[int, tuple]]
     ) -> Iterator[tuple[int, Result]]:
-        """Yield the results of tasks, few at a time to bound memory."""
+        """Yield the results of tasks, submitting few at a time to limit memory."""
         futures: dict[Future, int] = {}
         try:
             while True:
@@ -122,7 +122,7 @@ class FlyerPool:
         return function(self._thread.flyer, *task)
 
     def _halt(self, futures: list[Future]) -> None:
-        """End what flies at its next communication point; children that do not reach it are killed."""
+        """End running simulations at their next communication points; kill children that do not reach one."""
         for future in futures:
             future.cancel()
         for flyer in self._flyers:

@@ -1,1 +1,1 @@
-"""A campaign's folder as analysts read it: lazily, whole or still flying."""
+"""A campaign's folder as analysts read it: lazily, complete or while the campaign is running."""

@@ -1,4 +1,4 @@
-"""A campaign's folder, complete or still being written: which campaign it is, what is there, checked as it is read."""
+"""Folder of a campaign, complete or still being written: its identity and shards, checked when they are read."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ from .summary import SummaryDocument, without_summary
 
 
 class Shard(NamedTuple):
-    """The file of a shard, and the trials of each variant in it."""
+    """File of a shard, and the trials of each variant in it."""
 
     path: Path
     trials: range
@@ -52,9 +52,10 @@ class Shard(NamedTuple):
 
 @dataclass(frozen=True)
 class CampaignFolder:
-    """A campaign in a folder as it was when it was opened.
+    """Campaign in a folder, as of the time when it was opened.
 
-    ``provenance`` is what its numbers depend on, ``summary`` is summary.json, None as long as trials are missing.
+    ``provenance`` are the inputs that determine its numbers; ``summary`` is summary.json, None while trials are
+    missing.
     """
 
     folder: Path
@@ -63,7 +64,7 @@ class CampaignFolder:
 
     @classmethod
     def complete(cls, folder: Path, summary: SummaryDocument) -> CampaignFolder:
-        """Return the folder of a campaign all of whose trials are there."""
+        """Return the folder of a complete campaign."""
         return cls(folder, without_summary(summary), summary)
 
     @property
@@ -76,15 +77,15 @@ class CampaignFolder:
 
     @cached_property
     def batch(self) -> str:
-        """The digest that tells the campaign's files from those of others."""
+        """Digest that identifies the campaign's files."""
         return batch_digest(self.provenance)
 
     @cached_property
     def shards(self) -> tuple[Shard, ...]:
-        """The shards that are there, one or more, in order.
+        """Stored shards in order, at least one.
 
         Raises InputError for one that is damaged or of another campaign, for missing ones of a complete campaign, and
-        where there is none.
+        if there is none.
         """
         shards = tuple(self._all_shards() if self.is_complete else map(self._find, self._paths))
         if not shards:
@@ -98,11 +99,11 @@ class CampaignFolder:
 
     @cached_property
     def _paths(self) -> list[Path]:
-        """The files of shards, of whichever campaign."""
+        """Files of shards of any campaign."""
         return sorted(path for path in (self.folder / FOLDER).glob("*.parquet") if path.stem.isdecimal())
 
     def _all_shards(self) -> Iterator[Shard]:
-        """Find all shards, which together have every trial once; others may be left of a longer campaign."""
+        """Yield all shards, which contain every trial once; ignore further ones of a longer campaign."""
         end = 0
         for number in itertools.count():
             if end == self.provenance["trials"]:
@@ -120,9 +121,10 @@ class CampaignFolder:
         return Shard(path, self._trials_in(path, describe_columns(path), SUMMARY if self.is_complete else MANIFEST))
 
     def _trials_in(self, path: Path, about: object, whose: str) -> range:
-        """Return the trials of a shard's file, which says ``about`` itself what `_about` gives.
+        """Return the trials in a shard's file from its metadata ``about``, as from `_about`.
 
-        Raises InputError for one of another batch than that of the file ``whose``, and for one that has another's name.
+        Raises InputError if the file belongs to another batch than the file ``whose``, or has the name of another
+        shard.
         """
         if not isinstance(about, dict) or about.get("batch") != self.batch:
             raise InputError(path, "", f"of another batch than {whose}", NEW_FOLDER)
@@ -140,12 +142,11 @@ class CampaignFolder:
         return {"batch": self.batch, "variant": variant, "trial": trial}
 
     def has(self, number: int, trials: range) -> bool:
-        """Return True if a shard is there, of this campaign and with these trials. Raises InputError for a damaged
-        one."""
+        """Return True if this campaign's shard with these trials is stored. Raises InputError for a damaged one."""
         return describe_columns(shard_path(self.folder, number)) == self._about(number, trials)
 
     def write(self, number: int, plan: BatchPlan, trials: Mapping[str, TrialTable]) -> None:
-        """Write the traces of a shard, then its table, which is there only when all is; ``trials`` are by variant."""
+        """Write the traces of a shard, then its table, whose existence marks it as complete; ``trials`` by variant."""
         for variant, rows in trials.items():
             for trial, trace in rows.traces.items():
                 table = describe(table_of(trace), self._about_trace(variant, trial))
@@ -156,10 +157,10 @@ class CampaignFolder:
         write_parquet(table, shard_path(self.folder, number), len(flown))  # each variant a row group
 
     def read(self, shard: Shard, names: Collection[str] | None = None, variant: str | None = None) -> pyarrow.Table:
-        """Read columns of a shard, or all, and those that identify its rows, of all variants in order or of one.
+        """Return columns of a shard (default: all) and those that identify its rows, of one variant or of all.
 
-        Raises InputError for damage, for a column that is missing or of another type, and unless the rows are the
-        trials of the shard in order.
+        Raises InputError if the file is damaged, if a column is missing or has another type, and unless the rows are
+        the shard's trials in order.
         """
         path, size = shard.path, len(shard.trials)
         group = None if variant is None else self.variants.index(variant)
@@ -177,7 +178,7 @@ class CampaignFolder:
         return table
 
     def schema(self, shard: Shard) -> pyarrow.Schema:
-        """Read which columns a shard has. Raises InputError where it lacks a variant or a metric, or has another."""
+        """Return the columns of a shard. Raises InputError if a variant or a metric is missing, or there is another."""
         schema = read_schema(shard.path)
         metrics = [f"metric.{name}" for name in self.provenance["metrics"]]
         for name in ("variant", *metrics):
@@ -189,9 +190,9 @@ class CampaignFolder:
         return schema
 
     def traces(self, variant: str) -> dict[int, Path]:
-        """Find the traces of a variant by trial; those of other campaigns are left out.
+        """Return the trace files of a variant by trial, without those of other campaigns.
 
-        Raises InputError for one that is damaged.
+        Raises InputError for a damaged one.
         """
         return {
             trial: path
@@ -200,16 +201,16 @@ class CampaignFolder:
         }
 
     def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> Trace | None:
-        """Read what a trial has recorded of these signals, or of all, and ``time`` (s); None without a trace of it.
+        """Return a trial's trace of these signals (default: all) and ``time`` (s), or None if it has no trace.
 
-        Raises InputError for one that is damaged.
+        Raises InputError for a damaged one.
         """
         path = trace_path(self.folder, variant, trial)
         return read_trace(path, names) if describe_columns(path) == self._about_trace(variant, trial) else None
 
 
 def _check_rows(table: pyarrow.Table, variant: str, trials: range, path: Path) -> None:
-    """Refuse rows that are not the trials of a variant in order. Raises InputError."""
+    """Reject rows that are not the trials of a variant in order. Raises InputError."""
     if not np.array_equal(numbers(table, "trial", path), np.arange(trials.start, trials.stop)):
         problem = f"its rows are not trials {trials.start} to {trials.stop - 1} of {variant}, once each"
         raise InputError(path, "trial", problem, NEW_FOLDER)

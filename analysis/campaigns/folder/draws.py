@@ -1,4 +1,4 @@
-"""The table of draws in a campaign's folder, of which parts are read."""
+"""Table of draws in a campaign's folder, read in blocks."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .manifest import COPY_AGAIN
 
 @dataclass(frozen=True)
 class StoredDraws:
-    """The draws of the first ``trials`` trials, by ``names``, in the file at ``path``."""
+    """Draws of the first ``trials`` trials, with these ``names``, in the file at ``path``."""
 
     path: Path
     trials: int
@@ -31,8 +31,7 @@ class StoredDraws:
         return replace(self, trials=trials)
 
     def of_part(self, trials: range) -> DrawTable:
-        """Return the samples of consecutive trials, counted from 0 then. Raises InputError where the file is
-        damaged."""
+        """Return the samples of consecutive trials, renumbered from 0. Raises InputError if the file is damaged."""
         with _open_draws(self.path) as file:
             ends = np.cumsum([file.metadata.row_group(group).num_rows for group in range(file.num_row_groups)])
             groups = range(
@@ -45,7 +44,7 @@ class StoredDraws:
 
 
 def read_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:
-    """Read the draws of a folder's first trials. Raises InputError where it does not hold them all."""
+    """Return the draws of a folder's first trials. Raises InputError if it does not contain them all."""
     path = folder / DRAWS
     with _open_draws(path) as file:
         there, rows = file.schema_arrow.names, file.metadata.num_rows

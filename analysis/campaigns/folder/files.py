@@ -1,4 +1,4 @@
-"""The file of a shard, which is there only when all of its trials are, with their traces: written, and read back."""
+"""Reads and writes files of shards; a shard's file exists only if all of its trials and their traces are stored."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ def shard_path(folder: Path, shard: int) -> Path:
 
 
 def trace_path(folder: Path, variant: str, trial: int) -> Path:
-    """Return the path of a trial's trace; a variant named by the path of an FMU has that path's slashes replaced."""
+    """Return the path of a trial's trace, with slashes in the variant's name (it may be a path) replaced."""
     return folder / "traces" / variant.replace("/", "_") / f"{trial:06d}.parquet"
 
 
 def clear(folder: Path) -> None:
-    """Remove the shards of an earlier batch; traces say which one they are of."""
+    """Remove the shards of an earlier batch. Traces stay, since each names its batch."""
     if (folder / FOLDER).is_dir():
         shutil.rmtree(folder / FOLDER)
 
 
 def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
-    """Write the table of draws to ``folder``/draws.parquet, a row per trial, ``size`` of them a row group.
+    """Write the table of draws to ``folder``/draws.parquet, a row per trial, ``size`` rows in each row group.
 
-    Draws of each trial by itself have no table; files of trials hold them.
+    Counter-based draws have no table: the files of trials contain them.
     """
     if plan.is_counted:
         (folder / DRAWS).unlink(missing_ok=True)
@@ -62,9 +62,9 @@ def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
 
 
 def trial_table(plan: BatchPlan, trials: Mapping[str, TrialTable]) -> pyarrow.Table:
-    """Return a row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
+    """Return a row per variant and trial: identity, status, draws, the campaign's faults, final values, metrics.
 
-    Every variant has the same trials, which are consecutive.
+    All variants have the same trials, which are consecutive.
     """
     numbers = next(iter(trials.values())).trial
     sampled = plan.values_of(range(int(numbers[0]), int(numbers[-1]) + 1))
@@ -76,7 +76,7 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, TrialTable]) -> pyarrow.Ta
 
 
 def with_draws(trials: TrialTable, sampled: TrialSamples) -> TrialTable:
-    """Return the trials with their samples and the campaign's faults, columns in the order of files."""
+    """Return the trials with their samples and the campaign's faults, with columns in the order of files."""
     table = trials.table
     sampled_columns = {f"draw.{name}": values for name, values in sampled.table.columns.items()}
     for fault in sampled.faults:
@@ -87,9 +87,9 @@ def with_draws(trials: TrialTable, sampled: TrialSamples) -> TrialTable:
 
 
 def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> None:
-    """Write a table with a checksum on every page, so that a damaged file is detected when it is read.
+    """Write a table with a checksum on every page, so that damage is detected on reading.
 
-    ``rows`` are those of a row group; None for one of all.
+    ``rows`` is the number of rows in a row group; None for a single one.
     """
     with whole_file(path) as partial:
         pyarrow.parquet.write_table(table, partial, row_group_size=rows, write_page_checksum=True)
@@ -103,15 +103,15 @@ NEW_FOLDER = "fly the batch again into an empty folder"
 
 
 def describe_columns(path: Path) -> object:
-    """Read the metadata of a file of a shard or trace; None where it has none, or is missing.
+    """Return the metadata of a shard's or trace's file; None if it has none or the file is missing.
 
-    Raises InputError for one that is damaged.
+    Raises InputError for a damaged file.
     """
     return about_of(read_schema(path)) if os.path.lexists(path) else None
 
 
 def read_schema(path: Path) -> pyarrow.Schema:
-    """Read the columns of a parquet file. Raises InputError."""
+    """Return the columns of a Parquet file. Raises InputError."""
     check_regular(path, NEW_FOLDER)
     try:
         with pyarrow.parquet.ParquetFile(path) as file:
@@ -121,14 +121,14 @@ def read_schema(path: Path) -> pyarrow.Schema:
 
 
 def trace_files(folder: Path, variant: str) -> dict[int, Path]:
-    """Return the files of a variant's traces by trial, in order, whichever batch they are of."""
+    """Return the files of a variant's traces by trial, in order, of any batch."""
     files = trace_path(folder, variant, 0).parent.glob("*.parquet")
     numbered = {int(path.stem): path for path in files if path.stem.isdecimal()}
     return dict(sorted(numbered.items()))
 
 
 def read_trace(path: Path, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
-    """Read the recorded signals of one trial, ``time`` (s) among them; of ``names`` those that exist, or all.
+    """Return the recorded signals of one trial with ``time`` (s): those of ``names`` that exist, by default all.
 
     Raises InputError.
     """
@@ -139,14 +139,14 @@ def read_trace(path: Path, names: Collection[str] | None = None) -> dict[str, np
 
 
 def unreadable(path: Path, error: Exception) -> InputError:
-    """Return the error of a damaged file."""
+    """Return the error for a damaged file."""
     reason = str(error).split(": ")[-1] or type(error).__name__
     problem = f"cannot be read as parquet ({' '.join(reason.split())})"
     return InputError(path, "", problem, "remove it: the batch's command with `resume` flies what is missing")
 
 
 def about_of(schema: pyarrow.Schema) -> object:
-    """Return the metadata of a table; None where it has none."""
+    """Return the metadata of a table, None if it has none."""
     try:
         return json.loads((schema.metadata or {}).get(b"perilune", b"null"))
     except ValueError:
@@ -164,7 +164,7 @@ NUMBER_PREFIXES = ("draw.", "fault.", "final.", "metric.")
 
 
 def check_columns(table: pyarrow.Table, names: Collection[str], path: Path) -> None:
-    """Refuse a table of trials without some columns by ``names``, or with columns of other types. Raises InputError."""
+    """Reject a table of trials that lacks columns in ``names``, or has them with other types. Raises InputError."""
     for name in (*IDENTITY, *names):
         if name not in table.column_names:
             raise InputError(path, name, "no such column", NEW_FOLDER)
@@ -176,7 +176,7 @@ def check_columns(table: pyarrow.Table, names: Collection[str], path: Path) -> N
 
 
 def check_texts(table: pyarrow.Table, name: str, path: Path) -> None:
-    """Refuse a column that is not of texts. Raises InputError."""
+    """Reject a column that does not consist of text. Raises InputError."""
     kind = table.schema.field(name).type
     if pyarrow.types.is_dictionary(kind):
         kind = kind.value_type
@@ -186,7 +186,7 @@ def check_texts(table: pyarrow.Table, name: str, path: Path) -> None:
 
 
 def read_table(path: Path, columns: Collection[str] | None = None, group: int | None = None) -> pyarrow.Table:
-    """Read a parquet file, or those of its ``columns`` that exist, or one of its row groups, checksums verified.
+    """Return a Parquet file with verified checksums, or those of its ``columns`` that exist, or one row group.
 
     Raises InputError.
     """
@@ -203,13 +203,13 @@ def read_table(path: Path, columns: Collection[str] | None = None, group: int | 
 
 
 def check_names(names: Sequence[str], path: Path) -> None:
-    """Refuse two columns of one name, which Arrow cannot tell apart. Raises InputError."""
+    """Reject duplicate column names, which Arrow cannot distinguish. Raises InputError."""
     if len(set(names)) < len(names):
         raise InputError(path, max(names, key=names.count), "two columns have this name", NEW_FOLDER)
 
 
 def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
-    """Return a column as doubles, or whole numbers or booleans where it holds such. Raises InputError."""
+    """Return a column as doubles, integers or booleans, according to its type. Raises InputError."""
     kind = table.schema.field(name).type
     column = table[name]
     known = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)

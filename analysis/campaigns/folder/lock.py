@@ -1,4 +1,4 @@
-"""The lock of a campaign's folder: several processes may simulate its shards, and none replaces them meanwhile."""
+"""Lock of a campaign's folder: several processes may simulate its shards, but none may replace them meanwhile."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ FILE = ".lock"  # an empty database, whose lock ends with its process
 
 @contextmanager
 def lock_folder(folder: Path | None, *, alone: bool = False) -> Iterator[None]:
-    """Lock a folder, shared with other users or ``alone``; None is no folder, which nobody else has.
+    """Lock a folder, shared with other users or ``alone``; None is no folder, and needs no lock.
 
-    Raises InputError where their use excludes this one. Warns where the file system has no locks.
+    Raises InputError if another process has a conflicting lock. Warns if the file system has no locks.
     """
     with ExitStack() as entered:
         if folder is not None:

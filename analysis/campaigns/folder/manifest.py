@@ -1,4 +1,4 @@
-"""Content of a campaign, as one JSON file: all inputs of its numbers, with contents under their SHA-256."""
+"""Manifest of a campaign, one JSON file: all inputs that determine its numbers, with contents under their SHA-256."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ WRITE = "give a folder that perilune batch or prepare wrote"
 
 
 class ResetDocument(TypedDict):
-    """A `ResetVerdict`; manifests of earlier versions have ``resets`` in place of ``renewal``."""
+    """`ResetVerdict` in a manifest; earlier versions have ``resets`` instead of ``renewal``."""
 
     renewal: NotRequired[Renewal]
     resets: NotRequired[bool]
@@ -33,7 +33,7 @@ class ResetDocument(TypedDict):
 
 
 class TableDocument(TypedDict):
-    """A table from the user: its label, the SHA-256 of the file, its content."""
+    """Table supplied by the user: its label, the SHA-256 of its file, and its content."""
 
     label: str
     sha256: str
@@ -41,7 +41,7 @@ class TableDocument(TypedDict):
 
 
 class SystemDocument(TypedDict):
-    """A system; ``files`` are contents by archive name, ``fmu`` is the one of a stand-alone simulation."""
+    """System; ``files`` are contents by archive name, ``fmu`` is the name of a stand-alone FMU."""
 
     name: str
     label: str
@@ -52,16 +52,16 @@ class SystemDocument(TypedDict):
 
 
 class AttachedDocument(TypedDict):
-    """A table that a campaign's file looks up."""
+    """Lookup table of a campaign's file."""
 
     label: str
     content: str
 
 
 class SourceDocument(TypedDict, total=False):
-    """A campaign's file, with those that it extends; ``position`` is that of its entries among theirs.
+    """Campaign file, with those that it extends; ``position`` is the place of its entries among theirs.
 
-    ``attached`` are the tables of its lookups, by their paths in it.
+    ``attached`` are the tables of its lookups, by the paths it states.
     """
 
     label: Required[str]
@@ -72,7 +72,7 @@ class SourceDocument(TypedDict, total=False):
 
 
 class CampaignDocument(SourceDocument, total=False):
-    """A campaign's file, with what the command line compares, selects and sweeps."""
+    """Campaign file, with the comparison, selection and sweeps of the command line."""
 
     compare: Required[dict[str, list[str]]]
     compared_by: Required[str]
@@ -130,13 +130,13 @@ class CampaignManifest:
 
 
 def _contents(campaign: SourceDocument) -> list[str]:
-    """Return the contents of a campaign's file, of its tables, and of those that it extends."""
+    """Return the contents of a campaign's file, of its tables, and of the files that it extends."""
     attached = (table["content"] for table in campaign.get("attached", {}).values())
     return [campaign["content"], *attached, *(name for part in campaign.get("extends", []) for name in _contents(part))]
 
 
 def read_manifest(folder: Path) -> CampaignManifest:
-    """Read the manifest in a folder, which anyone may have written. Raises InputError."""
+    """Return the manifest in a folder, which is untrusted. Raises InputError."""
     path = folder / FILE
     content = read_regular(path, WRITE, INPUT_BYTES.limit)
     for written in (folder / "trials", folder / "traces", *folder.glob("traces/*")):
@@ -157,7 +157,7 @@ def read_manifest(folder: Path) -> CampaignManifest:
 
 
 def _check_manifest(manifest: CampaignManifest, path: Path) -> None:
-    """Refuse numbers out of bounds, and contents that are named by anything but their hashes."""
+    """Reject numbers out of bounds, and contents with names other than hashes."""
     for name, number in (("trials", manifest.trials), ("shard_size", manifest.shard_size)):
         TRIALS.check(number, path, name)
         if number < 1:
@@ -179,21 +179,21 @@ def content_name(content: bytes, suffix: str) -> str:
 
 
 def store_contents(folder: Path, contents: dict[str, bytes]) -> None:
-    """Write contents by their names, those that are not there yet."""
+    """Write contents under their names, unless they exist already."""
     for name, content in contents.items():
         if not (folder / name).is_file():
             write_atomically(folder / name, content)
 
 
 def remove_contents(folder: Path) -> None:
-    """Remove the contents in a folder; other files stay."""
+    """Remove the contents from a folder; other files stay."""
     for path in folder.glob("*"):
         if NAMED.fullmatch(path.name):
             path.unlink()
 
 
 def content_path(folder: Path, name: str) -> Path:
-    """Return the path of a content, whose bytes are those of its name. Raises InputError."""
+    """Return the path of a content, after checking its hash against its name. Raises InputError."""
     path = folder / name
     content = read_regular(path, COPY_AGAIN, INPUT_BYTES.limit)
     if content_name(content, path.suffix) != name:

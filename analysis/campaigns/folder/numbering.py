@@ -1,4 +1,4 @@
-"""Division of trials into shards, and names of shards on a command line."""
+"""Division of trials into shards, and shard numbers on a command line."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LONGEST = 40  # characters of a number or a span
 
 @dataclass(frozen=True)
 class Numbering:
-    """The shards of a campaign: ``trials`` in shards of ``size``, the last one with what is left."""
+    """Shards of a campaign: ``trials`` in shards of ``size`` trials, the last one with the remainder."""
 
     trials: int
     size: int
@@ -29,13 +29,12 @@ class Numbering:
 
 
 def shard_size(trials: int) -> int:
-    """Return the trials of a shard, from the campaign alone: neither machine nor workers change the content of a
-    shard."""
+    """Return the number of trials in a shard, from the campaign alone, not from machine or workers."""
     return min(max(-(-trials // PARTS), LEAST), MOST)
 
 
 def spans(shards: Sequence[int]) -> str:
-    """Return rising numbers of shards as `perilune shard` takes them: 0-3 7."""
+    """Return ascending shard numbers as text for `perilune shard`: 0-3 7."""
     starts = [shard for index, shard in enumerate(shards) if index == 0 or shards[index - 1] != shard - 1]
     ends = [shard for index, shard in enumerate(shards) if index == len(shards) - 1 or shards[index + 1] != shard + 1]
     pairs = zip(starts, ends, strict=True)
@@ -43,7 +42,7 @@ def spans(shards: Sequence[int]) -> str:
 
 
 def numbers_of(texts: Iterable[str]) -> list[int]:
-    """Return the shards that numbers and spans (A-B) name, rising, each once. Raises InputError."""
+    """Return the shards in a list of numbers and spans (A-B), ascending and without repetition. Raises InputError."""
     numbers: set[int] = set()
     for text in texts:
         first, dash, last = text.partition("-")

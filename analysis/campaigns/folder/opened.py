@@ -1,4 +1,4 @@
-"""The trials of a campaign's folder, read when they are asked for and no more of them than that."""
+"""Trials of a campaign's folder, read on demand."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # what Arrow says of a column 
 
 
 class OpenedResults:
-    """The trials of a campaign's folder, which ``source`` is as it was when it was opened."""
+    """Trials of a campaign's folder; ``source`` is the folder as of the time when it was opened."""
 
     def __init__(self, source: CampaignFolder) -> None:
         self.source = source
 
     @property
     def provenance(self) -> CampaignProvenance:
-        """Inputs that the numbers depend on, as in summary.json: system, campaign, seed, hashes."""
+        """Inputs that determine the numbers, as in summary.json: system, campaign, seed, hashes."""
         return self.source.provenance
 
     @property
     def variants(self) -> list[str]:
-        """The campaign's variants by name."""
+        """Names of the campaign's variants."""
         return self.source.variants
 
     @property
@@ -48,12 +48,12 @@ class OpenedResults:
 
     @property
     def flown(self) -> int:
-        """Number of stored ones; all, unless the campaign is still running."""
+        """Number of stored trials of each variant; all, unless the campaign is still running."""
         return self.source.flown
 
     @cached_property
     def dataset(self) -> pyarrow.dataset.Dataset:
-        """The shards as one pyarrow.dataset, with units in the metadata of its columns; checksums are verified."""
+        """Shards as one pyarrow.dataset, with units in the metadata of its columns; checksums are verified."""
         scan = pyarrow.dataset.ParquetFragmentScanOptions(page_checksum_verification=True)
         return pyarrow.dataset.dataset(
             [str(shard.path) for shard in self.source.shards],
@@ -83,7 +83,7 @@ class OpenedResults:
     def arrow(
         self, columns: Sequence[str] | None = None, where: pyarrow.compute.Expression | None = None
     ) -> pyarrow.Table:
-        """Return a row per variant and trial, or those for which ``where`` is true; all ``columns``, or some.
+        """Return a row per variant and trial for which ``where`` is true (default: all), with some ``columns``.
 
         ``where`` is an expression over any columns: ``pyarrow.compute.field("metric.miss") > 10``. Raises KeyError for
         a missing column, InputError for a damaged shard.
@@ -95,8 +95,7 @@ class OpenedResults:
     def batches(
         self, columns: Sequence[str] | None = None, where: pyarrow.compute.Expression | None = None
     ) -> Iterator[pyarrow.RecordBatch]:
-        """Yield the rows of `arrow` in batches and in order; memory does not grow with the
-        campaign. Raises as `arrow` does."""
+        """Yield the rows of `arrow` in order and in batches, in bounded memory. Raises as `arrow` does."""
         self._check(columns)
         names = self._schema.names if columns is None else list(columns)
         with self._describe():
@@ -108,11 +107,12 @@ class OpenedResults:
     def quantile(
         self, metric: str, share: float, variant: str | None = None, *, where: pyarrow.compute.Expression | None = None
     ) -> float:
-        """Return the least value of a metric that a ``share`` of the trials does not exceed: exact, in bounded memory.
+        """Return the least value of a metric that a ``share`` of the trials does not exceed.
 
-        As the quantiles of summary.json: of all trials whose metric is not nan, infinite ones included; of those for
-        which ``where`` is true, as in `arrow`. nan where there is none. ``variant`` may be left out where the campaign
-        has only one. Raises KeyError for a metric or variant that it does not have, ValueError for what is no share.
+        The result is exact, and memory is bounded. As for the quantiles in summary.json, all trials count whose metric
+        is not nan, even infinite ones; with ``where``, only those for which it is true, as in `arrow`. The result is
+        nan if there are none. ``variant`` may be omitted if the campaign has only one. Raises KeyError for an unknown
+        metric or variant, ValueError for an invalid share.
         """
         name = f"metric.{metric}"
         if metric not in self.provenance["metrics"]:
@@ -127,10 +127,10 @@ class OpenedResults:
         return quantile(values, share)
 
     def traces(self, variant: str | None = None, names: Sequence[str] | None = None) -> Any:
-        """Return a variant's recorded signals over time, an xarray.Dataset over (trial, time), nan after their ends.
+        """Return a variant's recorded signals over time: an xarray.Dataset over (trial, time), nan after each end.
 
-        Of ``names``, or all signals; their units are in ``attrs``. Raises KeyError for a signal or a variant that there
-        is not, and where the campaign keeps no traces; ImportError without xarray.
+        ``names`` selects signals, by default all; units are in ``attrs``. Raises KeyError for an unknown signal or
+        variant, and if the campaign records no traces; ImportError without xarray.
         """
         return trace_dataset(self.source, self._variant(variant), names)
 
@@ -148,7 +148,7 @@ class OpenedResults:
 
     @contextmanager
     def _describe(self) -> Iterator[None]:
-        """Translate Arrow's errors: a missing column that ``where`` names, a shard that is damaged."""
+        """Translate Arrow's errors: a missing column in ``where``, a damaged shard."""
         try:
             yield
         except (OSError, pyarrow.ArrowException) as error:

@@ -1,4 +1,4 @@
-"""Metadata of a stored campaign, in summary.json: all that its numbers depend on, and units and types of columns."""
+"""Metadata of a stored campaign, in summary.json: inputs that determine its numbers; units and types of columns."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import NotRequired, TypedDict
 
 
 class SignalMetadata(TypedDict, total=False):
-    """Unit, None where none is declared, FMI type of a signal, and the axis of an element along one with a name."""
+    """Unit of a signal (None if undeclared), its FMI type, and the name of its axis if it is an element along one."""
 
     unit: str | None
     type: str
@@ -17,7 +17,7 @@ class SignalMetadata(TypedDict, total=False):
 
 
 class MetricMetadata(TypedDict):
-    """A metric as its campaign declares it, whether it is true or false, the axis of an element that it is."""
+    """Metric as its campaign declares it, whether it is true or false, and the name of its axis, if any."""
 
     axis: NotRequired[str]
     condition: NotRequired[str]
@@ -30,7 +30,7 @@ class MetricMetadata(TypedDict):
 
 
 class RecordMetadata(TypedDict):
-    """Trials' records over time."""
+    """Recording of trials over time."""
 
     every: int | None
     signals: list[str]
@@ -39,11 +39,11 @@ class RecordMetadata(TypedDict):
 
 
 class CampaignMetadata(TypedDict, total=False):
-    """Properties of a batch that its numbers do not show.
+    """Properties of a batch that its numbers do not contain.
 
-    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of supplied draws and a ``draw_scheme`` that is no table (each
-    where there is any), ``success`` (expression), ``signals`` that are recorded, ``targets`` (parameters
-    target_position and target_velocity by variant).
+    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of supplied draws and a ``draw_scheme`` other than a table (each
+    only if there is one), ``success`` (expression), recorded ``signals``, ``targets`` (parameters target_position and
+    target_velocity by variant).
     """
 
     group: str
@@ -90,9 +90,9 @@ class CampaignProvenance(CampaignMetadata, total=False):
 
 
 def batch_digest(provenance: Mapping[str, object]) -> str:
-    """Return the SHA-256 that identifies a batch, for any number of trials, since a batch can be resumed with more.
+    """Return the SHA-256 that identifies a batch independently of its number of trials, since it can be extended.
 
-    In folders of earlier versions it is that of the provenance as JSON with sorted keys.
+    For folders of earlier versions it is that of the provenance as JSON with sorted keys.
     """
     if "batch" in provenance:
         return str(provenance["batch"])

@@ -1,4 +1,4 @@
-"""A campaign read back whole from the folder that `perilune batch --output` wrote, to be compared with others."""
+"""Reads a complete campaign from the folder that `perilune batch --output` wrote, to compare it with others."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ RESUME = "resume it: the batch's command with `resume`"
 class StoredBatch:
     """All trials of a campaign in a folder.
 
-    ``document`` is summary.json. ``draws`` are columns over trials, ``variants`` the trials by variant, in order of
-    trial and without traces, ``traced`` the trials of each that have a trace of this campaign.
+    ``document`` is summary.json. ``draws`` are columns over trials; ``variants`` are the trials by variant, in order
+    and without traces; ``traced`` are the trials of each variant with a trace of this campaign.
     """
 
     source: CampaignFolder
@@ -47,27 +47,27 @@ class StoredBatch:
 
     @property
     def provenance(self) -> CampaignProvenance:
-        """Inputs that the campaign's numbers depend on."""
+        """Inputs that determine the campaign's numbers."""
         return self.source.provenance
 
     @property
     def group(self) -> str | None:
-        """The drawn or derived value that the campaign groups trials by, if it does."""
+        """Name of the drawn or derived value by which the campaign groups trials, or None."""
         return self.document.get("group")
 
     @property
     def faults(self) -> list[str]:
-        """The faults that flew, the campaign's and the user's."""
+        """Simulated faults, the campaign's and the user's."""
         return self.document.get("faults", [])
 
     @property
     def strangers(self) -> int:
-        """The number of traces of other campaigns in the folder."""
+        """Number of traces of other campaigns in the folder."""
         there = sum(len(trace_files(self.folder, variant)) for variant in self.variants)
         return there - sum(map(len, self.traced.values()))
 
     def judged_expressions(self) -> list[Expression]:
-        """Return success and the requirements' expressions."""
+        """Return the expressions of success and of the requirements."""
         summaries: Any = self.document["variants"]  # as JSON
         required = [
             verdict["text"].rpartition(", ")[0]
@@ -78,7 +78,7 @@ class StoredBatch:
 
     @cached_property
     def groups(self) -> list[TrialGroup]:
-        """The groups of trials; none where the campaign does not ask for them. Raises InputError."""
+        """Groups of trials; none unless the campaign declares them. Raises InputError."""
         where = (str(self.folder / "summary.json"), "group")
         if self.group is None:
             return []
@@ -87,14 +87,14 @@ class StoredBatch:
         return groups_of([self.draws[self.group]], where)
 
     def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
-        """Read the kept signals of a trial that is traced, ``time`` (s) among them: of ``names``, or all."""
+        """Return the recorded signals of a traced trial with ``time`` (s): those in ``names``, by default all."""
         trace = self.source.trace(variant, trial, names)
         assert trace is not None  # unless another campaign has replaced it meanwhile
         return trace
 
 
 def read_batch(folder: Path) -> StoredBatch:
-    """Read the batch in a folder. Raises InputError where files are missing, damaged, or of two batches."""
+    """Return the batch in a folder. Raises InputError if files are missing, damaged, or of two batches."""
     for name in (SUMMARY, FOLDER):
         _check_there(folder, name)
     check_folder(folder / FOLDER, NEW_FOLDER)
@@ -111,7 +111,7 @@ def read_batch(folder: Path) -> StoredBatch:
 
 
 def _draws(folder: Path, shards: Mapping[Shard, pyarrow.Table], is_counted: bool) -> dict[str, np.ndarray]:
-    """Return the draws of all trials: of their table or, without one, of the shards' first variant."""
+    """Return the draws of all trials from their table or, without one, from the first variant in the shards."""
     if not is_counted:
         _check_there(folder, DRAWS)
         sampled = read_table(folder / DRAWS)
@@ -134,7 +134,7 @@ def _check_there(folder: Path, name: str) -> None:
 def _variants(
     source: CampaignFolder, shards: Mapping[Shard, pyarrow.Table], draws: Mapping[str, np.ndarray]
 ) -> dict[str, TrialTable]:
-    """Return the trials by variant, with the draws that draws.parquet has of them."""
+    """Return the trials by variant, after checking their draws against draws.parquet."""
     by_variant: dict[str, list[TrialTable]] = {variant: [] for variant in source.variants}
     is_sampled = "trial" in draws and {len(column) for column in draws.values()} == {source.provenance["trials"]}
     for shard, table in shards.items():
@@ -154,12 +154,12 @@ def _variants(
 
 
 def _column(draw: str) -> str:
-    """Return the column of the shards that repeats one of draws.parquet."""
+    """Return the column of the shards that repeats a column of draws.parquet."""
     return "trial" if draw == "trial" else f"draw.{draw}"
 
 
 def _check_summary(document: SummaryDocument, variants: Mapping[str, TrialTable], path: Path) -> None:
-    """Refuse a summary that does not count what the table holds."""
+    """Reject a summary whose variants or success rates differ from those of the table."""
     if list(document["variants"]) != list(variants):
         raise InputError(path, "variants", "not those of trials/", NEW_FOLDER)
     for name, trials in variants.items():

@@ -1,4 +1,4 @@
-"""summary.json, which completes a campaign's folder: what the numbers depend on, and the summary by variant."""
+"""File summary.json, which completes a campaign's folder: provenance, and the summary by variant."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .provenance import CampaignProvenance
 
 
 class SummaryDocument(CampaignProvenance, total=False):
-    """summary.json: the provenance, and the summary by variant."""
+    """Content of summary.json: the provenance, and the summary by variant."""
 
     variants: Mapping[str, object]
 
@@ -30,14 +30,14 @@ FACTS = (
 
 
 def without_summary(document: SummaryDocument) -> CampaignProvenance:
-    """Return summary.json without the summary: the inputs of the batch's numbers."""
+    """Return summary.json without the summary: the inputs that determine the batch's numbers."""
     entries = document.copy()
     del entries["variants"]
     return entries
 
 
 def read_summary(path: Path) -> SummaryDocument:
-    """Read the content of summary.json. Raises InputError for any other file, or one of an older version."""
+    """Return the content of summary.json. Raises InputError for any other file, or one of an older version."""
     content = read_regular(path, NEW_FOLDER, INPUT_BYTES.limit)
     try:
         document = json.loads(content)
@@ -53,7 +53,7 @@ def read_summary(path: Path) -> SummaryDocument:
 
 
 def read_metrics(document: SummaryDocument, path: Path) -> tuple[Metric, ...]:
-    """Read the metrics of a campaign as summary.json declares them. Raises InputError."""
+    """Return the metrics of a campaign as declared in summary.json. Raises InputError."""
     try:
         return tuple(
             Metric(

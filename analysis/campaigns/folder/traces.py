@@ -1,4 +1,4 @@
-"""Records of a variant's flights over time, as one xarray.Dataset."""
+"""Recorded signals of a variant's trials over time, as one xarray.Dataset."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ TIME = "time"
 def trace_dataset(results: CampaignFolder, variant: str, names: Sequence[str] | None = None) -> Any:
     """Return the traces of one variant: a variable (trial, time) for each signal, with its unit.
 
-    Flights that ended earlier, or have no row at a time at which others have one, are nan there. Traces of other
-    campaigns in the folder are left out. Raises ImportError without xarray, KeyError for a signal that no trace has and
-    where there is none, InputError for a damaged one.
+    Values are nan after the end of a trial, and at times at which only other trials have a row. Traces of other
+    campaigns in the folder are omitted. Raises ImportError without xarray, KeyError for an unknown signal and if there
+    are no traces, InputError for a damaged one.
     """
     if find_spec("xarray") is None:
         raise ImportError("traces needs xarray, which is not here; pip install 'perilune[notebook]'")
@@ -53,7 +53,7 @@ def trace_dataset(results: CampaignFolder, variant: str, names: Sequence[str] | 
 
 
 def _paths(results: CampaignFolder, variant: str) -> dict[int, Path]:
-    """Return the traces of the variant's stored trials, by trial."""
+    """Return the trace files of the variant's stored trials, by trial."""
     traces = results.traces(variant)
     return {trial: path for trial, path in traces.items() if any(trial in shard.trials for shard in results.shards)}
 

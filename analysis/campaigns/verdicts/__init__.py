@@ -1,1 +1,1 @@
-"""Evidence by flights for a required share of them to keep a requirement: statistics on counts and columns."""
+"""Statistical evidence from simulations that a required share satisfies a requirement."""

@@ -1,8 +1,8 @@
-"""Verdicts on a campaign whose number of flights was fixed beforehand, after Hanson and Beard (2010).
+"""Verdicts on a campaign with a fixed number of simulations, after Hanson and Beard (2010).
 
-A requirement asks that a ``share`` of all flights that could be flown keep it, shown with a ``confidence``; of
-``flights`` independent ones, ``failures`` did not. With the required failure rate p = 1 - share, failures are
-binomial, and everything here is exact.
+A requirement asks that a ``share`` of all possible simulations satisfy it, shown with a ``confidence``; of ``flights``
+independent ones, ``failures`` did not. With the permitted failure rate p = 1 - share, failures are binomially
+distributed, and all results here are exact.
 
 J. M. Hanson and B. B. Beard, "Applying Monte Carlo Simulation to Launch Vehicle Design and Requirements Analysis",
 NASA/TP-2010-216447, 2010; C. J. Clopper and E. S. Pearson, Biometrika 26, 1934.
@@ -30,9 +30,9 @@ class AcceptanceVerdict(StrEnum):
 
 @dataclass(frozen=True)
 class Decision:
-    """A verdict, and after how many flights with how many failures it was found.
+    """Verdict, with the numbers of simulations and failures at which it was reached.
 
-    ``consumer_risk`` is the probability, at the required share, of meeting the requirement with no more than that.
+    ``consumer_risk`` is the probability, at the required share, of meeting the requirement with no more failures.
     """
 
     verdict: AcceptanceVerdict
@@ -47,27 +47,27 @@ def risk_limit(confidence: float) -> float:
 
 
 def consumer_risk(flights: int, failures: int, share: float) -> float:
-    """Return the risk of accepting: the probability of that many failures or fewer at the share (Hanson and Beard).
+    """Return the risk of accepting: the probability of at most ``failures`` at the share (Hanson and Beard).
 
-    No system with a smaller share has so few failures with a larger probability.
+    For any smaller share the probability is smaller.
     """
     return float(scipy.stats.binom.cdf(failures, flights, 1.0 - share))
 
 
 def producer_risk(flights: int, failures: int, share: float) -> float:
-    """Return the risk of rejecting: the probability of that many failures or more at the required share.
+    """Return the risk of rejecting: the probability of at least ``failures`` at the required share.
 
-    No system with a larger share has so many failures with a larger probability.
+    For any larger share the probability is smaller.
     """
     return float(scipy.stats.binom.sf(failures - 1, flights, 1.0 - share))
 
 
 def decide_by_size(flights: int, failures: int, share: float, confidence: float) -> AcceptanceVerdict:
-    """Decide a campaign whose size did not depend on its outcome.
+    """Return the verdict on a campaign whose size did not depend on its outcome.
 
-    Met where the consumer's risk is at most 1 - ``confidence``, not met where the producer's is: Clopper and Pearson's
-    one-sided bounds of the share, at that confidence each, exclude the other side of the required one. Both would be
-    possible below a confidence of 0.5, which is refused by ValueError.
+    The requirement is met if the consumer's risk is at most 1 - ``confidence``, not met if the producer's is: Clopper
+    and Pearson's one-sided bounds of the share, each at that confidence, exclude the other side of the required one.
+    Below a confidence of 0.5 both would be possible, hence ValueError.
     """
     if not 0.5 <= confidence < 1.0:
         raise ValueError(f"a confidence of {confidence:g} is not in 0.5 to 1")
@@ -78,7 +78,7 @@ def decide_by_size(flights: int, failures: int, share: float, confidence: float)
 
 
 def acceptance_number(flights: int, share: float, confidence: float) -> int:
-    """Return the largest number of failures with which the requirement is met; -1 where none is small enough."""
+    """Return the largest number of failures with which the requirement is met, -1 if it cannot be met."""
     risk = risk_limit(confidence)
     # the fewest that are no longer few enough, or exactly so
     failures = int(scipy.stats.binom.ppf(risk, flights, 1.0 - share))
@@ -88,7 +88,7 @@ def acceptance_number(flights: int, share: float, confidence: float) -> int:
 
 
 def flights_needed(failures: int, share: float, confidence: float) -> int:
-    """Return the fewest flights that meet the requirement with that many failures."""
+    """Return the smallest number of simulations that meets the requirement with this number of failures."""
     risk = risk_limit(confidence)
     few, enough = failures, failures + 1  # with failures alone the risk is 1
     while consumer_risk(enough, failures, share) > risk:
@@ -103,24 +103,23 @@ def flights_needed(failures: int, share: float, confidence: float) -> int:
 
 
 class FixedSize:
-    """The verdict on a campaign whose number of flights did not depend on what came of it."""
+    """Rule for a campaign whose number of simulations does not depend on their outcomes."""
 
     def __init__(self, share: float, confidence: float) -> None:
         self.share = share
         self.confidence = confidence
 
     def decision(self, kept: np.ndarray) -> Decision:
-        """Return the verdict on all flights, True where the requirement was kept."""
+        """Return the verdict on all simulations; ``kept`` is True for those that satisfy the requirement."""
         flights, failures = len(kept), int(np.count_nonzero(~np.asarray(kept, dtype=bool)))
         verdict = decide_by_size(flights, failures, self.share, self.confidence)
         return Decision(verdict, flights, failures, consumer_risk(flights, failures, self.share))
 
     def count_permitted(self, flights: int) -> tuple[int, int]:
-        """Return the number of flights that count, all, and the failures with which they meet
-        the requirement, -1 for none."""
+        """Return the number of simulations that count (all), and the permitted failures, -1 if none."""
         return flights, acceptance_number(flights, self.share, self.confidence)
 
     def flights_to_meet(self, flights: int, failures: int) -> dict[int, int]:
-        """Return the number of further flights one campaign would have needed, by failures in those."""
+        """Return the number of further simulations a single campaign would have needed, by the failures among them."""
         needed = {more: flights_needed(failures + more, self.share, self.confidence) for more in FURTHER}
         return {more: max(0, number - flights) for more, number in needed.items()}

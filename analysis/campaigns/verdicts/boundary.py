@@ -1,10 +1,10 @@
-"""The stopping boundary of a count at looks, its risk spent exactly: by recursion over looks and counts.
+"""Stopping boundary of a count at interim looks, with its risk computed exactly by recursion over looks and counts.
 
-A count of events that each have a probability ``rate`` is looked at again and again. The boundary says at which
-counts to stop as improbably low: at every look the largest for which the probability of having stopped by then,
-at that rate, keeps within what may be spent by then (Lan and DeMets, Biometrika 70, 1983; the recursion is that of
-Armitage, McPherson and Rowe, J. R. Statist. Soc. A 132, 1969, on counts). At a larger rate, counts of the same
-flights are as large or larger, and so stop no more often: the risk holds for every larger rate.
+A count of events with probability ``rate`` each is observed repeatedly. The boundary is the count at or below which to
+stop, as improbably low: at every look the largest one for which the probability of having stopped so far, at that rate,
+stays within the risk that may be spent so far (Lan and DeMets, Biometrika 70, 1983; the recursion is that of Armitage,
+McPherson and Rowe, J. R. Statist. Soc. A 132, 1969, on counts). At a larger rate counts are as large or larger and stop
+no more often: the risk is valid for every larger rate.
 """
 
 from __future__ import annotations
@@ -20,8 +20,7 @@ SPENT = 1.0 - 1e-9  # of the risk that is permitted: the rest is for rounding an
 
 
 def spending(flights: int, risk: float, half: int) -> float:
-    """Return the share of ``risk`` to spend in the first ``flights``: half of it in ``half``, all in no finite
-    number."""
+    """Return the amount of ``risk`` to spend in the first ``flights``: half of it in ``half``, all in the limit."""
     return SPENT * risk * flights / (flights + half)
 
 
@@ -45,9 +44,9 @@ class InterimLook:
 
 
 class Boundary:
-    """Counts that stop, look by look; looks are added in ascending order and do not change those before.
+    """Stopping counts, look by look; a new look comes after all earlier ones and does not change them.
 
-    ``spend`` is what may be spent by a number of flights, such as `spending`, which does not grow less.
+    ``spend`` returns the risk that may be spent in a number of simulations, such as `spending`; it must not decrease.
     """
 
     def __init__(self, rate: float, spend: Callable[[int], float]) -> None:
@@ -56,7 +55,7 @@ class Boundary:
         self.looks: list[InterimLook] = []
 
     def add(self, flights: int) -> InterimLook:
-        """Return the next look, after ``flights`` flights in all."""
+        """Add and return the next look, after ``flights`` simulations in all."""
         last = self.looks[-1] if self.looks else InterimLook(0, -1, 0.0, 0, np.ones(1))
         start = max(last.lowest, last.most + 1)
         flown = flights - last.flights

@@ -1,17 +1,17 @@
-"""Exact order statistics of a column that is read in blocks, quantiles and tolerance bounds by them.
+"""Exact order statistics of a column read in blocks; quantiles and tolerance bounds from them.
 
-Memory does not grow with the column. A double's bits, turned so that they order as the numbers do, are sixteen bits
-four times. Every time the values that begin as the sought one are counted by their next sixteen bits, until one is
-left: radix selection.
+Memory does not grow with the column. The bits of a double, mapped to an unsigned integer of the same order, are
+processed in four groups of sixteen bits. In each pass, values with the prefix found so far are counted by their next
+sixteen bits, until one value is left: radix selection.
 
 The p-quantile of n values, in tables, figures and verdicts, is their order statistic k = ceil(p n), the least value
 that a fraction p of all does not exceed: the inverse of the empirical distribution function (Hyndman and Fan 1996, The
-American Statistician 50, definition 1; numpy's "inverted_cdf"). Values that are nan do not count, infinite ones do.
+American Statistician 50, definition 1; numpy's "inverted_cdf"). nan does not count, infinite values do.
 
-A one-sided tolerance bound is what a share of all flights does not exceed, whatever they follow. The value that the
-share does not exceed is exceeded by a flight as often as a requirement with this share may fail. A bound that is the (k
-+ 1)-th worst of the flights is below that value only if k flights or fewer exceed it, so k are the failures with which
-the requirement is met (S. S. Wilks, Annals of Mathematical Statistics 12, 1941; Hanson and Beard, NASA/TP-2010-216447).
+A one-sided tolerance bound is a value that a share of all simulations does not exceed, for any distribution. The
+share's quantile is exceeded as often as a requirement with this share may fail. The (k + 1)-th worst simulation is
+below that quantile only if at most k simulations exceed it, so k is the number of failures with which the requirement
+is met (S. S. Wilks, Annals of Mathematical Statistics 12, 1941; Hanson and Beard, NASA/TP-2010-216447).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ SIGN = np.uint64(1 << 63)
 
 
 def order_statistics(column: Blocks, ranks: Sequence[int]) -> list[float]:
-    """Return the values of rank 0, the smallest, and so on; nan left out. Raises IndexError for a missing rank."""
+    """Return the values of these ranks, from 0 for the smallest, without nan. Raises IndexError for a missing rank."""
     held: list[np.ndarray] = []
     size = 0
     for values in column():
@@ -43,7 +43,7 @@ def order_statistics(column: Blocks, ranks: Sequence[int]) -> list[float]:
 
 
 def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
-    """Return the values of some ranks, by their bits from the highest: their prefix, and their ranks among such."""
+    """Return the values of ranks among the values with a common prefix of high bits."""
     below, left = [0] * len(ranks), list(ranks)
     for place in range(64 - DIGIT, -1, -DIGIT):
         counts = {start: np.zeros(1 << DIGIT, dtype=np.int64) for start in below}
@@ -66,7 +66,7 @@ def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
 
 
 def _order_bits(values: np.ndarray) -> np.ndarray:
-    """Return doubles as unsigned integers in the same order; both zeros are one number."""
+    """Return doubles as unsigned integers of the same order; both zeros are the same number."""
     bits = (values + 0.0).view(np.uint64)
     return np.where(bits & SIGN, ~bits, bits ^ SIGN)
 
@@ -75,18 +75,17 @@ ROUNDING = 2.0**-51  # relative error of p n as doubles: 0.07 x 100 is 7.0000000
 
 
 def quantile_rank(fraction: float, count: int) -> int:
-    """Return the rank, from 0, of the ``fraction``-quantile of ``count`` values. Raises ValueError unless 0 <= fraction
-    <= 1.
+    """Return the rank, from 0, of the ``fraction``-quantile of ``count`` values.
 
-    ``count`` must be 1 or more.
+    Raises ValueError unless 0 <= fraction <= 1. ``count`` must be at least 1.
     """
     return int(_ranks(fraction, np.array(count)))
 
 
 def quantiles(values: np.ndarray, fractions: Sequence[float]) -> np.ndarray:
-    """Return quantiles over the first axis of an array, fractions by rows; nan where all values are nan.
+    """Return quantiles over the first axis of an array, one row for each fraction; nan if all values are nan.
 
-    Shape: that of ``values`` with ``len(fractions)`` in place of its first length. Raises as `quantile_rank`.
+    The first length of ``values`` is replaced by ``len(fractions)``. Raises as `quantile_rank`.
     """
     if not len(values):
         return np.full((len(fractions), *values.shape[1:]), np.nan)
@@ -97,8 +96,7 @@ def quantiles(values: np.ndarray, fractions: Sequence[float]) -> np.ndarray:
 
 
 def column_quantiles(column: Blocks, known: int, fractions: Sequence[float]) -> list[float]:
-    """Return quantiles of a column that is read in blocks, ``known`` of whose values are not nan; nan where there is
-    none.
+    """Return quantiles of a column read in blocks, of which ``known`` values are not nan; nan if there are none.
 
     Memory does not grow with the column. Raises as `quantile_rank`.
     """
@@ -113,12 +111,11 @@ def _ranks(fraction: float, counts: np.ndarray) -> np.ndarray:
 
 
 def tolerance_bound(column: Blocks, flights: int, permitted: int, upper: bool) -> float | None:
-    """Return the bound from the first ``flights`` values of a metric: their (``permitted`` + 1)-th largest, or
-    smallest.
+    """Return the (``permitted`` + 1)-th largest, or smallest, of the first ``flights`` values of a metric.
 
-    ``permitted`` are the failures with which that many flights meet a requirement of the bound's share and confidence;
-    where it is negative the flights are too few and there is no bound, None. What is not finite counts as worst: the
-    bound is then infinite if the share cannot be had without it.
+    ``permitted`` is the number of failures with which these simulations meet a requirement of the bound's share and
+    confidence; None is returned if it is negative, since there are too few. Non-finite values count as worst: the bound
+    is infinite if the share cannot be reached without them.
     """
     if permitted < 0:
         return None

@@ -1,8 +1,8 @@
-"""Verdicts that hold however often a campaign is looked at, so that it may end with the first of them.
+"""Verdicts that are valid at any number of interim looks, so that a campaign may end with the first of them.
 
-Looking at 1771, 2991 and 4093 flights in turn, each with the figures of a campaign of that size alone, accepts a system
-at the limit in 17.8 % of campaigns and not in 10. `StoppingRule` shares the risk out over all looks there will ever be
-(`analysis.verdicts.boundary`), for each of the two verdicts by itself. It has no last look: a campaign that is still
+Looking at 1771, 2991 and 4093 simulations in turn, each as a campaign of that size alone, accepts a system at the limit
+in 17.8 % of campaigns instead of 10 %. `StoppingRule` distributes the risk over all future looks
+(`analysis.verdicts.boundary`), separately for each of the two verdicts. There is no last look: a campaign that is
 undecided at its end may be extended.
 """
 
@@ -21,14 +21,14 @@ FIRST_LOOKS = 16  # looks or a few more, until a campaign of one size without fa
 
 
 class StoppingRule:
-    """When to stop, and with which verdict: a function of the numbers of flights and failures at fixed looks.
+    """Stopping rule: the verdict as a function of the numbers of simulations and failures at fixed looks.
 
-    A system whose share of good flights is less than ``share`` is ever called met with a probability of 1 -
-    ``confidence`` at most, and one with ``share`` or more is ever called not met with that probability at most. Each
-    of both holds by itself, whether or not flights go on after a verdict.
+    The probability of ever accepting a system with less than the ``share`` of successful simulations is at most 1 -
+    ``confidence``, and so is that of ever rejecting one with the ``share`` or more. Both are valid separately, even if
+    simulations continue after a verdict.
 
-    Looks are at multiples of ``look`` flights; by default a round number, a sixteenth or less of what one campaign
-    without failures needs. After 32 of them every second multiple is looked at, after 64 every fourth, and so on.
+    Looks are at multiples of ``look`` simulations; by default a round number, at most a sixteenth of what a campaign
+    without failures needs. After 32 of them only every second multiple is a look, after 64 every fourth, and so on.
     """
 
     def __init__(self, share: float, confidence: float, look: int | None = None) -> None:
@@ -45,32 +45,36 @@ class StoppingRule:
         self._next = self.look
 
     def looks(self, most: int) -> list[int]:
-        """Return the numbers of flights after which to look, up to ``most``."""
+        """Return the numbers of simulations after which to look, up to ``most``."""
         self._extend(most)
         return [flights for flights in self._places if flights <= most]
 
     def acceptance_number(self, flights: int) -> int:
-        """Return the largest number of failures with which a look meets the requirement, -1 where none is small enough;
-        ValueError where there is no look."""
+        """Return the largest number of failures with which a look meets the requirement, -1 if it cannot.
+
+        Raises ValueError if there is no look after ``flights``.
+        """
         return self._look(self._met, flights).most
 
     def rejection_number(self, flights: int) -> int:
-        """Return the least number of failures with which a look finds the requirement not met; more than ``flights``
-        where no number is enough. ValueError where there is no look."""
+        """Return the least number of failures with which a look rejects; more than ``flights`` if it cannot.
+
+        Raises ValueError if there is no look after ``flights``.
+        """
         return flights - self._look(self._not_met, flights).most
 
     def decide(self, flights: int, failures: int) -> AcceptanceVerdict:
-        """Return the verdict at a look that none came before; ValueError where there is no look."""
+        """Return the verdict at a look without regard to earlier ones. Raises ValueError if there is no look."""
         if failures <= self.acceptance_number(flights):
             return AcceptanceVerdict.MET
         return AcceptanceVerdict.NOT_MET if failures >= self.rejection_number(flights) else AcceptanceVerdict.UNDECIDED
 
     def decision(self, kept: np.ndarray) -> Decision:
-        """Return the first verdict on flights in order of trial, True where the requirement was kept; the rest is
-        ignored.
+        """Return the first verdict on simulations in order; ``kept`` is True for those that satisfy the requirement.
 
-        Undecided, it is of the last look, or of no flights where there was none. The consumer's risk is the probability
-        of having met the requirement at an earlier look, or with no more failures at this.
+        Later simulations are ignored. An undecided result is that of the last look, or of no simulations without a
+        look. The consumer's risk is the probability of having met the requirement at an earlier look, or with at most
+        as many failures at this one.
         """
         failed = np.flatnonzero(~np.asarray(kept, dtype=bool))
         last = failures = 0
@@ -82,13 +86,12 @@ class StoppingRule:
         return self._decision(AcceptanceVerdict.UNDECIDED, last, failures)
 
     def count_permitted(self, flights: int) -> tuple[int, int]:
-        """Return the last look in ``flights`` flights, and the failures with which it meets the
-        requirement, -1 for none."""
+        """Return the last look in ``flights``, and the failures that it permits, -1 if none."""
         last = max(self.looks(flights), default=0)
         return last, self.acceptance_number(last) if last else -1
 
     def flights_to_meet(self, flights: int, failures: int) -> dict[int, int]:
-        """Return the numbers of further flights that meet the requirement, by number of further failures."""
+        """Return the numbers of further simulations that meet the requirement, by the number of further failures."""
         by_failures = {}
         for more in FURTHER:
             analyses = (look for look in self._all_looks() if look >= flights)
@@ -123,12 +126,12 @@ class StoppingRule:
 
 
 def _round_look(flights: int) -> int:
-    """Return 1, 2 or 5 times a power of ten, at most a sixteenth of ``flights`` where that is more than one."""
+    """Return the largest 1, 2 or 5 times a power of ten that is at most a sixteenth of ``flights``, at least 1."""
     sizes = [digit * 10**power for power in range(len(str(flights))) for digit in (1, 2, 5)]
     return max((size for size in sizes if size * FIRST_LOOKS <= flights), default=1)
 
 
 @lru_cache(maxsize=64)
 def stopping_rule(share: float, confidence: float) -> StoppingRule:
-    """Return the rule with looks as they are by default, its boundaries computed once."""
+    """Return the rule with default looks, cached with its boundaries."""
     return StoppingRule(share, confidence)

@@ -1,1 +1,1 @@
-"""Campaigns flown on other machines, by the workers of a dask.distributed cluster."""
+"""Execution of campaigns on other machines, by the workers of a dask.distributed cluster."""

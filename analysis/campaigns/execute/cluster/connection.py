@@ -1,4 +1,4 @@
-"""Connection to a cluster: opened and checked before anything is written, left in the end."""
+"""Connection to a cluster: opened and checked before anything is written, closed at the end."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ LARGEST = "1 TB"  # of what is sent, before dask says that it is large: it is se
 
 @contextmanager
 def cluster(address: str | None, *, workers: int | None = None, engine: str | None = None) -> Iterator[Cluster | None]:
-    """Yield the executor on the workers of a dask scheduler at ``address`` (tcp://host:8786); None without an address.
-    ;; and refused beside it => and refused with it
+    """Yield an executor for the workers of the dask scheduler at ``address`` (tcp://host:8786); None without one.
 
-    ``workers`` and ``engine`` are of this machine, and refused beside it. Raises InputError: where distributed is not
-    installed, nobody answers, no worker is there, or one of them has another perilune.
+    ``workers`` and ``engine`` configure this machine, and are rejected with an address. Raises InputError if
+    distributed is not installed, if the scheduler does not answer or has no workers, or if a worker has another version
+    of Perilune.
     """
     if address is None:
         yield None
@@ -42,7 +42,7 @@ def cluster(address: str | None, *, workers: int | None = None, engine: str | No
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Silence the lines of distributed: errors are reported in one line, by us."""
+    """Silence the log of distributed, whose errors Perilune reports in one line."""
     logs = [logging.getLogger(name) for name in LOGS]
     levels = [log.level for log in logs]
     for log in logs:
@@ -78,7 +78,7 @@ def _client(distributed: Any, address: str) -> Iterator[Any]:
 
 
 def _look_at_workers(client: Any, address: str) -> None:
-    """Refuse a cluster without workers, or one in which one of them flies something else. Raises InputError."""
+    """Reject a cluster without workers, or with a worker that has another version of Perilune. Raises InputError."""
     try:
         client.wait_for_workers(1, timeout=FIRST_WORKER)
     except TimeoutError as error:

@@ -1,4 +1,4 @@
-"""Campaign as sent to a worker elsewhere, and its check for the same perilune, without which bits differ."""
+"""Campaign as sent to remote workers, and the check that they have the same Perilune, on which the bits depend."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Identity = tuple[str, str]
 
 @cache
 def identity() -> Identity:
-    """Return the version of this perilune, and the SHA-256 of its sources."""
+    """Return the version of this Perilune, and the SHA-256 of its sources."""
     total = hashlib.sha256()
     for room in ROOMS:
         place = (PACKAGE / room).resolve()  # a link in a checkout
@@ -35,7 +35,7 @@ def identity() -> Identity:
 
 
 def refuse_others(ours: Identity, theirs: Identity | BaseException, worker: str) -> None:
-    """Raise InputError unless a worker has the same perilune; ``theirs`` is an exception where it has none."""
+    """Raise InputError unless a worker has the same Perilune; ``theirs`` is an exception if it has none."""
     if isinstance(theirs, BaseException):
         problem = f"worker {worker} cannot load perilune: {' '.join(str(theirs).split())}"
     elif theirs[0] != ours[0]:
@@ -49,11 +49,11 @@ def refuse_others(ours: Identity, theirs: Identity | BaseException, worker: str)
 
 @dataclass(frozen=True)
 class Sent:
-    """A campaign for a worker that sees nothing of the sender's files.
+    """Campaign for a worker that cannot access the sender's files.
 
-    ``contents`` are the files by hash, ``draws`` is draws.parquet, empty where a counter draws, ``log`` the level of
-    the FMUs' messages; with ``in_child`` all simulations are in children of the workers. ``key`` tells it from others,
-    ``identity`` is of the perilune that sends it.
+    ``contents`` are the files by hash; ``draws`` is draws.parquet, empty for counter-based draws; ``log`` is the level
+    of the FMUs' messages. With ``in_child`` all simulations run in children of the workers. ``key`` identifies the
+    campaign, ``identity`` the sender's Perilune.
     """
 
     key: str
@@ -66,7 +66,7 @@ class Sent:
 
 
 def make_sent(campaign: LoadedCampaign) -> Sent:
-    """Return a campaign as workers receive it: from its folder, or from memory where it has none. Raises InputError."""
+    """Return a campaign as sent to workers: from its folder, or from memory if it has none. Raises InputError."""
     manifest, folder = campaign.manifest, campaign.folder
     if folder is not None:
         contents = {name: content_path(folder / CONTENTS, name).read_bytes() for name in manifest.names()}
@@ -82,7 +82,7 @@ def make_sent(campaign: LoadedCampaign) -> Sent:
 
 
 def _draws(campaign: LoadedCampaign) -> bytes:
-    """Return the table of draws of a campaign without a folder, as a file."""
+    """Return the table of draws of a campaign without a folder, as the content of a file."""
     with TemporaryDirectory() as place:
         write_draws(campaign.plan, Path(place), campaign.numbering.size)
         return (Path(place) / DRAWS).read_bytes()

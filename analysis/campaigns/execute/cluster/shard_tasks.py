@@ -1,4 +1,4 @@
-"""Flies shards on a cluster: tasks of some seconds, flown again wherever workers are lost."""
+"""Simulates shards on a cluster in tasks of some seconds, which are repeated when workers are lost."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ WITHOUT_WORKERS = 60.0  # s that a campaign waits for workers to come back
 
 
 class Cluster:
-    """The workers of a scheduler that a client of distributed is connected to; called, it simulates shards.
+    """Workers of a scheduler to which a client of distributed is connected; a call simulates shards.
 
-    A task whose worker dies goes to another one, as often as the scheduler permits, and is then submitted to it again,
-    in two halves: a campaign ends only where all remaining trials are single ones that end one worker after the other.
+    A task whose worker dies is reassigned as often as the scheduler permits, then submitted again in two halves. A
+    campaign is aborted only if all remaining tasks are single trials whose workers keep dying.
     """
 
     def __init__(self, client: Any, address: str) -> None:
@@ -35,9 +35,9 @@ class Cluster:
         self._address = address
 
     def __call__(self, campaign: LoadedCampaign, shards: Sequence[int]) -> Generator[tuple[int, dict[str, TrialTable]]]:
-        """Fly shards of a campaign: each one's trials by variant, as soon as all are there, in any order of shards.
+        """Simulate shards of a campaign; yield each one's number and trials by variant on completion, in any order.
 
-        Raises WorkersDiedError, and what ends a flight's preparation in a worker.
+        Raises WorkersDiedError, and exceptions from the preparation of a simulation in a worker.
         """
         from distributed.comm import CommClosedError
 
@@ -61,11 +61,11 @@ class Cluster:
                 self._end(list(tasks.under_way), tasks.key)
 
     def _threads(self) -> int:
-        """Return the number of simulations that the present workers can run at once."""
+        """Return the number of simulations that the current workers can run in parallel."""
         return sum(self._client.nthreads().values())
 
     def _finish(self, under_way: dict[Any, Any]) -> Iterator[Any]:
-        """Yield those of some futures that are done, one at least. Raises WorkersDiedError where no worker is left."""
+        """Return an iterator over finished futures, at least one. Raises WorkersDiedError if no worker is left."""
         from distributed import wait
 
         seen = time.monotonic()
@@ -79,7 +79,7 @@ class Cluster:
                 raise WorkersDiedError(f"the scheduler {self._address} had no worker for {WITHOUT_WORKERS:g} s")
 
     def _end(self, futures: list[Any], key: str) -> None:
-        """Take tasks back, and end those that fly at their next communication points."""
+        """Cancel tasks, and end running simulations at their next communication points."""
         with suppress(Exception):  # the cluster may be what has ended
             self._client.cancel(futures, force=True)
         halting = threading.Thread(target=self._halt, args=(key,), daemon=True)  # a worker that hangs does not answer
@@ -92,7 +92,7 @@ class Cluster:
 
 
 class ShardTasks:
-    """Tasks of some shards of a campaign: those that are under way, by future, those that follow, and their trials."""
+    """Tasks for some shards of a campaign: ``under_way`` by future, pending ones, and completed trials."""
 
     def __init__(self, client: Any, campaign: LoadedCampaign, shards: Sequence[int]) -> None:
         variants = [variant.name for variant in campaign.plan.campaign.variants()]
@@ -106,11 +106,11 @@ class ShardTasks:
         self._send()
 
     def _send(self) -> None:
-        """Send the campaign, which workers pass on to others; it is lost where all workers lose it."""
+        """Send the campaign to the cluster, which loses it if every worker that has it is lost."""
         self._campaign = self._client.submit(_itself, self._sent, pure=False)
 
     def submit(self, threads: int) -> bool:
-        """Submit tasks for a number of threads; return True if any are under way."""
+        """Submit tasks for this many threads; return True if any are running or queued."""
         for _ in range(WAITING * max(threads, 1) - len(self.under_way)):
             task = tuple(self._portions.next(max(threads, 1))) or self._repeated.next()
             if task:
@@ -118,7 +118,7 @@ class ShardTasks:
         return bool(self.under_way)
 
     def collect(self, future: Any) -> Iterator[tuple[int, dict[str, TrialTable]]]:
-        """Yield the shards that are complete with a finished task. Raises WorkersDiedError."""
+        """Yield the shards completed by a finished task. Raises WorkersDiedError."""
         from distributed import KilledWorker
 
         task = self.under_way.pop(future)
@@ -134,7 +134,7 @@ class ShardTasks:
                 yield piece.shard, whole
 
     def _repeat(self, task: Task, error: Any) -> None:
-        """Repeat a task whose workers died. Raises WorkersDiedError where only tasks that kill workers are left."""
+        """Repeat a task whose workers died. Raises WorkersDiedError if only tasks that kill workers are left."""
         if error.task == self._campaign.key:
             self._send()
         self._repeated.add(task)
@@ -148,7 +148,7 @@ def _itself(sent: Any) -> Any:
 
 
 def _what_ends_them(tasks: Sequence[Task]) -> str:
-    """Name the causes in words, of tasks of one trial each."""
+    """Return a description of the tasks, each of one trial, whose workers keep dying."""
     names = [f"trial {task[0].trials[0]} of {task[0].variant}" for task in tasks]
     more = f" and {len(names) - 1} more" if len(names) > 1 else ""
     return f"workers end again and again with {names[0]}{more}"

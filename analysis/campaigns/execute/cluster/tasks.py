@@ -1,4 +1,4 @@
-"""Tasks of a cluster: as many trials as take some seconds; those given up by a scheduler again, in smaller ones."""
+"""Tasks for a cluster: each with trials for some seconds; tasks given up by a scheduler are split."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ROUNDS = 2  # tasks that each thread is to get at least of what is left, so that
 
 
 class WorkersDiedError(RuntimeError):
-    """Workers end one after the other, before they have done anything, or none is left."""
+    """Repeated loss of workers before they complete any work, or loss of all workers."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Piece:
 
 
 class Portions:
-    """Splitter of shards into tasks sized by measured duration; ``trials`` is the number of those left."""
+    """Splitter of shards into tasks sized by measured duration; ``trials`` is the number of remaining trials."""
 
     def __init__(self, numbering: Numbering, shards: Sequence[int], variants: Sequence[str]) -> None:
         self._left = deque(Piece(shard, variant, numbering.of(shard)) for shard in shards for variant in variants)
@@ -40,7 +40,7 @@ class Portions:
         self._seconds[piece.variant] = seconds / len(piece.trials)
 
     def next(self, threads: int) -> list[Piece]:
-        """Return the next task for ``threads`` threads; empty where nothing is left."""
+        """Return the next task for ``threads`` threads, empty if none is left."""
         slowest = max(self._seconds.values(), default=0.0)
         budget = min(LONGEST, max(SHORTEST, self.trials * slowest / (ROUNDS * threads)))
         pieces: list[Piece] = []
@@ -63,7 +63,7 @@ class Portions:
 
 
 def halves(pieces: Sequence[Piece]) -> list[tuple[Piece, ...]]:
-    """Split a task's trials into two tasks; one where there is one trial only."""
+    """Return a task's trials as two tasks, or as one if there is only one trial."""
     first = sum(len(piece.trials) for piece in pieces) // 2
     parts: tuple[list[Piece], list[Piece]] = ([], [])
     for piece in pieces:
@@ -79,26 +79,25 @@ Task = tuple[Piece, ...]
 
 
 class RetryQueue:
-    """Queue of tasks that were given up; halved each time, so that a trial that ends workers takes no others with
-    it."""
+    """Queue of tasks that were given up, split in half each time to isolate trials that kill workers."""
 
     def __init__(self) -> None:
         self._waiting: deque[Task] = deque()
         self._times: dict[Task, int] = {}
 
     def add(self, task: Task) -> None:
-        """Add a task that was given up."""
+        """Add a task that was given up, in two halves."""
         times = self._times.pop(task, 0) + 1
         parts = halves(task)
         self._waiting += parts
         self._times |= dict.fromkeys(parts, times if len(parts) == 1 else min(times, OWN))
 
     def next(self) -> Task:
-        """Return the task that has waited longest; empty where none does."""
+        """Remove and return the task that has waited longest, empty if there is none."""
         return self._waiting.popleft() if self._waiting else ()
 
     def single_trials_left(self, under_way: Iterable[Task]) -> list[Task]:
-        """Return all remaining tasks, if these are single trials that were given up often enough; else nothing."""
+        """Return all remaining tasks if each is a single trial that was given up often enough; else an empty list."""
         left = [*self._waiting, *under_way]
         worn = all(len(halves(task)) == 1 and self._times.get(task, 0) >= MOST_DEATHS for task in left)
         return left if worn else []

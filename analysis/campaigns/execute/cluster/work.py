@@ -1,4 +1,4 @@
-"""Work of a cluster's worker: it keeps files by hash in its folder, and simulates portions of campaigns.
+"""Work of a cluster's worker: stores files by hash in its folder, and simulates portions of campaigns.
 
 The campaign is restored from these files by the code that restores a campaign's folder.
 """
@@ -29,12 +29,12 @@ _loaded: dict[str, _LoadedCampaign] = {}  # by key, the last used one last
 
 
 class HaltedError(RuntimeError):
-    """Flights that were ended from where the campaign is flown from."""
+    """Termination of simulations requested by the process that runs the campaign."""
 
 
 @dataclass
 class _LoadedCampaign:
-    """A campaign that this process flies: its plan, and a flyer for each thread that has flown it at once."""
+    """Campaign loaded in this process: its plan, with idle and busy flyers, one for each thread that has needed one."""
 
     plan: BatchPlan
     idle: list[Flyer] = field(default_factory=list)
@@ -42,9 +42,9 @@ class _LoadedCampaign:
 
 
 def fly(sent: Sent, task: Sequence[Piece]) -> list[tuple[TrialTable, float]]:
-    """Fly some trials; those of each piece, and the seconds that they took without what comes before the first one.
+    """Simulate some trials; return those of each piece, with the seconds they took without preparation.
 
-    Raises InputError in a worker that has another perilune, which may come at any time.
+    Raises InputError in a worker with another version of Perilune, as workers may join at any time.
     """
     from distributed import get_worker
 
@@ -65,7 +65,7 @@ def fly(sent: Sent, task: Sequence[Piece]) -> list[tuple[TrialTable, float]]:
 
 
 def halt(key: str) -> None:
-    """End what flies of a campaign at its next communication points."""
+    """End the running simulations of a campaign at their next communication points."""
     with _looking:
         loaded = _loaded.get(key)
         for flyer in loaded.busy if loaded is not None else ():
@@ -74,7 +74,7 @@ def halt(key: str) -> None:
 
 @contextmanager
 def _flyer(sent: Sent, folder: Path) -> Iterator[Flyer]:
-    """Yield a flyer that no other thread has."""
+    """Yield a flyer for exclusive use by this thread."""
     with _looking:
         loaded = _campaign(sent, folder)
         flyer = loaded.idle.pop() if loaded.idle else Flyer(loaded.plan, in_child=sent.in_child)
@@ -91,7 +91,7 @@ def _flyer(sent: Sent, folder: Path) -> Iterator[Flyer]:
 
 
 def _campaign(sent: Sent, folder: Path) -> _LoadedCampaign:
-    """Return a campaign as it was sent; others that no thread uses are freed where too many are kept, or can be."""
+    """Return the campaign as loaded in this process; close the oldest unused ones if too many are loaded."""
     if sent.key in _loaded:
         _loaded[sent.key] = _loaded.pop(sent.key)
         return _loaded[sent.key]
