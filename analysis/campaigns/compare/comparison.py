@@ -43,10 +43,10 @@ class Contender:
 
 @dataclass(frozen=True)
 class CampaignComparison:
-    """Contenders by label and batches by their folders' names, all flown on the same draws.
+    """Contenders by label and batches by folder name, all simulated with the same draws.
 
-    ``reference`` is the variant that others are put against; ``notes`` say where the batches differ
-    other than by what was to be compared, and how many trials crashed, hung or ran out of memory.
+    Other variants are compared with ``reference``. ``notes`` report unintended differences between the batches, and how
+    many trials crashed, hung or ran out of memory.
     """
 
     contenders: dict[str, Contender]
@@ -56,17 +56,17 @@ class CampaignComparison:
 
     @property
     def first(self) -> StoredBatch:
-        """The batch of the first folder."""
+        """Batch in the first folder."""
         return next(iter(self.batches.values()))
 
     @cached_property
     def _grouping(self) -> StoredBatch | None:
-        """The first batch whose campaign groups trials: all have its draws."""
+        """First batch whose campaign groups trials; its groups apply to all, since draws are equal."""
         return next((batch for batch in self.batches.values() if batch.group is not None), None)
 
     @property
     def group(self) -> str | None:
-        """The drawn or derived value that trials are grouped by, if they are."""
+        """Name of the drawn or derived value by which trials are grouped, or None."""
         return None if self._grouping is None else self._grouping.group
 
     @property
@@ -75,12 +75,12 @@ class CampaignComparison:
 
     @cached_property
     def metrics(self) -> list[Metric]:
-        """The metrics of all batches in order of appearance, those that are rates left out."""
+        """Metrics of all batches in order of appearance, without those shown as rates."""
         return [metric for metric in self._all_metrics if metric.name not in self._truths]
 
     @cached_property
     def rates(self) -> list[Metric | None]:
-        """Metrics that are true or false in every trial, after success (None)."""
+        """Success (None), followed by the metrics that are true or false in every trial."""
         return [None, *(metric for metric in self._all_metrics if metric.name in self._truths)]
 
     @cached_property
@@ -93,7 +93,7 @@ class CampaignComparison:
 
     @cached_property
     def _truths(self) -> set[str]:
-        """Metrics that are true or false by their expression, or that take both 0 and 1 and nothing else."""
+        """Names of metrics declared as true or false, or dimensionless with both and only the values 0 and 1."""
         truths = set()
         for metric in self._all_metrics:
             facts = [batch.document["metrics"].get(metric.name) for batch in self.batches.values()]
@@ -107,12 +107,12 @@ class CampaignComparison:
         return truths
 
     def values(self, label: str, metric: str) -> np.ndarray:
-        """Return a metric in every trial of a contender; nan where its batch does not have that metric."""
+        """Return a metric in every trial of a contender; nan if its batch does not have the metric."""
         trials = self.contenders[label].trials
         return np.asarray(trials.metrics.get(metric, np.full(len(trials), np.nan)), dtype=float)
 
     def outcomes(self, label: str, rate: Metric | None) -> np.ndarray:
-        """Return for each trial of a contender if it is a yes; one whose metric is not finite is a no."""
+        """Return for each trial of a contender whether the rate counts it; non-finite metrics do not count."""
         if rate is None:
             return self.contenders[label].trials.success
         values = self.values(label, rate.name)
@@ -120,7 +120,7 @@ class CampaignComparison:
 
     @cached_property
     def summary(self) -> Summary:
-        """Per contender what a batch's summary has, and ``rates`` by name; groups have both."""
+        """Summary of each contender, as of a batch's variant, with ``rates`` by name; likewise for its groups."""
         grouping = self._grouping
         by = {} if grouping is None or grouping.group is None else {grouping.group: grouping.draws[grouping.group]}
         columns = {
@@ -152,9 +152,9 @@ class CampaignComparison:
 
     @cached_property
     def pairs(self) -> list[tuple[str, str]]:
-        """Labels (A, B) that differ in one thing only: two variants of a batch, or a variant in two batches.
+        """Labels (A, B) of contenders that differ in one respect: variants of a batch, or a variant in two batches.
 
-        B is what comes first: the reference, else the one above in the order of contenders.
+        B is the reference if it is one of the two, else the earlier contender.
         """
         pairs = []
         for first, second in itertools.combinations(self.contenders.values(), 2):
@@ -165,7 +165,7 @@ class CampaignComparison:
         return pairs
 
     def against_reference(self, pair: tuple[str, str]) -> bool:
-        """Return True if B of a pair is the reference of others: the reference variant, or the first batch."""
+        """Return True if B of a pair is the reference variant or, for pairs of batches, in the first batch."""
         first, second = (self.contenders[label] for label in pair)
         return second.name == self.reference if first.batch == second.batch else second.batch == 0
 
@@ -173,7 +173,7 @@ class CampaignComparison:
         return compare_rates(self.outcomes(pair[0], rate), self.outcomes(pair[1], rate))
 
     def pair_values(self, pair: tuple[str, str], metric: str, successful: bool) -> PairedValues:
-        """Return a metric of two contenders on the same trials: those in which both succeed, or all."""
+        """Return the comparison of a metric of two contenders on the same trials: successful ones of both, or all."""
         a, b = (self.values(label, metric) for label in pair)
         if successful:
             both = self.outcomes(pair[0], None) & self.outcomes(pair[1], None)
@@ -186,7 +186,7 @@ class CampaignComparison:
         return any(batch.faults for batch in self.batches.values())
 
     def content(self) -> dict[str, object]:
-        """Return the comparison as JSON: provenance of every batch, per contender its numbers, per pair theirs."""
+        """Return the comparison as JSON: provenance of batches, summaries of contenders, statistics of pairs."""
         group: dict[str, object] = {} if self.group is None else {"group": self.group}
         return group | {
             "batches": {str(batch.folder): batch.provenance for batch in self.batches.values()},
@@ -206,20 +206,20 @@ class CampaignComparison:
 
     @cached_property
     def judged_expressions(self) -> list[Expression]:
-        """Success and requirements of all batches."""
+        """Expressions of success and requirements of all batches."""
         expressions = [each for batch in self.batches.values() for each in batch.judged_expressions()]
         return list(dict.fromkeys(expressions))
 
     @property
     def judged_names(self) -> set[str]:
-        """The names in success and requirements of all batches."""
+        """Names used in success and requirements of all batches."""
         return set().union(*(expression.names for expression in self.judged_expressions))
 
     def text(self, metrics: Sequence[str] = ()) -> str:
         """Return the comparison for a terminal: rates with intervals, then metrics of the successful trials.
 
-        ``metrics`` are those to print, or ``all``; else those of success and requirements. Raises InputError for one
-        that no batch has.
+        ``metrics`` are those to print, or ``all``; by default those of success and requirements. Raises InputError for
+        one that no batch has.
         """
         if metrics:
             named = select_metrics(metrics, [metric.name for metric in self._all_metrics], ())
@@ -239,7 +239,7 @@ class CampaignComparison:
         return "\n".join([*table, *self._fault_lines(), *self.notes])
 
     def _fault_lines(self) -> list[str]:
-        """Return the faults of every batch; nothing where none has any."""
+        """Return the faults of every batch as lines; none if no batch has faults."""
         lines = {name: faults_line(batch.faults) if batch.faults else NO_FAULTS for name, batch in self.batches.items()}
         if not self.has_faults:
             return []
@@ -247,7 +247,7 @@ class CampaignComparison:
 
 
 def rate_text(rate: Rate, text: Callable[[float], str] = percent) -> str:
-    """Format a rate with its interval in per cent, as in `Comparison.text`."""
+    """Format a rate with its interval in per cent, as in `CampaignComparison.text`."""
     low, high = rate.interval
     return f"{text(rate.rate)} ({text(low)} to {text(high)})"
 

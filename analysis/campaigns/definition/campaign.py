@@ -49,9 +49,9 @@ class Metric:
 
 @dataclass(frozen=True)
 class TrialRecord:
-    """Stored values of a trial apart from its metrics: final values, every n-th row of signals, full traces.
+    """Stored values of a trial besides its metrics: final values, every n-th row of signals, full traces.
 
-    ``trials`` keeps the sampled signals of that many trials, the first ones, only.
+    Sampled signals are only stored for the first ``trials`` trials.
     """
 
     final: tuple[str, ...] = ()
@@ -217,13 +217,13 @@ MAXIMUM_GROUPS = 100  # groups of a campaign
 
 @dataclass(frozen=True)
 class TrialGroup:
-    """Trials that share one ``value``; ``label`` is that as a text, different for each."""
+    """Trials that share one ``value``; ``label`` is the value as text, unique among the groups."""
 
     label: str
     value: float
 
     def has(self, values: np.ndarray) -> np.ndarray:
-        """Return for each trial if it is in the group, by their ``values`` (trials,)."""
+        """Return for each trial whether it is in the group, from ``values`` (trials,)."""
         return values == self.value
 
 

@@ -15,7 +15,7 @@ EVER = (-np.inf, np.inf)  # a window, or a band
 
 
 class ReductionRule(NamedTuple):
-    """Reduction of rows to a number; entries that a reduction does not use are ignored. Times in s."""
+    """Reduction of rows to a number. Fields that a reduction does not use are ignored. Times in s."""
 
     kind: int  # place in REDUCTIONS
     window: tuple[float, float]  # both ends included

@@ -15,11 +15,10 @@ REQUIRED: Any = object()
 
 
 class TomlTable:
-    """One table of a TOML file; ``element`` is its place in the file, as in ``metric.position_error``.
+    """Table of a TOML file; ``element`` is its path in the file, as in ``metric.position_error``.
 
-    ``origins`` has file and line of values by their place, where they are written in several files; ``attached`` the
-    files that it refers to, each by the file that names it and that name: what messages call it, and its content, None
-    where there is no such file.
+    ``origins`` are file and line of values by path, if they are from several files. ``attached`` maps the file that
+    refers to another, and the reference, to the label of that file and its content, None if it is missing.
     """
 
     def __init__(
@@ -40,12 +39,12 @@ class TomlTable:
         return f"{self.element}.{key}" if self.element else key
 
     def where(self, key: str) -> tuple[str, str]:
-        """Return file and position of a key, as errors name them."""
+        """Return file and position of a key for error messages."""
         place = self.place(key) if key else self.element
         return self.origin(place)[0], place
 
     def origin(self, name: str) -> tuple[str, int]:
-        """Return file and line of a key, or of the nearest one that contains it; line 0 where none is known."""
+        """Return file and line of a key, or of the innermost table that contains it; line 0 if unknown."""
         parts = re.split(r"(?=[.\[])", name)
         nearest = ("".join(parts[:count]) for count in range(len(parts), 0, -1))
         return next((self.origins[part] for part in nearest if part in self.origins), (self.file, 0))
@@ -60,7 +59,7 @@ class TomlTable:
                 raise self.error(key, "unknown key", f"allowed here: {', '.join(names)}")
 
     def get(self, key: str, kind: Callable[[TomlTable, str, object], T], default: T = REQUIRED) -> T:
-        """Return the value of ``key`` read by ``kind`` (`text`, `number`, ...), or ``default`` where it is absent."""
+        """Return the value of ``key``, read by ``kind`` (`text`, `number`, ...), or ``default`` if it is missing."""
         if key in self.content:
             return kind(self, key, self.content[key])
         if default is REQUIRED:
@@ -68,21 +67,21 @@ class TomlTable:
         return default
 
     def table(self, key: str) -> TomlTable:
-        """Return the subtable ``key``; an empty one where it is absent."""
+        """Return the subtable ``key``, empty if it is missing."""
         value = self.content.get(key, {})
         if not isinstance(value, dict):
             raise self.error(key, "not a table", f"write [{self.place(key)}] and its keys below it")
         return TomlTable(value, self.file, self.place(key), self.origins, self.attached)
 
     def subtables(self) -> list[tuple[str, TomlTable]]:
-        """Name and table of every entry; names are identifiers."""
+        """Return name and table of every entry; names are identifiers."""
         for name in self.content:
             if not name.isidentifier():
                 raise self.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
         return [(name, self.table(name)) for name in self.content]
 
     def flat(self, of_tables: bool = False) -> Iterator[tuple[str, object]]:
-        """Name and value of the entries; nested tables become dotted names: a.b = 1 is the same as "a.b" = 1.
+        """Yield name and value of the entries; nested tables become dotted names: a.b = 1 is the same as "a.b" = 1.
 
         With ``of_tables`` the entries are tables themselves, and only tables of tables are unfolded.
         """

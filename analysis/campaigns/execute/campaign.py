@@ -36,10 +36,10 @@ from .workers import in_threads, needs_children, worker_count
 
 @dataclass(frozen=True)
 class LoadedCampaign:
-    """A campaign ready for simulation: every file of it read, in its folder if it has one (absolute).
+    """Campaign ready for simulation, with every file read and stored in its ``folder`` (absolute), if it has one.
 
-    ``plan`` is the user's plan, ``flown`` the same with the files that are stored in the folder; ``named`` is the
-    folder as its user names it.
+    ``plan`` is the user's plan, ``flown`` the same plan with the files stored in the folder; ``named`` is the folder as
+    the user names it.
     """
 
     plan: BatchPlan
@@ -50,7 +50,7 @@ class LoadedCampaign:
     named: Path | None = None
 
     def of_first(self, trials: int) -> LoadedCampaign:
-        """Return the campaign of the first trials, which end with a shard; its folder holds no more either."""
+        """Return the campaign reduced to its first trials, which must end with a shard; its folder is reduced, too."""
         if trials == self.manifest.trials:
             return self
         plan = self.plan.of_first(trials)
@@ -60,7 +60,7 @@ class LoadedCampaign:
 
     @property
     def provenance(self) -> CampaignProvenance:
-        """Inputs that its numbers depend on, apart from the trials themselves."""
+        """Inputs that determine its numbers, other than the trials themselves."""
         is_earlier = self.manifest.identities is None
         entries = provenance(self.flown if is_earlier else self.plan, self.systems)
         entries["manifest" if is_earlier else "batch"] = campaign_key(self.manifest)
@@ -72,30 +72,30 @@ class LoadedCampaign:
 
     @cached_property
     def stored(self) -> CampaignFolder | None:
-        """Its folder as others read it, None without one."""
+        """Reader of its folder, None without one."""
         return None if self.folder is None else CampaignFolder(self.folder, self.provenance)
 
     def store(self) -> ShardStore:
         return ShardStore(self.plan if self.folder is None else self.flown, self.stored)
 
     def shard_rows(self, shard: int) -> Mapping[str, TrialTable]:
-        """Return the trials of one shard that its folder holds, by variant."""
+        """Return the trials of a stored shard by variant."""
         if self.folder is None:
             raise ValueError("a campaign without a folder holds no shards")
         return self.store().rows(self.numbering, range(shard, shard + 1))
 
     def has(self, shard: int) -> bool:
-        """Return True if its folder holds a shard. Raises InputError for a damaged one."""
+        """Return True if a shard is stored. Raises InputError for a damaged one."""
         return self.stored is not None and self.stored.has(shard, self.numbering.of(shard))
 
     def missing(self) -> list[int]:
-        """Return the shards that its folder does not hold."""
+        """Return the numbers of the shards that are not stored."""
         return [shard for shard in range(self.numbering.count) if not self.has(shard)]
 
     def discard_lost(self, shards: Iterable[int]) -> None:
-        """Remove those of some shards that have trials which crashed, hung or ran out of memory: they fly again.
+        """Remove shards with trials that crashed, hung or ran out of memory, so that they are simulated again.
 
-        Raises InputError where another process simulates the campaign.
+        Raises InputError if another process simulates the campaign.
         """
         if self.folder is None:
             return
@@ -105,14 +105,15 @@ class LoadedCampaign:
                     shard_path(self.folder, shard).unlink()
 
     def _has_lost(self, shard: int) -> bool:
-        """Return True if a shard has such trials."""
+        """Return True if a trial of a shard crashed, hung or ran out of memory."""
         columns = (columns for rows in self.shard_rows(shard).values() for columns in rows.parts("status"))
         return any(lost_status(status) for column in columns for status in column["status"])
 
     def check_campaign(self, shards: Iterable[int]) -> list[int]:
-        """Return those of some shards that its folder does not hold.
+        """Return those of ``shards`` that are not stored.
 
-        Raises InputError for a number that is none's, and where the elementary functions are not those of the campaign.
+        Raises InputError for an invalid shard number, or if the campaign uses another version of the elementary
+        functions.
         """
         if self.manifest.elementary_functions != VERSION:
             problem = (

@@ -31,9 +31,9 @@ from .folder import tidy
 
 @dataclass
 class CampaignResult:
-    """All trials of all variants, ``rows`` in order of trial, which may be stored in a folder and not in memory.
+    """All trials of all variants; ``rows`` are in order of trial, in memory or read from a folder.
 
-    ``folder`` is the campaign's, as its user names it, None where it has none.
+    ``folder`` is the campaign's, as its user names it, or None.
     """
 
     plan: BatchPlan
@@ -49,9 +49,9 @@ class CampaignResult:
 
     @classmethod
     def finish(cls, campaign: LoadedCampaign, rows: Mapping[str, TrialTable], **more: Any) -> Self:
-        """Return the result of a campaign's first trials, by variant; its summary completes the campaign's folder.
+        """Return the result of a campaign with ``rows`` by variant, and complete its folder with the summary.
 
-        ``more`` are further fields of a derived class.
+        Trials after those in ``rows`` are removed from the campaign. ``more`` are further fields of a derived class.
         """
         campaign = campaign.of_first(len(next(iter(rows.values()))))
         result = cls(campaign.plan, rows, campaign.provenance, campaign.named, **more)
@@ -75,34 +75,34 @@ class CampaignResult:
 
     @cached_property
     def trials(self) -> dict[str, TrialTable]:
-        """All of them in memory, traces too."""
+        """All trials by variant in memory, with traces."""
         return {variant: rows.whole() for variant, rows in self.rows.items()}
 
     @cached_property
     def plotted(self) -> dict[str, PlottedSample]:
-        """Samples of each variant that figures show."""
+        """Samples for figures, by variant."""
         campaign = self.plan.campaign
         metrics = [metric.name for metric in campaign.metrics]
         return {variant: select_trials(rows, campaign.input_names(), metrics) for variant, rows in self.rows.items()}
 
     def table(self) -> pyarrow.Table:
-        """Return a row per variant and trial: variant, trial, status, draws, the campaign's faults, final values,
-        metrics.
+        """Return a row per variant and trial, with unit, kind and meaning in the metadata of each column's field.
 
-        The metadata of a column's field say its ``unit``, ``kind`` and ``meaning``.
+        Columns are variant, trial, status, draws, the campaign's faults, final values and metrics.
         """
         table = trial_table(self.plan, self.trials)
         schema = with_metadata(table.schema, self._describe).with_metadata({"perilune": json.dumps(self.provenance)})
         return pyarrow.Table.from_arrays(table.columns, schema=schema)
 
     def content(self) -> dict[str, object]:
-        """Return the machine-readable result: provenance and the summary of each variant."""
+        """Return the result as JSON: provenance, and the summary of each variant."""
         return {**self.provenance, "variants": to_json(self.summary)}
 
     def text(self, metrics: Sequence[str] = ()) -> str:
-        """Return the summary for a terminal, with these metrics or ``all``; else those of success and requirements.
+        """Return the summary for a terminal, with these metrics or ``all``.
 
-        Raises InputError for a metric that the campaign does not have.
+        The default is the metrics of success and requirements. Raises InputError for one that the campaign does not
+        have.
         """
         faults, campaign = self.plan.fault_texts(), self.plan.campaign
         selected = select_metrics(metrics, [metric.name for metric in campaign.metrics], campaign.judged_names())
@@ -110,9 +110,9 @@ class CampaignResult:
         return "\n".join([*lines, *assumption_lines(self.provenance.get("assumptions", ()))])
 
     def write(self, folder: Path) -> None:
-        """Write trials/, draws.parquet, summary.json, and traces/ where the campaign keeps them.
+        """Write trials/, draws.parquet, summary.json, and traces/ if the campaign records them.
 
-        Every file carries the batch's digest: a folder can hold traces of an earlier batch too.
+        Every file contains the batch's digest, since traces of an earlier batch may be in the folder.
         """
         stored = CampaignFolder(folder, self.provenance)
         numbering = Numbering(self.plan.campaign.trials, shard_size(self.plan.campaign.trials))
@@ -125,6 +125,6 @@ class CampaignResult:
             self.write_summary(folder)
 
     def write_summary(self, folder: Path) -> None:
-        """Write summary.json, which completes the folder: the shards are stored there already."""
+        """Write summary.json, which completes the folder once all shards are stored."""
         text = json.dumps(self.content(), indent=1, allow_nan=False)
         write_atomically(folder / SUMMARY, f"{text}\n".encode())

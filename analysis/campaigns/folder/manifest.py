@@ -82,15 +82,15 @@ class CampaignDocument(SourceDocument, total=False):
 
 @dataclass(frozen=True)
 class CampaignManifest:
-    """A campaign to be simulated in shards; every value can be written as JSON.
+    """Campaign to be simulated in shards; every value can be written as JSON.
 
-    ``elsewhere`` are contents outside of the ``system``, by the key of their use. ``options`` are the system options,
-    ``faults`` the user's, ``series`` the inputs over time (label, sha256, content), ``draws`` likewise supplied ones,
+    ``elsewhere`` are contents outside the ``system``, by the key of their use. ``options`` are the system options,
+    ``faults`` the user's, ``series`` the inputs over time (label, sha256, content), ``draws`` likewise supplied ones;
     ``timeout`` is in s. ``fmus`` are hashes by variant and component, ``resets`` the verdicts of reset tests by hash.
-    ``until_decided`` says that it ends with the shard at whose end its requirements are decided. ``shard_size`` is in
-    trials, each of which every variant has. ``elementary_functions`` is their version: with another, results have other
-    last bits. A campaign from before there was one has None, and used those of the C library. ``identities`` are those
-    of FMUs by hash, where another FMU can be the same; a campaign from before there were any has None.
+    With ``until_decided`` the campaign ends with the shard in which its requirements are decided. ``shard_size`` is the
+    number of trials in a shard, of each variant. ``elementary_functions`` is their version, on which the last bits
+    depend; None for earlier campaigns, which used those of the C library. ``identities`` are those of FMUs by hash, if
+    other files can be the same FMU; None for earlier campaigns.
     """
 
     perilune: str
@@ -112,8 +112,7 @@ class CampaignManifest:
     identities: Mapping[str, str] | None = None
 
     def document(self) -> dict[str, object]:
-        """Return it as JSON has it; without keys that a manifest of an earlier version lacks, so that its key
-        remains."""
+        """Return the manifest as JSON, without keys that an earlier version lacks, so that its digest is unchanged."""
         content: dict[str, object] = json.loads(json.dumps(asdict(self)))
         for name in ("elementary_functions", "identities"):
             if content[name] is None:
@@ -121,7 +120,7 @@ class CampaignManifest:
         return content
 
     def names(self) -> list[str]:
-        """Return the contents that it names, each once."""
+        """Return the names of the contents that it refers to, each once."""
         tables = [table["content"] for table in (self.series, self.draws) if table is not None]
         return sorted({*self.system["files"].values(), *self.elsewhere.values(), *_contents(self.campaign), *tables})
 

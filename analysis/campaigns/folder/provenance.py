@@ -60,9 +60,9 @@ class CampaignMetadata(TypedDict, total=False):
 
 
 class CampaignProvenance(CampaignMetadata, total=False):
-    """Return what a batch's numbers depend on, apart from the trials themselves.
+    """Inputs that determine a batch's numbers, other than the trials themselves.
 
-    ``batch`` tells it from others; folders of earlier versions have a key of their ``manifest`` instead.
+    ``batch`` identifies it; folders of earlier versions have a key of their ``manifest`` instead.
     """
 
     system: str

@@ -26,10 +26,10 @@ def spending(flights: int, risk: float, half: int) -> float:
 
 @dataclass(frozen=True)
 class InterimLook:
-    """One look: counts up to ``most`` stop.
+    """Interim look: counts up to ``most`` stop.
 
-    ``spent`` is the probability of having stopped at an earlier look, ``probabilities`` are of the counts from
-    ``lowest`` on that reach this look.
+    ``spent`` is the probability of having stopped at an earlier look; ``probabilities`` are those of reaching this look
+    with the counts from ``lowest`` on.
     """
 
     flights: int
@@ -39,7 +39,7 @@ class InterimLook:
     probabilities: np.ndarray
 
     def risk(self, count: int) -> float:
-        """Return the probability of having stopped before, or of a count here that is no larger."""
+        """Return the probability of having stopped before, or of a count here of at most ``count``."""
         return self.spent + float(self.probabilities[: max(0, count - self.lowest + 1)].sum())
 
 
