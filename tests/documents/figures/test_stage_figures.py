@@ -186,7 +186,7 @@ def test_limits_at_the_end():
     section = one(LIMITS, mission())
     assert findings(section) == ["1 of 3 limits met; violated: tilt, mass."]
     assert cells(section) == [
-        ["tilt", "7.5", "at most 5", "deg", "FAIL"],
+        ["tilt", "7.5", "at most 5", "deg", "FAIL, tightest"],
         ["mass", "76", "at least 80", "kg", "FAIL"],
         ["east", "8", f"{MINUS}10 to 10", "m", "PASS"],
     ]

@@ -8,10 +8,11 @@ from math import isfinite
 from typing import Any
 
 from .....runtime.flight.results import Flight
-from ....cell import Cell, Grade, Judged, Quantity
+from ....cell import Cell, Grade, Judged, Phrase, Quantity
 from ....common.quantities import NONE, display_unit
 from ....figures.declared import FigureDeclaration, Limit, LimitsFigure, UnavailableFigure
 from ....render.words import cell_text
+from ...reserve import TIGHTEST, relative_reserve
 from .words import value_range
 
 
@@ -55,8 +56,15 @@ def limit_lines(limits: LimitsFigure, result: Flight) -> list[str]:
 
 
 def limit_rows(limits: LimitsFigure, result: Flight) -> list[tuple[Cell, ...]]:
-    """Return a row for each limit: its name, the final value, the limit, their unit, the verdict."""
-    return [_row(limit, verdict, result) for limit, verdict in evaluate(limits, result)]
+    """Return a row for each limit: its name, the final value, the limit, their unit, the verdict.
+
+    Of several limits that with the least relative reserve is marked.
+    """
+    evaluated = evaluate(limits, result)
+    nearest = None
+    if len(evaluated) > 1 and not limits.obstacle(result):
+        nearest = min(limits.limits, key=lambda limit: relative_reserve(limit.value(result), limit.least, limit.most))
+    return [_row(limit, verdict, result, is_tightest=limit is nearest) for limit, verdict in evaluated]
 
 
 def limit_document(figures: Sequence[FigureDeclaration], result: Flight) -> list[dict[str, Any]]:
@@ -89,12 +97,13 @@ def limit_entries(limits: LimitsFigure, result: Flight) -> list[dict[str, Any]]:
     ]
 
 
-def _row(limit: Limit, verdict: LimitVerdict, result: Flight) -> tuple[Cell, ...]:
+def _row(limit: Limit, verdict: LimitVerdict, result: Flight, *, is_tightest: bool) -> tuple[Cell, ...]:
     unit = limit.signal.unit_name
+    judged = Judged(LABELS[verdict], GRADES[verdict])
     return (
         limit.name,
         NONE if verdict is LimitVerdict.NOT_EVALUATED else Quantity(limit.value(result), unit, is_bare=True),
         value_range(limit.least, limit.most, unit),
         display_unit(unit),
-        Judged(LABELS[verdict], GRADES[verdict]),
+        Phrase([judged, f", {TIGHTEST}"]) if is_tightest else judged,
     )
