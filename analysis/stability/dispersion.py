@@ -8,14 +8,14 @@ from functools import partial
 import numpy as np
 
 from ..campaigns.definition.plan import BatchPlan
-from .loops.margin_values import Margins, Quantity
+from .loops.margin_values import LoopMargins, MarginQuantity
 from .point.bench import OperatingPoint
 from .point.linearise import linearise
 from .point.point_study import PointStudy
 from .point.responses import ONE_STEP, LoopModel, loop_model
 from .request.declaration import LoopDeclaration, MarginLimits, PointDeclaration
 from .request.request import Subject
-from .results.requirement import Requirement, Scope
+from .results.requirement import MarginRequirement, Scope
 from .results.varied import Dispersion
 
 
@@ -37,7 +37,7 @@ def disperse(
     tell(plan.campaign.trials, 0)
     (variant,) = plan.campaign.variants()
     flown = subject.with_options(campaign=plan.campaign.layer_of(variant))
-    rows: dict[str, list[Margins]] = {}
+    rows: dict[str, list[LoopMargins]] = {}
     poles: dict[str, list[np.ndarray]] = {}
     with PointStudy(flown, point, loops, vary(plan)) as study:
         for trial in range(plan.campaign.trials):
@@ -75,16 +75,23 @@ def vary(plan: BatchPlan) -> list[str]:
 
 
 def _dispersion(
-    plan: BatchPlan, items: Sequence[Margins], poles: np.ndarray, limits: MarginLimits, replay: Callable[[int], str]
+    plan: BatchPlan, items: Sequence[LoopMargins], poles: np.ndarray, limits: MarginLimits, replay: Callable[[int], str]
 ) -> Dispersion:
     # the least disk margin; among unstable loops the largest multiplier
-    worst = min(range(len(items)), key=lambda place: (items[place].size(Quantity.DISK), -(items[place].largest or 0.0)))
+    worst = min(
+        range(len(items)), key=lambda place: (items[place].size(MarginQuantity.DISK), -(items[place].largest or 0.0))
+    )
     unstable = sum(item.unstable for item in items)
     note = f"{unstable} of {len(items)} trials unstable; the worst again: {replay(worst)}" if unstable else ""
-    fraction = Requirement(Scope.DISPERSED, Quantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note)
-    wanted = {Quantity.GAIN: limits.dispersed_gain_margin_db, Quantity.PHASE: limits.dispersed_phase_margin_deg}
+    fraction = MarginRequirement(
+        Scope.DISPERSED, MarginQuantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note
+    )
+    wanted = {
+        MarginQuantity.GAIN: limits.dispersed_gain_margin_db,
+        MarginQuantity.PHASE: limits.dispersed_phase_margin_deg,
+    }
     minimum = [
-        Requirement.at_least(Scope.DISPERSED, quantity, min(item.size(quantity) for item in items), limit)
+        MarginRequirement.at_least(Scope.DISPERSED, quantity, min(item.size(quantity) for item in items), limit)
         for quantity, limit in wanted.items()
     ]
     return Dispersion(

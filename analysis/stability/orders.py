@@ -14,8 +14,8 @@ from ..runtime.system.prepared import PreparedSystem
 from ..runtime.system.schedule import origin
 from .point.bench import StudyError
 from .request.request import Request, Subject
-from .results.report import JointReport, LoopReport, Orders, StabilityReport, Unstudied
-from .results.requirement import Requirement, Verdict
+from .results.report import JointReport, LoopReport, Orders, StabilityStudy, Unstudied
+from .results.requirement import MarginRequirement, MarginVerdict
 from .results.varied import Dispersion
 
 # notes of requirements without a verdict
@@ -23,7 +23,7 @@ NOT_STUDIED, DIFFERENT = "not studied", "not known, since linearised and measure
 Judgeable = LoopReport | JointReport | Dispersion
 
 
-def in_both_orders(request: Request, make: Callable[[Request], StabilityReport]) -> StabilityReport:
+def in_both_orders(request: Request, make: Callable[[Request], StabilityStudy]) -> StabilityStudy:
     """Run the study ``make`` of a request, in both orders where a loop passes an undeclared FMU.
 
     Of several such FMUs the extremes are studied: none of them with feedthrough, as simulated, and all. Where all would
@@ -49,7 +49,7 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityReport])
     if not _can_be_direct(subject, request, direct):
         without = [name for name in fmus if any(cut.partition(" -> ")[2].startswith(f"{name}.") for cut in cuts)]
         direct = [name for name in fmus if name not in without]
-    other: StabilityReport | None = None
+    other: StabilityStudy | None = None
     if direct and _can_be_direct(subject, request, direct):
         options = request.options.but(feedthrough=(*request.options.chosen["feedthrough"], *direct))
         loops = tuple(replace(loop, elements=()) for loop in request.declaration.loops)
@@ -98,7 +98,7 @@ def _on_loops(prepared: PreparedSystem) -> set[str]:
     return looped
 
 
-def _merge_verdicts(report: StabilityReport, orders: Orders) -> StabilityReport:
+def _merge_verdicts(report: StabilityStudy, orders: Orders) -> StabilityStudy:
     """Return the report with the requirements of both orders, where there are two."""
     if orders.report is None:
         return replace(report, orders=orders)
@@ -115,14 +115,14 @@ def _merge_verdicts(report: StabilityReport, orders: Orders) -> StabilityReport:
     )
 
 
-def _withhold(lost: Unstudied, other: StabilityReport) -> Unstudied:
+def _withhold(lost: Unstudied, other: StabilityStudy) -> Unstudied:
     """Withhold a loop that fails without figures in one order only."""
     here = (lost.name, lost.point)
-    fails = any((each.name, each.point) == here and each.verdict is Verdict.FAIL for each in other.unstudied)
+    fails = any((each.name, each.point) == here and each.verdict is MarginVerdict.FAIL for each in other.unstudied)
     unstable = any((loop.name, loop.point) == here and loop.margins.unstable for loop in other.loops)
-    if lost.verdict is not Verdict.FAIL or fails or unstable:
+    if lost.verdict is not MarginVerdict.FAIL or fails or unstable:
         return lost
-    return replace(lost, verdict=Verdict.WITHHELD)
+    return replace(lost, verdict=MarginVerdict.WITHHELD)
 
 
 def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
@@ -136,7 +136,7 @@ def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
     return judged
 
 
-def _both(one: Judgeable, another: Judgeable | None, note: str = "") -> tuple[Requirement, ...]:
+def _both(one: Judgeable, another: Judgeable | None, note: str = "") -> tuple[MarginRequirement, ...]:
     """Return the requirements of one order, each with that of the other."""
     by_title = {} if another is None else {other.title: other for other in another.requirements}
     paired = []

@@ -25,7 +25,7 @@ from .progress import Tell, begin, listen, show_progress, tell_parent
 from .request.channels import Channel
 from .request.declaration import PointDeclaration
 from .request.request import Request, Subject
-from .results.report import JointReport, LoopReport, PointReport, StabilityReport, Unstudied
+from .results.report import JointReport, LoopReport, PointReport, StabilityStudy, Unstudied
 from .results.varied import Dispersion
 from .variation import run_sweep, vary_step
 
@@ -44,7 +44,7 @@ class PointResult:
     provenance: dict[str, Any]
 
 
-def study(request: Request, replay: Replay, workers: int | None = None) -> StabilityReport:
+def study(request: Request, replay: Replay, workers: int | None = None) -> StabilityStudy:
     """Study everything, points side by side in ``workers`` processes (None: one per processor), in both orders if need
     be.
 
@@ -56,7 +56,7 @@ def study(request: Request, replay: Replay, workers: int | None = None) -> Stabi
         return in_both_orders(request, lambda each: _study(each, replay, count, report))
 
 
-def _study(request: Request, replay: Replay, count: int, tell: Tell) -> StabilityReport:
+def _study(request: Request, replay: Replay, count: int, tell: Tell) -> StabilityStudy:
     begun = time.monotonic()
     points = [point for point in request.declaration.points if request.loops_at(point)]
     if min(count, len(points)) > 1:
@@ -84,7 +84,7 @@ def _study(request: Request, replay: Replay, count: int, tell: Tell) -> Stabilit
             sweeps.append(run_sweep(subject, point, loop, sweep, request.declaration.limits, known, tell))
         except StudyError as error:
             unstudied.append(Unstudied(sweep.name, sweep.point, "sweep", str(error)))
-    return StabilityReport(
+    return StabilityStudy(
         system=request.name,
         provenance=results[0].provenance,
         limits=asdict(request.declaration.limits),

@@ -12,18 +12,18 @@ from scipy.optimize import brentq
 from ...common.errors import InputError
 from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem
-from .loops.margin_values import Margins, Quantity
+from .loops.margin_values import LoopMargins, MarginQuantity
 from .point.bench import StudyError
 from .point.point_study import PointStudy
 from .request.declaration import LoopDeclaration, MarginLimits, PointDeclaration, Sweep
 from .request.request import Subject
-from .results.varied import Sampled, SweepCrossing, SweepReport
+from .results.varied import StepMargins, SweepCrossing, SweepReport
 
 VALUES = 13
 CROSSING = 1e-3  # relative, of the value at which a limit is reached
 FAR = 1e3  # dB, deg: what an infinite margin counts as
 
-At = Callable[[float], Margins]
+At = Callable[[float], LoopMargins]
 FACTORS = (0.5, 1.0, 2.0)  # of the communication step
 
 
@@ -42,7 +42,7 @@ def run_sweep(
     """
 
     @cache
-    def at(value: float) -> Margins:
+    def at(value: float) -> LoopMargins:
         with PointStudy(subject.with_options(study=Layer(set={sweep.parameter: value})), point, [loop]) as study:
             return study.margins(cells, [study.channels[0].name])[0]
 
@@ -73,7 +73,7 @@ def _unit(prepared: PreparedSystem, parameter: str) -> str | None:
     return None
 
 
-def _crossings(at: At, low: float, high: float, wanted: dict[Quantity, float]) -> list[SweepCrossing]:
+def _crossings(at: At, low: float, high: float, wanted: dict[MarginQuantity, float]) -> list[SweepCrossing]:
     """Return the limits crossed between two neighbouring values.
 
     Where the loop becomes unstable in between, limits are searched on the stable side only: a margin that is still
@@ -85,11 +85,11 @@ def _crossings(at: At, low: float, high: float, wanted: dict[Quantity, float]) -
     if at(low).unstable != at(high).unstable:
         below = at(low).unstable
         left, right = _bisect(lambda value: at(value).unstable == below, low, high)
-        crossings.append(SweepCrossing(Quantity.STABILITY, 0.5 * (left + right), below))
+        crossings.append(SweepCrossing(MarginQuantity.STABILITY, 0.5 * (left + right), below))
         low, high = (right, high) if below else (low, left)
     for quantity, limit in wanted.items():
 
-        def excess(value: float, quantity: Quantity = quantity, limit: float = limit) -> float:
+        def excess(value: float, quantity: MarginQuantity = quantity, limit: float = limit) -> float:
             return float(np.clip(at(value).size(quantity) - limit, -FAR, FAR))
 
         below = excess(low) < 0.0
@@ -115,7 +115,7 @@ def vary_step(
     cells: Sequence[int],
     names: Sequence[str],
     tell: Callable[[int, int], None],
-) -> dict[str, tuple[Sampled, ...]]:
+) -> dict[str, tuple[StepMargins, ...]]:
     """Compute margins of the channels ``names`` with half, the same and twice the communication step ``step`` (s).
 
     ``cells`` is the memory that matters at this point. Where there are no margins the note says why.
@@ -125,9 +125,9 @@ def vary_step(
     for factor in FACTORS:
         try:
             with PointStudy(subject.with_options(step=factor * step), point, loops) as study:
-                rows = [Sampled(factor * step, margins) for margins in study.margins(cells, names)]
+                rows = [StepMargins(factor * step, margins) for margins in study.margins(cells, names)]
         except (InputError, StudyError) as error:
-            rows = [Sampled(factor * step, None, str(error))] * len(names)
+            rows = [StepMargins(factor * step, None, str(error))] * len(names)
         by_factor.append(rows)
         tell(0, 1)
     return dict(zip(names, zip(*by_factor, strict=True), strict=True))

@@ -29,7 +29,7 @@ if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes a
 
 
 @dataclass(frozen=True)
-class Law(Documented, laws.Law):
+class Law(Documented, laws.NetworkOperator):
     """A law of a network operator: its matrix and parameters, shown as formula and graph, written as parameter set.
 
     ``component`` is the component that the parameter set is for.
@@ -62,7 +62,7 @@ class Law(Documented, laws.Law):
 
 
 @dataclass
-class SynthesisResult(Documented, outcome.SynthesisResult):
+class SynthesisResult(Documented, outcome.SynthesisOutcome):
     """Result of a search for a law; ``ended`` is the reason for its end: success, generations or evaluations."""
 
     def document(self) -> Document:
@@ -85,7 +85,7 @@ class SynthesisResult(Documented, outcome.SynthesisResult):
         _write_graph(self.law, Path(folder) / "law.svg")
 
 
-def _write_graph(law: laws.Law, path: Path) -> None:
+def _write_graph(law: laws.NetworkOperator, path: Path) -> None:
     from ..documents.render.diagram import diagram_svg
 
     write_atomically(path, f"{diagram_svg(law_diagram(law))}\n".encode())

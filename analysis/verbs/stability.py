@@ -32,7 +32,7 @@ if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes a
 
 
 @dataclass(repr=False)
-class StabilityReport(Documented, report.StabilityReport):
+class StabilityReport(Documented, report.StabilityStudy):
     """Result of a stability study: ``loops``, ``points``, ``sweeps``, ``joint`` and a ``verdict``.
 
     Gains are factors, angles are in rad; ``command`` repeats the study.

@@ -8,7 +8,7 @@ import control
 import numpy as np
 import pytest
 
-from perilune.analysis.stability.point.lifted import LiftedModel, Port, reachable
+from perilune.analysis.stability.point.lifted import LiftedModel, SampledChannel, reachable
 from perilune.analysis.stability.point.modes import modes, structure
 from perilune.analysis.stability.request.channels import Channel
 from tests.support.loops.exact_periodic import STATES, exact_model, flown_response, hyperperiod
@@ -16,7 +16,7 @@ from tests.support.loops.sampled_loops import held, response_of
 
 
 def port(count, seconds=0.5, first=0):
-    return Port(Channel("c", "c", ("c.y",), None, None, 1, None, None), seconds, first, count)
+    return SampledChannel(Channel("c", "c", ("c.y",), None, None, 1, None, None), seconds, first, count)
 
 
 def lasting(values):

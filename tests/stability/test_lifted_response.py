@@ -7,12 +7,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from perilune.analysis.stability.point.lifted import LiftedModel, Port
+from perilune.analysis.stability.point.lifted import LiftedModel, SampledChannel
 from tests.support.loops.sampled_loops import HeldDoubleIntegrator, response_of
 
 
-def port(seconds: float, first: int, count: int) -> Port:
-    return Port(SimpleNamespace(), seconds, first, count)  # the channel itself is not looked at
+def port(seconds: float, first: int, count: int) -> SampledChannel:
+    return SampledChannel(SimpleNamespace(), seconds, first, count)  # the channel itself is not looked at
 
 
 @pytest.mark.parametrize("states", [0, 1, 7, 60])

@@ -16,7 +16,7 @@ import pytest
 from scipy.io import loadmat
 
 import perilune
-from perilune.analysis.stability.point.lifted import LiftedModel, Port, StateVariable
+from perilune.analysis.stability.point.lifted import LiftedModel, SampledChannel, StateVariable
 from perilune.analysis.stability.point.open_loop import open_loop
 from perilune.analysis.stability.request.channels import Channel
 from perilune.analysis.stability.results.data import mat_bytes
@@ -192,7 +192,7 @@ def lifted(loop, samples):
     cv = np.vstack([c @ power for power in powers[:-1]]) * scale
     whole = np.hstack([power @ b for power in reversed(powers[:-1])]) / scale[:, None]
     names = tuple(f"part.state[{index}]" for index in range(loop.nstates))
-    port = Port(Channel("c", "c", ("c.y",), None, None, 1, None, "N"), loop.dt, 0, samples)
+    port = SampledChannel(Channel("c", "c", ("c.y",), None, None, 1, None, "N"), loop.dt, 0, samples)
     return LiftedModel(
         powers[-1] * scale / scale[:, None], whole, cv, np.block(below) + np.eye(samples), cv, np.block(below), names,
         samples * loop.dt, (port,), {name: StateVariable(size, "m") for name, size in zip(names, scale, strict=True)},

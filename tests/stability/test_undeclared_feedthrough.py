@@ -18,11 +18,11 @@ import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.documents.of.stability.orders import order_sentences, withheld_line
 from perilune.analysis.runtime.system.options import SystemOptions
-from perilune.analysis.stability.loops.margin_values import MARGINS, Quantity
+from perilune.analysis.stability.loops.margin_values import MARGINS, MarginQuantity
 from perilune.analysis.stability.orders import in_both_orders
 from perilune.analysis.stability.point.bench import StudyError
 from perilune.analysis.stability.request.request import read_request
-from perilune.analysis.stability.results.requirement import Verdict
+from perilune.analysis.stability.results.requirement import MarginVerdict
 from tests.support.builders import component, connection, document, inline, pack, system
 from tests.support.foreign.lag import lag_fmu
 from tests.support.loops.exact_systems import difference, with_stability
@@ -31,7 +31,7 @@ from tests.support.loops.sampled_loops import response_of
 PERIOD, PROPORTIONAL, DERIVATIVE, LAG = 0.1, 0.2, 2.5, 0.5  # s, 1/s2, 1/s, s
 SATELLITE = control.ss(control.tf(1.0, [1.0, 0.0, 0.0]))
 CONTROL = difference(PROPORTIONAL, DERIVATIVE, PERIOD)
-THREE = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS)
+THREE = (MarginQuantity.GAIN, MarginQuantity.PHASE, MarginQuantity.MODULUS)
 ENDS = "input u Real; output y Real"
 
 
@@ -44,9 +44,9 @@ def margins_by_control(loop):
     over = np.flatnonzero((phase[:-1] > -np.pi) & (phase[1:] <= -np.pi))[-1]
     down = np.flatnonzero((gain[:-1] > 1.0) & (gain[1:] <= 1.0))[-1]
     return {
-        Quantity.GAIN: -20.0 * np.log10(gain[over]),
-        Quantity.PHASE: 180.0 + np.degrees(phase[down]),
-        Quantity.MODULUS: np.min(abs(1.0 + value)),
+        MarginQuantity.GAIN: -20.0 * np.log10(gain[over]),
+        MarginQuantity.PHASE: 180.0 + np.degrees(phase[down]),
+        MarginQuantity.MODULUS: np.min(abs(1.0 + value)),
     }
 
 
@@ -118,13 +118,13 @@ def test_each_order_is_the_one_it_says(reports):
 def test_withheld_where_the_orders_disagree_and_failed_where_both_do(reports):
     def modulus(report):
         (loop,) = report.loops
-        return next(item for item in loop.requirements if item.quantity is Quantity.MODULUS)
+        return next(item for item in loop.requirements if item.quantity is MarginQuantity.MODULUS)
 
     coarse, fine = modulus(reports[1]), modulus(reports[4])
     assert (coarse.passed, coarse.as_feedthrough.passed) == (False, True)
-    assert (coarse.verdict, reports[1].verdict) == (Verdict.WITHHELD, Verdict.WITHHELD)
+    assert (coarse.verdict, reports[1].verdict) == (MarginVerdict.WITHHELD, MarginVerdict.WITHHELD)
     assert (fine.passed, fine.as_feedthrough.passed) == (False, False)
-    assert (fine.verdict, reports[4].verdict) == (Verdict.FAIL, Verdict.FAIL)
+    assert (fine.verdict, reports[4].verdict) == (MarginVerdict.FAIL, MarginVerdict.FAIL)
 
 
 def test_said_either_way_there_is_one_order(folder, exact_fmus, reports):
@@ -138,7 +138,7 @@ def test_said_either_way_there_is_one_order(folder, exact_fmus, reports):
         assert [report.loops[0].margins.size(kind) for kind in MARGINS] == [
             expected.margins.size(kind) for kind in MARGINS
         ]
-    assert report.verdict is Verdict.PASS
+    assert report.verdict is MarginVerdict.PASS
 
 
 def test_files_have_both_orders(reports, tmp_path):
@@ -150,7 +150,7 @@ def test_files_have_both_orders(reports, tmp_path):
     assert structs["feedthrough"] == content["feedthrough"]
     for name, loop in (("loops", without), ("loops_with_feedthrough", direct)):
         (record,) = content[name]
-        assert record["modulus_margin"] == structs[name]["modulus_margin"] == loop.margins.size(Quantity.MODULUS)
+        assert record["modulus_margin"] == structs[name]["modulus_margin"] == loop.margins.size(MarginQuantity.MODULUS)
     assert (content["loops"][0]["verdict"], content["loops_with_feedthrough"][0]["verdict"]) == ("withheld", "pass")
     rows = (tmp_path / "responses.csv").read_text().splitlines()[1:]
     assert {row.split(",")[2] for row in rows} == {"measured", "measured_with_feedthrough"}
@@ -166,7 +166,7 @@ def test_withheld_where_no_flight_with_feedthrough_can_be_studied(folder, exact_
         return replace(reports[1].orders.report)  # any report in one order; this one passes
 
     report = in_both_orders(read_request(path, SystemOptions()), make)
-    assert report.verdict is Verdict.WITHHELD
+    assert report.verdict is MarginVerdict.WITHHELD
     assert {item.requirement.as_feedthrough.note for item in report.judgements()} == {"not studied"}
     assert any(sentence.endswith(f"is not studied: {reason}") for sentence in order_sentences(report))
     subject, requirement = next(report.judgements())

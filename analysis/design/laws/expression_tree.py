@@ -14,7 +14,7 @@ OUTPUT_NUMBERS = (15, 16)  # counted from 1, as printed
 
 
 @dataclass(frozen=True, eq=False)
-class Node:
+class OperationNode:
     """A node that an output depends on: ``number`` from 1, its binary ``operation``, what it gathers.
 
     ``source`` is what the node starts from, None for the neutral element of its operation; ``terms`` are
@@ -24,24 +24,24 @@ class Node:
     number: int
     operation: int
     source: str | None
-    terms: tuple[tuple[int, Node], ...]
+    terms: tuple[tuple[int, OperationNode], ...]
 
 
-def expression_tree(matrix: Sequence[Sequence[int]]) -> tuple[Node, ...]:
+def expression_tree(matrix: Sequence[Sequence[int]]) -> tuple[OperationNode, ...]:
     """Return the nodes of the outputs, u1 and u2."""
-    nodes: dict[int, Node] = {}
+    nodes: dict[int, OperationNode] = {}
     for column in range(SIZE):
         terms = [(matrix[row][column], nodes[row + 1]) for row in range(column) if matrix[row][column]]
         source = SOURCE_NAMES[column] if column < len(SOURCE_NAMES) else None
-        nodes[column + 1] = Node(column + 1, matrix[column][column], source, tuple(terms))
+        nodes[column + 1] = OperationNode(column + 1, matrix[column][column], source, tuple(terms))
     return tuple(nodes[output] for output in OUTPUT_NUMBERS)
 
 
-def nodes_of(outputs: Sequence[Node]) -> list[Node]:
+def nodes_of(outputs: Sequence[OperationNode]) -> list[OperationNode]:
     """Return every node that the outputs depend on, themselves included, in order of number."""
-    nodes: dict[int, Node] = {}
+    nodes: dict[int, OperationNode] = {}
 
-    def walk(node: Node) -> Iterator[Node]:
+    def walk(node: OperationNode) -> Iterator[OperationNode]:
         yield node
         for _, other in node.terms:
             if other.number not in nodes:

@@ -19,11 +19,11 @@ from .expression_tree import (
     SUM,
     SUM_LEVEL,
     UNARY,
-    Node,
+    OperationNode,
     expression_tree,
     nodes_of,
 )
-from .law import Law
+from .law import NetworkOperator
 
 LONGEST_INLINE = 40  # characters of a subexpression that is written where it is used
 SOURCE_LEVELS = {"pi + theta": SUM_LEVEL, "(hf - h)/h0": PRODUCT_LEVEL}
@@ -35,7 +35,7 @@ NEEDS_A_NAME = {
 }
 
 
-class Text(NamedTuple):
+class FormulaText(NamedTuple):
     """Fragment of a formula, with the level at which it binds."""
 
     text: str
@@ -46,14 +46,14 @@ class Text(NamedTuple):
         return self.text if self.level >= level else f"({self.text})"
 
 
-def formula(law: Law) -> dict[str, str]:
+def formula(law: NetworkOperator) -> dict[str, str]:
     """Return right sides by left side, in the order in which they can be computed; the outputs are z15 and z16."""
     outputs = expression_tree(law.matrix)
     nodes = nodes_of(outputs)
     uses = Counter(other.number for node in nodes for _, other in node.terms)
     named = {other.number for node in nodes for operation, other in node.terms if operation in NEEDS_A_NAME}
     lines: dict[str, str] = {}
-    known: dict[int, Text] = {}
+    known: dict[int, FormulaText] = {}
     for node in nodes:
         text = _node(node, known)
         shared = uses[node.number] > 1 or node.number in named
@@ -61,16 +61,18 @@ def formula(law: Law) -> dict[str, str]:
             not text.text.isidentifier() and (shared or len(text.text) > LONGEST_INLINE)
         ):
             lines[f"z{node.number}"] = text.text
-            text = Text(f"z{node.number}", ATOM)
+            text = FormulaText(f"z{node.number}", ATOM)
         known[node.number] = text
     return lines
 
 
-def _node(node: Node, known: Mapping[int, Text]) -> Text:
-    parts = [(IDENTITY, Text(node.source, SOURCE_LEVELS.get(node.source, ATOM)))] if node.source is not None else []
+def _node(node: OperationNode, known: Mapping[int, FormulaText]) -> FormulaText:
+    parts = (
+        [(IDENTITY, FormulaText(node.source, SOURCE_LEVELS.get(node.source, ATOM)))] if node.source is not None else []
+    )
     parts += [(operation, known[other.number]) for operation, other in node.terms]
     if not parts:
-        return Text({SUM: "0", PRODUCT: "1", MAXIMUM: "-1e8"}.get(node.operation, "1e8"), ATOM)
+        return FormulaText({SUM: "0", PRODUCT: "1", MAXIMUM: "-1e8"}.get(node.operation, "1e8"), ATOM)
     if len(parts) == 1:
         return _unary(*parts[0])
     if node.operation == SUM:
@@ -78,17 +80,17 @@ def _node(node: Node, known: Mapping[int, Text]) -> Text:
     if node.operation == PRODUCT:
         return _product(parts)
     name = "max" if node.operation == MAXIMUM else "min"
-    return Text(f"{name}({', '.join(_unary(*part).text for part in parts)})", ATOM)
+    return FormulaText(f"{name}({', '.join(_unary(*part).text for part in parts)})", ATOM)
 
 
-def _unary(operation: int, argument: Text) -> Text:
+def _unary(operation: int, argument: FormulaText) -> FormulaText:
     if operation == IDENTITY:
         return argument
     notation = UNARY[operation]
-    return Text(notation.formula.format(z=argument.at(notation.argument)), notation.level)
+    return FormulaText(notation.formula.format(z=argument.at(notation.argument)), notation.level)
 
 
-def _sum(parts: list[tuple[int, Text]]) -> Text:
+def _sum(parts: list[tuple[int, FormulaText]]) -> FormulaText:
     text = ""
     for part in parts:
         term = _unary(*part).text
@@ -98,10 +100,10 @@ def _sum(parts: list[tuple[int, Text]]) -> Text:
             text += f" - {term[1:]}"
         else:
             text += f" + {term}"
-    return Text(text, SUM_LEVEL)
+    return FormulaText(text, SUM_LEVEL)
 
 
-def _product(parts: list[tuple[int, Text]]) -> Text:
+def _product(parts: list[tuple[int, FormulaText]]) -> FormulaText:
     negative = False
     text = ""
     for operation, argument in parts:
@@ -114,4 +116,4 @@ def _product(parts: list[tuple[int, Text]]) -> Text:
             text += f"/{argument.at(POWER_LEVEL)}"
         else:
             text += ("*" if text else "") + factor.at(PRODUCT_LEVEL)
-    return Text(f"-{text}", SUM_LEVEL) if negative else Text(text, PRODUCT_LEVEL)
+    return FormulaText(f"-{text}", SUM_LEVEL) if negative else FormulaText(text, PRODUCT_LEVEL)

@@ -26,7 +26,7 @@ Matrix = tuple[tuple[int, ...], ...]
 
 
 @dataclass(frozen=True)
-class Law:
+class NetworkOperator:
     """A control law as a network operator.
 
     ``matrix`` has SIZE rows, the operations as in `fmus_src.mathlib.network_operator`; ``q`` are the
@@ -72,7 +72,7 @@ def find_law(name: str, folder: Path | None = None) -> Path:
     return path
 
 
-def read_law(path: Path) -> Law:
+def read_law(path: Path) -> NetworkOperator:
     """Read the law in a file. Raises InputError, for a wrong matrix with the cell: matrix[row,column], from 1."""
     try:
         text = read_input(path, "give a law's file", CAMPAIGN_BYTES).decode("utf-8")
@@ -85,7 +85,7 @@ def read_law(path: Path) -> Law:
     return law_of(document, str(path))
 
 
-def law_of(document: object, file: str) -> Law:
+def law_of(document: object, file: str) -> NetworkOperator:
     """Read the law in the content of a JSON file called ``file`` in errors. Raises InputError."""
 
     def refuse(element: str, problem: str, remedy: str) -> NoReturn:
@@ -112,7 +112,7 @@ def law_of(document: object, file: str) -> Law:
         refuse("name", "empty", "give the law a name")
     if document["exp_saturation"] not in EXP_SATURATIONS:
         refuse("exp_saturation", f"{document['exp_saturation']!r} is unknown", 'write "true" or "legacy"')
-    return Law(
+    return NetworkOperator(
         name=document["name"],
         matrix=_matrix(document["matrix"], file),
         q=_parameters(document["q"], file),
@@ -175,7 +175,7 @@ def _refuse_constant(text: str) -> NoReturn:
     raise ValueError(f"{text} is no number")
 
 
-def law_parameters(law: Law, component: str) -> dict[str, int | float]:
+def law_parameters(law: NetworkOperator, component: str) -> dict[str, int | float]:
     """Return the law as values of ``component``'s parameters matrix, q and exp_saturation, by name."""
     values: dict[str, int | float] = {}
     for row, entries in enumerate(law.matrix, 1):
@@ -187,6 +187,6 @@ def law_parameters(law: Law, component: str) -> dict[str, int | float]:
     return values
 
 
-def parameter_set(law: Law, component: str) -> bytes:
+def parameter_set(law: NetworkOperator, component: str) -> bytes:
     """Return the content of an .ssv file with the whole law, zeros of the matrix included."""
     return write_parameter_set(law.name, law_parameters(law, component), law.description)

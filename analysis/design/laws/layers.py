@@ -20,7 +20,7 @@ Place = Hashable  # a node's number, or an edge and a layer for a joint
 Layers = list[list[Place]]
 
 
-class Layout:
+class GraphLayout:
     """Positions for drawing: ``nodes`` (x, y) by number; ``paths`` by edge, points from one node to the other."""
 
     def __init__(self, nodes: Sequence[int], edges: Sequence[Edge]) -> None:

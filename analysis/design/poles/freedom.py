@@ -23,7 +23,7 @@ from scipy.linalg import qr
 from scipy.optimize import minimize
 
 from .controllability import TOLERANCE
-from .multilevel import Level, decompose, place_on_levels
+from .multilevel import PoleLevel, decompose, place_on_levels
 from .results import PlacementError, Reason, StateFeedback
 from .spectrum import Spectrum
 
@@ -40,7 +40,7 @@ class Eigenvectors:
     imaginary parts of those of the pairs, so that Y has the singular values of the complex matrix. (A + B K) Y = Y M.
     """
 
-    def __init__(self, level: Level, spectrum: Spectrum) -> None:
+    def __init__(self, level: PoleLevel, spectrum: Spectrum) -> None:
         """Prepare the pair on level 0, with as many poles as it has states."""
         self.spectrum = spectrum
         self.a, self.inverse = level.a, np.linalg.pinv(level.b)
@@ -138,7 +138,7 @@ def gain_norm(family: Eigenvectors, vectors: np.ndarray, order: float) -> tuple[
     return size, outer @ family.matrix.T - family.a.T @ outer - gain.T @ seen
 
 
-def on_levels(levels: Sequence[Level], family: Eigenvectors, free: np.ndarray) -> StateFeedback:
+def on_levels(levels: Sequence[PoleLevel], family: Eigenvectors, free: np.ndarray) -> StateFeedback:
     """Return the placement with these eigenvectors, by its Phi_i.
 
     Phi of a level has as left eigenvectors w Bt, w rows of the inverse of the eigenvectors; which rows, pivoting
@@ -161,7 +161,7 @@ def on_levels(levels: Sequence[Level], family: Eigenvectors, free: np.ndarray) -
 
 def family_of(
     a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE
-) -> tuple[list[Level], Eigenvectors]:
+) -> tuple[list[PoleLevel], Eigenvectors]:
     """Return the levels of a pair, and the eigenvectors that its closed loops may have. Raises PlacementError."""
     levels = decompose(a, b, tolerance)
     rank = levels[0].rank

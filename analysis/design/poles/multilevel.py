@@ -27,7 +27,7 @@ _OUTSIDE = 1e-8  # relative; permitted distance of a user's basis from the drive
 
 
 @dataclass(frozen=True)
-class Level:
+class PoleLevel:
     """One level: its pair ``a``, ``b`` = ``left`` ``right``, the rows P = ``down``, and the singular values kept."""
 
     a: np.ndarray
@@ -44,7 +44,7 @@ class Level:
 
 def decompose(
     a: np.ndarray, b: np.ndarray, tolerance: float = TOLERANCE, sizes: Sequence[int] | None = None
-) -> list[Level]:
+) -> list[PoleLevel]:
     """Return the levels of a pair, level 0 first.
 
     Bt = U S and R = V' of the singular value decomposition; values above ``tolerance`` of |B| are kept, on the levels
@@ -52,7 +52,7 @@ def decompose(
     and Bt picks them, so that a level's Phi is meant in these coordinates. Raises PlacementError for a pair that is not
     controllable, or states that are not what a level drives.
     """
-    levels: list[Level] = []
+    levels: list[PoleLevel] = []
     scale = float(np.linalg.norm(b, 2))
     while True:
         left, values, right = np.linalg.svd(b)
@@ -71,7 +71,7 @@ def decompose(
         else:
             _check_size(sizes, len(levels), rank, b)
             factor, remainder, down = np.eye(len(a), rank), b[:rank], np.eye(len(a))[rank:]
-        levels.append(Level(a, b, factor, remainder, down, values[:rank]))
+        levels.append(PoleLevel(a, b, factor, remainder, down, values[:rank]))
         if rank == len(a):
             return levels
         scale = float(np.linalg.norm(a, 2) * np.linalg.norm(factor, 2))
@@ -79,7 +79,7 @@ def decompose(
 
 
 def assemble(
-    levels: Sequence[Level], wanted: Sequence[np.ndarray], above: Sequence[np.ndarray] | None = None
+    levels: Sequence[PoleLevel], wanted: Sequence[np.ndarray], above: Sequence[np.ndarray] | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return K of u = K x and B^-, both of level 0, for Phi_i = ``wanted``, real or complex, level 0 first.
 
@@ -100,7 +100,7 @@ def assemble(
 
 
 def place_on_levels(
-    levels: Sequence[Level],
+    levels: Sequence[PoleLevel],
     wanted: Sequence[np.ndarray],
     poles: np.ndarray,
     method: str = "multilevel",

@@ -18,7 +18,7 @@ from .spectrum import Spectrum
 from .zeroth_level import ZerothLevel, direct, square
 
 
-class Route(StrEnum):
+class DecomposedPlant(StrEnum):
     """Plant that is decomposed."""
 
     DIRECT = "direct"  # (A, B, C): the upper level takes n - m poles
@@ -57,8 +57,10 @@ def output_feedback(
     state = state_matrix(a)
     plant = state, input_matrix(b, len(state)), output_matrix(c, len(state))
     spectrum = Spectrum.of(poles, len(state))
-    if method not in (None, *Route):
-        raise InputError("modal", f"method {method!r}", "there is none of that name", suggestion(str(method), Route))
+    if method not in (None, *DecomposedPlant):
+        raise InputError(
+            "modal", f"method {method!r}", "there is none of that name", suggestion(str(method), DecomposedPlant)
+        )
     if choice not in [*Spread]:
         raise InputError("modal", f"choice {choice!r}", "there is none of that name", suggestion(choice, Spread))
     if upper is not None and method is None:
@@ -92,7 +94,7 @@ def _placements(
     refusals: list[PlacementError],
 ) -> Iterator[OutputFeedback]:
     """Yield placements, direct before dual; reasons of inapplicable ones go to ``refusals``."""
-    for route, plant in ((Route.DIRECT, (a, b, c)), (Route.DUAL, (a.T, c.T, b.T))):
+    for route, plant in ((DecomposedPlant.DIRECT, (a, b, c)), (DecomposedPlant.DUAL, (a.T, c.T, b.T))):
         if method not in (None, route):
             continue
         level = ZerothLevel(*plant)
@@ -104,7 +106,7 @@ def _placements(
             except PlacementError as error:
                 refusals.append(error)
                 continue
-            if route is Route.DUAL:
+            if route is DecomposedPlant.DUAL:
                 placed = replace(placed, method=route, gain=placed.gain.T, closed_loop=placed.closed_loop.T)
             yield placed
 

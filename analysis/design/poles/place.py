@@ -32,7 +32,7 @@ STARTS = 8
 _ORTHONORMAL = 1e-9
 
 
-class Choice(StrEnum):
+class FreedomUse(StrEnum):
     """Use of the freedom that several inputs leave."""
 
     DIAGONAL = "diagonal"  # nothing: diagonal matrices, blocks for pairs
@@ -56,7 +56,7 @@ def place(
     poles: ArrayLike,
     *,
     method: str | None = None,
-    choice: str = Choice.DIAGONAL,
+    choice: str = FreedomUse.DIAGONAL,
     tolerance: float | None = None,
     starts: int = STARTS,
     seed: int = 0,
@@ -76,14 +76,14 @@ def place(
     spectrum = Spectrum.of(poles, len(state))
     if method is not None and method not in METHODS:
         raise InputError("modal", f"method {method!r}", "there is none of that name", suggestion(method, METHODS))
-    if choice not in [*Choice]:
-        raise InputError("modal", f"choice {choice!r}", "there is none of that name", suggestion(choice, Choice))
-    if choice != Choice.DIAGONAL:
+    if choice not in [*FreedomUse]:
+        raise InputError("modal", f"choice {choice!r}", "there is none of that name", suggestion(choice, FreedomUse))
+    if choice != FreedomUse.DIAGONAL:
         if method not in (None, "multilevel"):
             raise InputError("modal", f"choice {choice!r}", f"method {method} has none", "take method multilevel")
         if starts < 1:
             raise InputError("modal", "starts", f"there are {starts}", "give 1 or more")
-        search = least_condition if choice == Choice.LEAST_CONDITION else least_norm
+        search = least_condition if choice == FreedomUse.LEAST_CONDITION else least_norm
         return search(state, inputs, spectrum, starts, seed, _above(tolerance))
     if method in _ONE_CLASS:
         if tolerance is not None:

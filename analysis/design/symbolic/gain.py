@@ -21,7 +21,7 @@ from .levels import assemble_symbols, symbolic_levels
 _DIGITS = 30
 
 
-class Formula(StrEnum):
+class SymbolicMethod(StrEnum):
     """The methods that have a formula in symbols."""
 
     MULTILEVEL = "multilevel"
@@ -78,7 +78,12 @@ class SymbolicGain:
 
 
 def symbolic_gain(
-    a: Any, b: Any, required: Sequence[Any], *, method: str = Formula.MULTILEVEL, bases: Sequence[Any] | None = None
+    a: Any,
+    b: Any,
+    required: Sequence[Any],
+    *,
+    method: str = SymbolicMethod.MULTILEVEL,
+    bases: Sequence[Any] | None = None,
 ) -> SymbolicGain:
     """Return K of **u = -K x** as a formula in the symbols of A and B; needs sympy, `pip install 'perilune[symbolic]'`.
 
@@ -91,15 +96,17 @@ def symbolic_gain(
     state = matrix_of("A", a)
     state = matrix_of("A", state, (state.rows, state.rows))
     inputs = matrix_of("B", b, (state.rows, None))
-    if method not in [*Formula]:
-        raise InputError("modal", f"method {method!r}", "there is none of that name", suggestion(method, Formula))
-    if method != Formula.MULTILEVEL:
+    if method not in [*SymbolicMethod]:
+        raise InputError(
+            "modal", f"method {method!r}", "there is none of that name", suggestion(method, SymbolicMethod)
+        )
+    if method != SymbolicMethod.MULTILEVEL:
         if bases is not None:
             raise InputError("modal", "bases", f"method {method} has none", "take method multilevel")
         size = inputs.cols
         count = state.rows // size
         matrices = _matrices(required, [size] * count) or _polynomial(_poles(required, state.rows), count, size)
-        formula = ackermann_symbols if method == Formula.ACKERMANN else bass_gura_symbols
+        formula = ackermann_symbols if method == SymbolicMethod.ACKERMANN else bass_gura_symbols
         gain = formula(state, inputs, matrices)
     else:
         gain = -_multilevel(state, inputs, required, bases)
@@ -107,7 +114,12 @@ def symbolic_gain(
 
 
 def symbolic_observer(
-    a: Any, c: Any, required: Sequence[Any], *, method: str = Formula.MULTILEVEL, bases: Sequence[Any] | None = None
+    a: Any,
+    c: Any,
+    required: Sequence[Any],
+    *,
+    method: str = SymbolicMethod.MULTILEVEL,
+    bases: Sequence[Any] | None = None,
 ) -> SymbolicGain:
     """Return L of x_h' = A x_h + B u + L (y - C x_h) as a formula: L' is K of `symbolic_gain` for (A', C').
 

@@ -73,7 +73,7 @@ class AdmissionThreshold(NamedTuple):
         return self.order.standing(np.array(objectives)) >= self.worst
 
 
-class Task(NamedTuple):
+class EvaluationTask(NamedTuple):
     """A law to evaluate, and what is known of its first trials."""
 
     law: Phenotype
@@ -86,7 +86,7 @@ class Evaluator(Protocol):
     objectives: int  # number of objectives
     trials: int  # of an evaluation that is complete
 
-    def evaluate(self, tasks: Sequence[Task], bar: AdmissionThreshold | None) -> list[Evaluation]:
+    def evaluate(self, tasks: Sequence[EvaluationTask], bar: AdmissionThreshold | None) -> list[Evaluation]:
         """Evaluate laws, each from the trial after the known ones; objectives are sums of numbers >= 0.
 
         An evaluation may end early where ``bar`` rejects it, and must not otherwise.

@@ -13,8 +13,8 @@ from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.execute.flyer import Flyer, TrialResult
 from ...campaigns.execute.workers import FlyerPool
 from ...runtime.ssp.given_values import ParameterValue
-from ..laws.law import Law, law_parameters
-from .candidate import AdmissionThreshold, Evaluation, Task
+from ..laws.law import NetworkOperator, law_parameters
+from .candidate import AdmissionThreshold, Evaluation, EvaluationTask
 
 VARIANT = "default"
 
@@ -31,7 +31,7 @@ class FlightEvaluator:
         self,
         plan: BatchPlan,
         component: str,
-        basic: Law,
+        basic: NetworkOperator,
         objectives: Sequence[Expression],
         *,
         workers: int,
@@ -46,7 +46,7 @@ class FlightEvaluator:
         self._evaluated = evaluated
         self._pool = FlyerPool(plan, workers, native)
 
-    def evaluate(self, tasks: Sequence[Task], bar: AdmissionThreshold | None) -> list[Evaluation]:
+    def evaluate(self, tasks: Sequence[EvaluationTask], bar: AdmissionThreshold | None) -> list[Evaluation]:
         """Return evaluations in the order of the tasks. Raises InputError for an objective below 0."""
         evaluations: dict[int, Evaluation] = {}
         work = [(self._overlay(task), self._expressions, task.known, bar) for task in tasks]
@@ -55,8 +55,8 @@ class FlightEvaluator:
             self._evaluated()
         return [evaluations[place] for place in range(len(tasks))]
 
-    def _overlay(self, task: Task) -> dict[str, ParameterValue]:
-        law = Law(self._basic.name, task.law.matrix, task.law.q, self._basic.exp_saturation)
+    def _overlay(self, task: EvaluationTask) -> dict[str, ParameterValue]:
+        law = NetworkOperator(self._basic.name, task.law.matrix, task.law.q, self._basic.exp_saturation)
         return dict(law_parameters(law, self._component))
 
     def __enter__(self) -> FlightEvaluator:

@@ -20,10 +20,10 @@ from .candidate import (
     AdmissionThreshold,
     Candidate,
     Evaluation,
+    EvaluationTask,
     Evaluator,
     Genes,
     Phenotype,
-    Task,
     cross,
     mutate,
     phenotype,
@@ -159,12 +159,12 @@ class Search:
         laws = [phenotype(each, state.bases, self.coding) for each in genes]
         keys = [law.key for law in laws]
         nothing = Evaluation((0.0,) * self.evaluator.objectives, 0, 0)
-        tasks: dict[str, Task] = {}
+        tasks: dict[str, EvaluationTask] = {}
         for key, law in zip(keys, laws, strict=True):
             known = state.known.get(key, nothing)
             rejected = known.flown > 0 and bar is not None and bar.rejects(known.objectives)
             if known.flown < self.evaluator.trials and not rejected:
-                tasks[key] = Task(law, known)
+                tasks[key] = EvaluationTask(law, known)
         evaluations = self.evaluator.evaluate(list(tasks.values()), bar)
         for (key, task), evaluation in zip(tasks.items(), evaluations, strict=True):
             state.evaluations += task.known.flown == 0

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ....common.atomic import write_atomically
 from ..laws.formula import formula
-from ..laws.law import Law, parameter_set
+from ..laws.law import NetworkOperator, parameter_set
 from .candidate import Candidate
 from .checkpoint import finite_or_none
 from .genetic import Search
@@ -22,7 +22,7 @@ FORMAT, VERSION = "perilune-pareto-set", 2
 
 
 @dataclass
-class SynthesisResult:
+class SynthesisOutcome:
     """A search as far as it came; ``ended`` says why: success, generations or evaluations."""
 
     synthesis: Synthesis
@@ -32,10 +32,10 @@ class SynthesisResult:
     folder: Path | None = None  # in which it is stored
 
     @property
-    def law(self) -> Law:
+    def law(self) -> NetworkOperator:
         return self._law(self.search.choose())
 
-    def _law(self, candidate: Candidate) -> Law:
+    def _law(self, candidate: Candidate) -> NetworkOperator:
         law = self.search.law(candidate)
         evaluation = candidate.evaluation
         file = Path(self.synthesis.campaign.file).name
@@ -45,7 +45,7 @@ class SynthesisResult:
             f"{evaluation.successes} of {evaluation.flown} trials are successes."
         )
         name = f"{Path(file).stem}_{candidate.key[:8]}"
-        return Law(name, law.matrix, law.q, self.synthesis.basic.exp_saturation, description)
+        return NetworkOperator(name, law.matrix, law.q, self.synthesis.basic.exp_saturation, description)
 
     @property
     def succeeded(self) -> bool:

@@ -20,7 +20,7 @@ from ..laws.law import law_parameters
 from .checkpoint import read_checkpoint, write_checkpoint
 from .fitness import VARIANT, FlightEvaluator
 from .genetic import Search, SearchState
-from .outcome import SynthesisResult, write_log
+from .outcome import SynthesisOutcome, write_log
 from .synthesis_file import Synthesis
 
 CHECKPOINT = "checkpoint.json"
@@ -34,7 +34,7 @@ def run_synthesis(
     output: Path | None = None,
     resume: bool = False,
     evaluations: int | None = None,
-) -> SynthesisResult:
+) -> SynthesisOutcome:
     """Search for laws. Raises InputError before any simulation.
 
     ``seed`` replaces the campaign's; ``workers`` is the number of laws that are evaluated at the same time (default:
@@ -81,7 +81,7 @@ def run_synthesis(
             summary = f"{state.history[-1]['successes']} of {evaluator.trials} trials are successes"
             progress.set_postfix_str(f"generation {state.generation}, {summary}")
     reason = "success" if state.succeeded else "generations" if search.is_over else "evaluations"
-    result = SynthesisResult(synthesis, search, facts, reason)
+    result = SynthesisOutcome(synthesis, search, facts, reason)
     if output is not None:
         result.write(output)
     return result

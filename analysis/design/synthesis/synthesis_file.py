@@ -17,7 +17,7 @@ from ...campaigns.definition.plan import BatchPlan
 from ...campaigns.definition.source import read_source_file
 from ...campaigns.definition.table import TomlTable, expression, integer, number, text
 from ...runtime.system.options import SystemOptions
-from ..laws.law import Law, find_law, law_parameters, read_law
+from ..laws.law import NetworkOperator, find_law, law_parameters, read_law
 from .search_settings import SearchSettings
 from .variations import OUTPUTS, SIZE, SOURCES, edges_in, edges_out
 
@@ -54,7 +54,7 @@ class Synthesis:
     campaign: Campaign
     component: str
     fmu: str | None
-    basic: Law
+    basic: NetworkOperator
     settings: SearchSettings
     objectives: Mapping[str, Expression]
     step: float | None
@@ -145,7 +145,7 @@ def _objectives(table: TomlTable, campaign: Campaign) -> dict[str, Expression]:
     return objectives
 
 
-def _check_basic(law: Law, settings: SearchSettings, path: Path) -> None:
+def _check_basic(law: NetworkOperator, settings: SearchSettings, path: Path) -> None:
     """Refuse a basic solution that the search could not vary or code."""
     for node in range(SOURCES, SIZE):
         if not edges_in(law.matrix, node) and (node in OUTPUTS or edges_out(law.matrix, node)):

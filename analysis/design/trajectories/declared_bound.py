@@ -44,10 +44,10 @@ def read_inputs(prepared: PreparedSystem) -> Inputs | None:
     They are those of the prepared system with the parameter set that braking starts from on top. Raises InputError.
     """
     annotation = prepared.network.description.annotations.get(ANNOTATION)
-    return None if annotation is None else _Reader(prepared).inputs(annotation)
+    return None if annotation is None else _BoundReader(prepared).inputs(annotation)
 
 
-class _Reader(AnnotationReader):
+class _BoundReader(AnnotationReader):
     def __init__(self, prepared: PreparedSystem) -> None:
         super().__init__(prepared.network.file)
         self.prepared = prepared

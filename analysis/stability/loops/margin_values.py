@@ -19,7 +19,7 @@ UNSTABLE = -math.inf
 UNLIMITED = math.inf
 
 
-class Quantity(StrEnum):
+class MarginQuantity(StrEnum):
     STABILITY = "stability"
     GAIN = "gain margin"
     PHASE = "phase margin"
@@ -35,11 +35,12 @@ class Quantity(StrEnum):
         return {"gain": "dB", "phase": "deg", "delay": "s"}.get(self.split()[-2] if " " in self else "", "1")
 
 
-MARGINS = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS, Quantity.DISK)  # of every loop's line
+# Of every loop's line.
+MARGINS = (MarginQuantity.GAIN, MarginQuantity.PHASE, MarginQuantity.MODULUS, MarginQuantity.DISK)
 
 
 @dataclass(frozen=True)
-class Margins:
+class LoopMargins:
     """The nearest margins of one loop.
 
     ``gain`` (factor, above 1: upwards), ``phase`` (rad, positive: lag) and ``delay`` (s) are inf where there is no
@@ -57,7 +58,7 @@ class Margins:
     largest: float | None = None
 
     @classmethod
-    def of(cls, classical: Classical, robust: Robust, stable: bool | None, largest: float | None) -> Margins:
+    def of(cls, classical: Classical, robust: Robust, stable: bool | None, largest: float | None) -> LoopMargins:
         """Return the margins of the nearest crossings and the distances from -1."""
         gain, phase = classical.gain_margin, classical.phase_margin
         return cls(
@@ -75,15 +76,17 @@ class Margins:
         """True if the loop is known to be unstable: then it has no margins."""
         return self.stable is False
 
-    def size(self, quantity: Quantity) -> float:
+    def size(self, quantity: MarginQuantity) -> float:
         """Return the size of a margin in its unit, `UNSTABLE` or `UNLIMITED`."""
         if self.unstable:
             return UNSTABLE
-        if quantity is Quantity.GAIN:
+        if quantity is MarginQuantity.GAIN:
             return decibel_size(self.gain) if math.isfinite(self.gain) else UNLIMITED
-        if quantity is Quantity.PHASE:
+        if quantity is MarginQuantity.PHASE:
             return degree_size(self.phase) if math.isfinite(self.phase) else UNLIMITED
-        return {Quantity.MODULUS: self.modulus, Quantity.DISK: self.disk, Quantity.DELAY: self.delay}[quantity]
+        return {MarginQuantity.MODULUS: self.modulus, MarginQuantity.DISK: self.disk, MarginQuantity.DELAY: self.delay}[
+            quantity
+        ]
 
 
 def order_statistic(sizes: Sequence[float], level: float) -> float:

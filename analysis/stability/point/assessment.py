@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..loops.curves import Response, cache_response, dense
-from ..loops.margin_values import Margins, Quantity
+from ..loops.margin_values import LoopMargins, MarginQuantity
 from ..loops.margins import classical, robust
 from ..loops.readings import Classical, FrequencyResponse, Robust
 from ..request.declaration import MarginLimits
-from ..results.requirement import Requirement, Scope, grows
+from ..results.requirement import MarginRequirement, Scope, grows
 
 LOWEST = 1e-6  # of the Nyquist frequency: below, a linear model's integrators are not resolved
 BELOW = 0.02  # of the lowest gain crossover, from which on a loop is looked at
@@ -80,15 +80,19 @@ def assess(
     return Assessment(curve, crossings, robust(response, low, high, include=include), notes)
 
 
-def requirements(margins: Margins, limits: MarginLimits, outside: Sequence[str] = ()) -> tuple[Requirement, ...]:
+def requirements(
+    margins: LoopMargins, limits: MarginLimits, outside: Sequence[str] = ()
+) -> tuple[MarginRequirement, ...]:
     """Return the project's limits against one loop; ``outside`` names growing memory that is not in it."""
     if margins.stable is None:
         note = "poles are not known without a linearisation"
-        stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, None, 1.0, None, note)
+        stability = MarginRequirement(Scope.NOMINAL, MarginQuantity.STABILITY, None, 1.0, None, note)
     else:
         note = "" if margins.stable else grows(outside) or "the closed loop is unstable"
-        stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, margins.largest, 1.0, margins.stable, note)
+        stability = MarginRequirement(
+            Scope.NOMINAL, MarginQuantity.STABILITY, margins.largest, 1.0, margins.stable, note
+        )
     return stability, *(
-        Requirement.at_least(Scope.NOMINAL, quantity, margins.size(quantity), limit)
+        MarginRequirement.at_least(Scope.NOMINAL, quantity, margins.size(quantity), limit)
         for quantity, limit in limits.nominal.items()
     )

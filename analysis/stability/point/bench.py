@@ -18,7 +18,7 @@ from ...runtime.ssp.given_values import ParameterValue
 from ...runtime.system.prepared import PreparedSystem
 from ..request.channels import Channel
 from ..request.declaration import PointDeclaration
-from ..results.requirement import Verdict
+from ..results.requirement import MarginVerdict
 
 LONGEST = 50_000  # communication points of a hyperperiod
 LOOKS = 20  # communication points on the way to the operating point at which sizes are looked at
@@ -42,7 +42,7 @@ class OverflowedError(StudyError):
 class LoopError(StudyError):
     """Verdict on a loop without margins, with the reason as its message."""
 
-    def __init__(self, message: str, verdict: Verdict) -> None:
+    def __init__(self, message: str, verdict: MarginVerdict) -> None:
         super().__init__(message)
         self.verdict = verdict
 

@@ -20,7 +20,7 @@ from ..loops.growth import WINDOWS, growth_to_overflow, steady_growth
 from ..loops.multisine import Multisine, fraction_unexcited, line_spectrum, multisine, single_line
 from ..loops.readings import FrequencyResponse
 from ..request.channels import Channel
-from ..results.requirement import Verdict
+from ..results.requirement import MarginVerdict
 from ..results.responses import Measured
 from .bench import Bench, LoopError, OverflowedError
 
@@ -45,7 +45,7 @@ class UnstableError(LoopError):
     """Growth without bound of the change that a disturbance makes, by ``growth`` a sample."""
 
     def __init__(self, growth: float) -> None:
-        super().__init__(f"unstable, grows {growth:.5g}-fold a sample", Verdict.FAIL)
+        super().__init__(f"unstable, grows {growth:.5g}-fold a sample", MarginVerdict.FAIL)
         self.growth = growth
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from .bench import OperatingPoint, StudyError
-from .lifted import Port
+from .lifted import SampledChannel
 
 STEPS = tuple(10.0**-power for power in range(3, 15))  # of a cell's scale or a signal's size
 LEVELS = 4  # steps in a row, from the largest on that the flight survives
@@ -32,11 +32,11 @@ class Jacobian:
         self.start = self.memory.read()
         self.base = self.bench.fly(self.first, self.last)
         self.end = self.memory.read()
-        ports: list[Port] = []
+        ports: list[SampledChannel] = []
         for channel in self.bench.channels:
             first = ports[-1].first + ports[-1].count if ports else 0
             seconds = channel.period * self.bench.prepared.step
-            ports.append(Port(channel, seconds, first, self.bench.period // channel.period))
+            ports.append(SampledChannel(channel, seconds, first, self.bench.period // channel.period))
         self.ports = tuple(ports)
 
     def _after(self, excitation: np.ndarray | None = None) -> np.ndarray:
@@ -60,7 +60,7 @@ class Jacobian:
         self.memory.put_back(self.snapshot, self.memory.cells[cell], low)
         return (above - self._after()) * (self.scale[cell] / (high - low))
 
-    def input_column(self, port: Port, sample: int, step: float) -> np.ndarray:
+    def input_column(self, port: SampledChannel, sample: int, step: float) -> np.ndarray:
         """Return the derivative to an addition at one sample of a channel; ``step`` is in units of the signal's
         size."""
         channel = port.channel

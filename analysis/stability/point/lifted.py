@@ -30,7 +30,7 @@ _TOGETHER = 64  # frequencies: arrays stay in the cache and products below the s
 
 
 @dataclass(frozen=True)
-class Port:
+class SampledChannel:
     """Rows and columns of one channel in the model, in order of its samples."""
 
     channel: Channel
@@ -67,10 +67,10 @@ class LiftedModel:
     dv: np.ndarray
     names: tuple[str, ...]
     period: float
-    ports: tuple[Port, ...]
+    ports: tuple[SampledChannel, ...]
     variables: Mapping[str, StateVariable] = field(default_factory=dict)
 
-    def reduce(self, ports: tuple[Port, ...]) -> LiftedModel:
+    def reduce(self, ports: tuple[SampledChannel, ...]) -> LiftedModel:
         """Return the model of the memory that the ports both move and are moved by, directly or not.
 
         Of that, cells whose share of the return signal is below SHARE at all frequencies are left out: they are moved
@@ -96,7 +96,7 @@ class LiftedModel:
             names=tuple(self.names[place] for place in kept),
         )
 
-    def _shares(self, port: Port) -> np.ndarray:
+    def _shares(self, port: SampledChannel) -> np.ndarray:
         """Return by cell the largest relative change of the return signal, at any frequency, per relative change of
         it."""
         fractions = np.zeros(len(self.a))
@@ -139,14 +139,16 @@ class LiftedModel:
         """Count closed-loop multipliers outside the unit circle."""
         return int(np.sum(abs(self.poles()) > 1.0 + UNIT_CIRCLE))
 
-    def open_loops(self, ports: tuple[Port, ...]) -> np.ndarray:
+    def open_loops(self, ports: tuple[SampledChannel, ...]) -> np.ndarray:
         """Return multipliers with these ports' cuts open and the other loops closed, those at 0 left out."""
         rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
         inside = np.linalg.solve(self.du[np.ix_(rows, rows)], self.cu[rows])
         a = self.a - self.b[:, rows] @ inside
         return replace(self, a=a, names=(), variables={}).poles()
 
-    def disturbance_response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def disturbance_response(
+        self, ports: tuple[SampledChannel, ...], frequency: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Return the input (u) and the return signal (v) at each frequency for a unit of d, both (n, m, m) for m
         ports."""
         u = np.empty((frequency.size, len(ports), len(ports)), dtype=complex)
@@ -184,12 +186,12 @@ class LiftedModel:
             x[:start] += triangle[:start, start:end] @ x[start:end]
         return x
 
-    def response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> np.ndarray:
+    def response(self, ports: tuple[SampledChannel, ...], frequency: np.ndarray) -> np.ndarray:
         """Return L, minus the transfer from the input to the return signal, (n, m, m); other loops closed."""
         u, v = self.disturbance_response(ports, np.asarray(frequency, dtype=float))
         return -np.linalg.solve(np.swapaxes(u, 1, 2), np.swapaxes(v, 1, 2)).swapaxes(1, 2)
 
-    def periodicity(self, port: Port, frequency: np.ndarray) -> float:
+    def periodicity(self, port: SampledChannel, frequency: np.ndarray) -> float:
         """Return the largest share of the input at other frequencies than the added one; 0: time-invariant."""
         worst = 0.0
         for w in frequency:

@@ -15,7 +15,7 @@ from ..loops.refinement import refine
 from ..request.channels import Channel
 from ..request.declaration import MarginLimits
 from ..results.report import LoopReport
-from ..results.requirement import Verdict
+from ..results.requirement import MarginVerdict
 from ..results.responses import AmplitudePoint, Measured
 from .assessment import Assessment, assess, requirements
 from .bench import Bench, LoopError, StudyError
@@ -165,7 +165,7 @@ class LoopStudy:
         try:
             wave, peak = injector.wave()
         except (NotMeasurableError, StudyError) as error:
-            raise LoopError(f"{SILENT} ({error})", Verdict.NOT_APPLICABLE) from error
+            raise LoopError(f"{SILENT} ({error})", MarginVerdict.NOT_APPLICABLE) from error
         measured = self.measured is not None
         silence = silence_of(self.bench.prepared, self.bench, self.channel, peak, wave, measured)
         if silence.growth is not None and self.model is None:
@@ -174,7 +174,7 @@ class LoopStudy:
             return
         untried = self.notes.get("frequency-response test")
         why = f", by linearisation alone: {untried}" if untried else ""
-        raise LoopError(silence.reason + why, Verdict.NOT_APPLICABLE)
+        raise LoopError(silence.reason + why, MarginVerdict.NOT_APPLICABLE)
 
     @cached_property
     def assessed(self) -> tuple[Assessment, Response]:

@@ -15,7 +15,7 @@ import scipy.linalg
 from scipy.sparse.csgraph import connected_components
 
 from ..results.responses import Mode, Structure
-from .lifted import LiftedModel, Port
+from .lifted import LiftedModel, SampledChannel
 
 APART = 1e-4  # of the largest: a mode that answers less does not belong to the loop, or it is rounding
 KINDS = {(True, True): "loop", (False, True): "not controllable", (True, False): "not observable"}
@@ -23,7 +23,7 @@ RANK = 1e-9  # of the largest singular value
 ADDS_UP = 1e-6  # from 1: a cell that depends on itself so nearly only adds up, or holds, whatever parameters say
 
 
-def modes(model: LiftedModel, port: Port) -> tuple[Mode, ...]:
+def modes(model: LiftedModel, port: SampledChannel) -> tuple[Mode, ...]:
     """Return all modes of a reduced model that last, largest multiplier first."""
     lasting = model.lasting
     if not lasting.a.size:
@@ -58,7 +58,7 @@ def _mode(z: complex, period: float, kind: str, controllability: float, observab
     return Mode(z, s, damping, abs(s), kind, controllability, observability)
 
 
-def structure(model: LiftedModel, port: Port, states: int) -> Structure:
+def structure(model: LiftedModel, port: SampledChannel, states: int) -> Structure:
     """Return ranks of [b, ab, a2b, ...] and of its dual over as many periods as there are states."""
     lasting = model.lasting
     controllable = _rank(lasting.a, lasting.b[:, port.rows])

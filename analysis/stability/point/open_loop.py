@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..results.responses import StateSpace
-from .lifted import LiftedModel, Port
+from .lifted import LiftedModel, SampledChannel
 
 LOWEST, HIGHEST, COUNT = 1e-3, 0.97, 60  # frequencies, over the Nyquist frequency, at which L is compared
 SMALLEST_GAIN = 0.03  # of |L|, and 1/33 the other way: margins are decided where L is about 1
@@ -23,7 +23,7 @@ SAME = 1e-3  # relative difference of L up to which one state space stands for a
 NEGLIGIBLE = 1e-11  # relative size of singular values that carry no information on A
 
 
-def open_loop(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
+def open_loop(model: LiftedModel, ports: tuple[SampledChannel, ...]) -> StateSpace:
     """Return L of some ports with one sample period, their cuts open, other loops closed; ``model`` is reduced for
     them.
 
@@ -37,7 +37,7 @@ def open_loop(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
     return lifted
 
 
-def _open(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
+def _open(model: LiftedModel, ports: tuple[SampledChannel, ...]) -> StateSpace:
     """Return the lifted model with the cuts open, samples stacked oldest first, in the memory's units."""
     samples = ports[0].count
     rows = np.ravel([[port.first + sample for port in ports] for sample in range(samples)])
@@ -64,7 +64,7 @@ def _open(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
     return replace(opened, error=_difference(_waves(opened, ports, frequency), model.response(ports, frequency)))
 
 
-def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
+def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[SampledChannel, ...]) -> StateSpace:
     """Return one state space for all samples, as far as there is one; its error says so."""
     count, states = len(ports), len(lifted.a)
     blocks = [lifted.c]
@@ -92,7 +92,7 @@ def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, 
     return replace(single, error=_difference(single.response(frequency), model.response(ports, frequency)))
 
 
-def _waves(lifted: StateSpace, ports: tuple[Port, ...], frequency: np.ndarray) -> np.ndarray:
+def _waves(lifted: StateSpace, ports: tuple[SampledChannel, ...], frequency: np.ndarray) -> np.ndarray:
     """Return L of a lifted open loop (n, m, m): the mean of the answers at the frequency of exp(jwt)."""
     count = len(ports)
     wave = np.exp(1j * ports[0].seconds * np.outer(frequency, np.arange(lifted.samples)))

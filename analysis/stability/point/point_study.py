@@ -9,13 +9,13 @@ import numpy as np
 
 from ....common.errors import InputError
 from ..loops.disk import joint_disk_margin
-from ..loops.margin_values import UNSTABLE, Margins, Quantity
+from ..loops.margin_values import UNSTABLE, LoopMargins, MarginQuantity
 from ..loops.readings import decibel_size, degree_size
 from ..request.channels import Channel, channels_of
 from ..request.declaration import LoopDeclaration, MarginLimits, PointDeclaration
 from ..request.request import Subject
 from ..results.report import JointReport, PointReport
-from ..results.requirement import Requirement, Scope
+from ..results.requirement import MarginRequirement, Scope
 from .assessment import lowest_frequency
 from .bench import Bench, OperatingPoint, StudyError
 from .jacobian import STEPS
@@ -66,7 +66,7 @@ class PointStudy:
             self._models[channel.name] = loop_model(self.linear, port)
         return self._models[channel.name]
 
-    def margins(self, states: Sequence[int], names: Sequence[str]) -> list[Margins]:
+    def margins(self, states: Sequence[int], names: Sequence[str]) -> list[LoopMargins]:
         """Return margins of channels by name where the memory that matters is known. Raises StudyError."""
         self.linearise(states, ONE_STEP)
         if self.linear is None:
@@ -140,8 +140,8 @@ class PointStudy:
         models = [item for port in ports if (item := self.model(port.channel)) is not None]
         stable = all(item.stable for item in models)
         wanted = {
-            Quantity.DISK_GAIN: (decibel_size(margin.gain), limits.dispersed_gain_margin_db),
-            Quantity.DISK_PHASE: (degree_size(margin.phase), limits.dispersed_phase_margin_deg),
+            MarginQuantity.DISK_GAIN: (decibel_size(margin.gain), limits.dispersed_gain_margin_db),
+            MarginQuantity.DISK_PHASE: (degree_size(margin.phase), limits.dispersed_phase_margin_deg),
         }
         return JointReport(
             name=loop.name,
@@ -156,7 +156,7 @@ class PointStudy:
             disk_margins=margin.alphas,
             open_loop=open_loop(model, ports) if all(item.has_plateau for item in models) else None,
             requirements=tuple(
-                Requirement.at_least(Scope.JOINT, quantity, size if stable else UNSTABLE, limit)
+                MarginRequirement.at_least(Scope.JOINT, quantity, size if stable else UNSTABLE, limit)
                 for quantity, (size, limit) in wanted.items()
             ),
         )

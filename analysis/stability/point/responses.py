@@ -9,12 +9,12 @@ from functools import cached_property
 import numpy as np
 
 from ..loops.curves import Response, quotient
-from ..loops.margin_values import Margins
+from ..loops.margin_values import LoopMargins
 from ..loops.readings import decibels, factor_of
 from ..results.responses import Agreement, Linearised, Measured, Mode
 from .assessment import assess, lowest_frequency
 from .bench import StudyError
-from .lifted import UNIT_CIRCLE, LiftedModel, Port
+from .lifted import UNIT_CIRCLE, LiftedModel, SampledChannel
 from .linearise import Linearisation
 from .modes import CoupledMemory, modes, unseen_mode
 
@@ -37,7 +37,7 @@ class LoopModel:
     """Linearisation of one channel. ``outside``: unstable state variables outside of the loop, the fastest first."""
 
     model: LiftedModel
-    port: Port
+    port: SampledChannel
     modes: tuple[Mode, ...]
     poles_open: np.ndarray
     facts: Linearised
@@ -109,7 +109,7 @@ class LoopModel:
         near = (abs(oscillating) > 0.9) & ~on_circle
         return [float(w) for w in frequencies[on_circle]], [float(w) for w in frequencies[near]]
 
-    def margins(self) -> Margins:
+    def margins(self) -> LoopMargins:
         """Return the nearest margins. Raises StudyError where they cannot be read."""
         seconds = self.port.seconds
         try:
@@ -117,10 +117,10 @@ class LoopModel:
             assessment = assess(self.response, self.lowest, np.pi / seconds, seconds, None, (), [*undamped, *near])
         except ValueError as error:
             raise StudyError(f"{self.port.channel.name}: {error}") from error
-        return Margins.of(assessment.classical, assessment.robust, self.stable, self.largest)
+        return LoopMargins.of(assessment.classical, assessment.robust, self.stable, self.largest)
 
 
-def loop_model(linearisation: Linearisation, port: Port) -> LoopModel:
+def loop_model(linearisation: Linearisation, port: SampledChannel) -> LoopModel:
     """Return the model of one channel within a linear model, and its trust."""
     model = linearisation.model.reduce((port,))
     neighbour = linearisation.neighbour.reduce((port,))

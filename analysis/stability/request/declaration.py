@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ...runtime.system.options import Layer
-from ..loops.margin_values import Quantity
+from ..loops.margin_values import MarginQuantity
 
 
 @dataclass(frozen=True)
@@ -19,12 +19,12 @@ class MarginLimits:
     dispersed_phase_margin_deg: float = 20.0
 
     @property
-    def nominal(self) -> dict[Quantity, float]:
+    def nominal(self) -> dict[MarginQuantity, float]:
         """The limits of one loop."""
         return {
-            Quantity.GAIN: self.gain_margin_db,
-            Quantity.PHASE: self.phase_margin_deg,
-            Quantity.MODULUS: self.modulus_margin,
+            MarginQuantity.GAIN: self.gain_margin_db,
+            MarginQuantity.PHASE: self.phase_margin_deg,
+            MarginQuantity.MODULUS: self.modulus_margin,
         }
 
 

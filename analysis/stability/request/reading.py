@@ -23,10 +23,10 @@ def read_declaration(description: Description) -> Declaration:
     annotation = description.annotations.get(ANNOTATION)
     if annotation is None:
         return Declaration()
-    return _Reader(description.file).declaration(annotation)
+    return _RequestReader(description.file).declaration(annotation)
 
 
-class _Reader(AnnotationReader):
+class _RequestReader(AnnotationReader):
     def declaration(self, annotation: etree._Element) -> Declaration:
         children = self.parts(self.content(annotation, "Stability"), ("Limits", "Point", "Loop", "Sweep"))
         points = tuple(self.point(item) for item in children["Point"])

@@ -21,7 +21,7 @@ from scipy.io import savemat
 from ....common.atomic import write_atomically
 from ....common.visible import quote_formula
 from .document import document, joint_margin, loop_margins
-from .report import JointReport, LoopReport, Orders, StabilityReport
+from .report import JointReport, LoopReport, Orders, StabilityStudy
 from .responses import StateSpace
 
 JSON, MAT, CSV = "loops.json", "loops.mat", "responses.csv"
@@ -43,7 +43,7 @@ Curves = tuple[tuple[str, np.ndarray, np.ndarray], ...]  # which response, frequ
 HEADER = b"MATLAB 5.0 MAT-file, written by Perilune".ljust(116)
 
 
-def write_data(report: StabilityReport, folder: Path) -> None:
+def write_data(report: StabilityStudy, folder: Path) -> None:
     """Write the three files into a folder, which is created; the same study gives the same bytes. Raises OSError."""
     facts, results = document(report), _results(report)
     about = {"system": facts["system"], "sign": SIGN, "model": MODEL}
@@ -58,7 +58,7 @@ def write_data(report: StabilityReport, folder: Path) -> None:
     write_atomically(folder / CSV, _table(report).encode())
 
 
-def _results(report: StabilityReport) -> dict[str, list[dict[str, object]]]:
+def _results(report: StabilityStudy) -> dict[str, list[dict[str, object]]]:
     times = {point.name: point.time for point in report.points}
     return {
         "loops": [_loop(loop, times[loop.point]) for loop in report.loops],
@@ -151,7 +151,7 @@ def _model(model: StateSpace | None) -> dict[str, object]:
     }
 
 
-def _table(report: StabilityReport) -> str:
+def _table(report: StabilityStudy) -> str:
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(COLUMNS)

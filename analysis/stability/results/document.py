@@ -7,22 +7,22 @@ from dataclasses import asdict
 
 import numpy as np
 
-from ..loops.margin_values import UNLIMITED, UNSTABLE, Margins, Quantity
+from ..loops.margin_values import UNLIMITED, UNSTABLE, LoopMargins, MarginQuantity
 from ..loops.readings import decibels, degree_size
-from .report import JointReport, LoopReport, PointReport, StabilityReport
-from .requirement import Requirement, Verdict
+from .report import JointReport, LoopReport, PointReport, StabilityStudy
+from .requirement import MarginRequirement, MarginVerdict
 from .responses import Nonlinearity
 from .varied import Dispersion, SweepReport
 
 KEYS = {
-    "gain_margin_db": Quantity.GAIN,
-    "phase_margin_deg": Quantity.PHASE,
-    "modulus_margin": Quantity.MODULUS,
-    "disk_margin": Quantity.DISK,
+    "gain_margin_db": MarginQuantity.GAIN,
+    "phase_margin_deg": MarginQuantity.PHASE,
+    "modulus_margin": MarginQuantity.MODULUS,
+    "disk_margin": MarginQuantity.DISK,
 }
 
 
-def document(report: StabilityReport) -> dict[str, object]:
+def document(report: StabilityStudy) -> dict[str, object]:
     """Return the whole report without the linearisation's curves, ready for strict JSON.
 
     No number is infinite: a margin is a number, "unstable", "unlimited", or null where it is not known.
@@ -78,7 +78,7 @@ def joint_margin(joint: JointReport) -> float | str | None:
     return _size(joint.disk_margin, stable=joint.stable)
 
 
-def _margins(margins: Margins | None) -> dict[str, float | str | None]:
+def _margins(margins: LoopMargins | None) -> dict[str, float | str | None]:
     """Return the four margins; None where they are not known."""
     return {name: _size(None if margins is None else margins.size(quantity)) for name, quantity in KEYS.items()}
 
@@ -162,14 +162,14 @@ def _loop(loop: LoopReport) -> dict[str, object]:
     return entry
 
 
-def _requirement(item: Requirement) -> dict[str, object]:
+def _requirement(item: MarginRequirement) -> dict[str, object]:
     return {
         "scope": item.scope,
         "quantity": item.quantity,
         "value": _size(item.value),
         "limit": item.limit,
         "unit": item.unit,
-        "passed": {Verdict.PASS: True, Verdict.FAIL: False}.get(item.verdict),
+        "passed": {MarginVerdict.PASS: True, MarginVerdict.FAIL: False}.get(item.verdict),
         "verdict": item.verdict,
         "note": item.note,
         **({"as_feedthrough": _requirement(item.as_feedthrough)} if item.as_feedthrough is not None else {}),

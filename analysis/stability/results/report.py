@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..loops.margin_values import Margins
+from ..loops.margin_values import LoopMargins
 from ..loops.readings import Classical, FrequencyResponse, Robust
-from .requirement import Requirement, Verdict, combine, combine_verdicts
+from .requirement import MarginRequirement, MarginVerdict, combine, combine_verdicts
 from .responses import Agreement, AmplitudePoint, Linearised, Measured, Mode, Nonlinearity, StateSpace, Structure
-from .varied import Dispersion, Sampled, SweepReport
+from .varied import Dispersion, StepMargins, SweepReport
 
 
 @dataclass
@@ -49,17 +49,17 @@ class LoopReport:
     amplitudes: tuple[AmplitudePoint, ...] = ()
     amplitude_frequency: float | None = None
     nonlinearities: tuple[Nonlinearity, ...] = ()
-    sampling: tuple[Sampled, ...] = ()
+    sampling: tuple[StepMargins, ...] = ()
     dispersion: Dispersion | None = None
-    requirements: tuple[Requirement, ...] = ()
+    requirements: tuple[MarginRequirement, ...] = ()
 
     @property
-    def margins(self) -> Margins:
+    def margins(self) -> LoopMargins:
         """The nearest margins; of an unstable loop there are none."""
-        return Margins.of(self.classical, self.robust, self.stable, self.largest)
+        return LoopMargins.of(self.classical, self.robust, self.stable, self.largest)
 
     @property
-    def judged(self) -> tuple[Requirement, ...]:
+    def judged(self) -> tuple[MarginRequirement, ...]:
         """All requirements, those of the dispersion last."""
         return self.requirements + (self.dispersion.requirements if self.dispersion is not None else ())
 
@@ -69,9 +69,9 @@ class LoopReport:
         return self.agreement is not None and not self.agreement.agrees
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> MarginVerdict:
         verdict = combine(self.judged)
-        return Verdict.NOT_APPLICABLE if verdict is Verdict.PASS and self.doubted else verdict
+        return MarginVerdict.NOT_APPLICABLE if verdict is MarginVerdict.PASS and self.doubted else verdict
 
 
 @dataclass(frozen=True)
@@ -91,11 +91,11 @@ class JointReport:
     disk_frequency: float
     frequency: np.ndarray
     disk_margins: np.ndarray  # over frequency
-    requirements: tuple[Requirement, ...] = ()
+    requirements: tuple[MarginRequirement, ...] = ()
     open_loop: StateSpace | None = None  # all channels open at once
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> MarginVerdict:
         return combine(self.requirements)
 
 
@@ -130,23 +130,23 @@ class Unstudied:
     point: str
     what: str
     reason: str
-    verdict: Verdict | None = None
+    verdict: MarginVerdict | None = None
 
     @property
     def text(self) -> str:
         """Reason with its verdict."""
-        if self.verdict is Verdict.FAIL:
+        if self.verdict is MarginVerdict.FAIL:
             return self.reason
-        if self.verdict is Verdict.WITHHELD:
+        if self.verdict is MarginVerdict.WITHHELD:
             return f"withheld: {self.reason}, not known in the other order"
         return f"{self.verdict or 'not studied'}: {self.reason}"
 
 
-class Judged(NamedTuple):
+class JudgedRequirement(NamedTuple):
     """A requirement and what is judged by it."""
 
     subject: LoopReport | JointReport
-    requirement: Requirement
+    requirement: MarginRequirement
 
 
 @dataclass(frozen=True)
@@ -163,7 +163,7 @@ class Orders:
     direct: tuple[str, ...]
     without: tuple[str, ...]
     cuts: tuple[str, ...]
-    report: StabilityReport | None
+    report: StabilityStudy | None
 
     @property
     def fmus(self) -> str:
@@ -172,7 +172,7 @@ class Orders:
 
 
 @dataclass
-class StabilityReport:
+class StabilityStudy:
     """Everything about one system. ``unstudied`` is what could not be had, each with its reason.
 
     ``orders``: the other order of undeclared FMUs, None where no loop passes one.
@@ -189,19 +189,19 @@ class StabilityReport:
     seconds: float
     orders: Orders | None = None
 
-    def judgements(self) -> Iterator[Judged]:
+    def judgements(self) -> Iterator[JudgedRequirement]:
         """Yield every requirement, with its loop."""
         for loop in self.loops:
             for requirement in loop.judged:
-                yield Judged(loop, requirement)
+                yield JudgedRequirement(loop, requirement)
         for joint in self.joint:
             for requirement in joint.requirements:
-                yield Judged(joint, requirement)
+                yield JudgedRequirement(joint, requirement)
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> MarginVerdict:
         """Verdict, which does not pass loops without a study or with differing linearised and measured responses."""
         requirements = [item.requirement.verdict for item in self.judgements()]
         verdict = combine_verdicts([*requirements, *(lost.verdict for lost in self.unstudied if lost.verdict)])
         open_to_doubt = self.unstudied or any(loop.doubted for loop in self.loops)
-        return Verdict.NOT_APPLICABLE if verdict is Verdict.PASS and open_to_doubt else verdict
+        return MarginVerdict.NOT_APPLICABLE if verdict is MarginVerdict.PASS and open_to_doubt else verdict

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from ..loops.margin_values import UNSTABLE, Quantity
+from ..loops.margin_values import UNSTABLE, MarginQuantity
 
 
 class Scope(StrEnum):
@@ -17,7 +17,7 @@ class Scope(StrEnum):
     JOINT = "joint"
 
 
-class Verdict(StrEnum):
+class MarginVerdict(StrEnum):
     PASS = "pass"
     FAIL = "fail"
     WITHHELD = "withheld"  # it depends on what an FMU does not declare
@@ -25,7 +25,7 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True)
-class Requirement:
+class MarginRequirement:
     """``value`` and ``limit`` are in the quantity's unit, as they are shown; ``note`` says more.
 
     The value may be `UNSTABLE` or `UNLIMITED`; None: not known, and then ``passed`` is None, not applicable.
@@ -34,23 +34,29 @@ class Requirement:
     """
 
     scope: Scope
-    quantity: Quantity
+    quantity: MarginQuantity
     value: float | None
     limit: float
     passed: bool | None
     note: str = ""
-    as_feedthrough: Requirement | None = None
+    as_feedthrough: MarginRequirement | None = None
 
     @classmethod
-    def at_least(cls, scope: Scope, quantity: Quantity, value: float, limit: float, note: str = "") -> Requirement:
+    def at_least(
+        cls, scope: Scope, quantity: MarginQuantity, value: float, limit: float, note: str = ""
+    ) -> MarginRequirement:
         """Return the requirement that a margin is no smaller than its limit; one of an unstable
         loop is smaller than any."""
         return cls(scope, quantity, value, limit, value >= limit, note)
 
     @property
-    def verdict(self) -> Verdict:
-        verdict = {True: Verdict.PASS, False: Verdict.FAIL, None: Verdict.NOT_APPLICABLE}[self.passed]
-        return verdict if self.as_feedthrough is None or self.as_feedthrough.passed is self.passed else Verdict.WITHHELD
+    def verdict(self) -> MarginVerdict:
+        verdict = {True: MarginVerdict.PASS, False: MarginVerdict.FAIL, None: MarginVerdict.NOT_APPLICABLE}[self.passed]
+        return (
+            verdict
+            if self.as_feedthrough is None or self.as_feedthrough.passed is self.passed
+            else MarginVerdict.WITHHELD
+        )
 
     @property
     def unit(self) -> str:
@@ -64,21 +70,22 @@ class Requirement:
     @property
     def title(self) -> str:
         """As ``dispersed gain margin``."""
-        if self.quantity is Quantity.STABILITY:
+        if self.quantity is MarginQuantity.STABILITY:
             return "spectral radius" if self.scope is Scope.NOMINAL else "share of stable trials"
         return self.quantity if self.scope is Scope.NOMINAL else f"{self.scope} {self.quantity}"
 
 
-def combine(requirements: Iterable[Requirement]) -> Verdict:
+def combine(requirements: Iterable[MarginRequirement]) -> MarginVerdict:
     """Return the verdict of all requirements."""
     return combine_verdicts(requirement.verdict for requirement in requirements)
 
 
-def combine_verdicts(verdicts: Iterable[Verdict]) -> Verdict:
+def combine_verdicts(verdicts: Iterable[MarginVerdict]) -> MarginVerdict:
     """Fail if one fails, withheld if one is, pass if one passes; what is not applicable decides nothing."""
     known = set(verdicts)
     return next(
-        (token for token in (Verdict.FAIL, Verdict.WITHHELD, Verdict.PASS) if token in known), Verdict.NOT_APPLICABLE
+        (token for token in (MarginVerdict.FAIL, MarginVerdict.WITHHELD, MarginVerdict.PASS) if token in known),
+        MarginVerdict.NOT_APPLICABLE,
     )
 
 

@@ -6,18 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..loops.margin_values import Margins, Quantity, order_statistic
-from .requirement import Requirement
+from ..loops.margin_values import LoopMargins, MarginQuantity, order_statistic
+from .requirement import MarginRequirement
 
 LEVELS = {"least": 0.0, "5 %": 0.05, "50 %": 0.5}  # of dispersed margins
 
 
 @dataclass(frozen=True)
-class Sampled:
+class StepMargins:
     """The margins with another communication step (s); None where there are none, and ``note`` says why."""
 
     step: float
-    margins: Margins | None
+    margins: LoopMargins | None
     note: str = ""
 
 
@@ -30,11 +30,11 @@ class Dispersion:
     """
 
     campaign: str
-    margins: tuple[Margins, ...]
+    margins: tuple[LoopMargins, ...]
     poles: np.ndarray
     worst: int
     replay: str
-    requirements: tuple[Requirement, ...]
+    requirements: tuple[MarginRequirement, ...]
 
     @property
     def trials(self) -> int:
@@ -44,11 +44,11 @@ class Dispersion:
     def unstable(self) -> int:
         return sum(item.unstable for item in self.margins)
 
-    def sizes(self, quantity: Quantity) -> np.ndarray:
+    def sizes(self, quantity: MarginQuantity) -> np.ndarray:
         """Return a margin's size in every trial, `UNSTABLE` and `UNLIMITED` among them."""
         return np.array([item.size(quantity) for item in self.margins])
 
-    def levels(self, quantity: Quantity) -> dict[str, float]:
+    def levels(self, quantity: MarginQuantity) -> dict[str, float]:
         """Return least, 5 % and median over all trials: order statistics, so each is the margin of a trial."""
         sizes = [item.size(quantity) for item in self.margins]
         return {name: order_statistic(sizes, level) for name, level in LEVELS.items()}
@@ -61,7 +61,7 @@ class SweepCrossing:
     ``below``: the side that fails.
     """
 
-    quantity: Quantity
+    quantity: MarginQuantity
     value: float
     below: bool
 
@@ -75,5 +75,5 @@ class SweepReport:
     parameter: str
     unit: str | None
     values: np.ndarray
-    margins: tuple[Margins, ...]
+    margins: tuple[LoopMargins, ...]
     crossings: tuple[SweepCrossing, ...]

@@ -20,7 +20,7 @@ from ...campaigns.draws.declared import Columns
 from ...campaigns.draws.given import Streams
 from ...campaigns.execute.workers import worker_count
 from ...stability.dispersion import models_of_trial
-from ...stability.loops.margin_values import Margins
+from ...stability.loops.margin_values import LoopMargins
 from ...stability.point.bench import StudyError
 from ...stability.point.point_study import PointStudy
 from ..flights import plan_of_samples, study_provenance
@@ -74,7 +74,7 @@ class MarginStudies:
         """
         plan = self._plan.of_samples(make_samples(columns, streams, self.noise))
         check_draws(plan, [self._study.prepared])
-        rows: list[list[Margins] | None] = []
+        rows: list[list[LoopMargins] | None] = []
         plans = [plan.of_part(range(trial, trial + 1)) for trial in range(plan.campaign.trials)]
         for margins in self._read_result(plans):
             self.reasons.append(margins if isinstance(margins, str) else "")
@@ -83,7 +83,7 @@ class MarginStudies:
         studied = Studied(margin_columns(self.channels, rows), np.array([row is not None for row in rows]))
         return studied, plan.draws.of_part(range(plan.campaign.trials)).columns
 
-    def _read_result(self, plans: Sequence[BatchPlan]) -> Iterable[list[Margins] | str]:
+    def _read_result(self, plans: Sequence[BatchPlan]) -> Iterable[list[LoopMargins] | str]:
         if self._pool is None:
             return (_margins(self._study, self._cells, plan) for plan in plans)
         return self._pool.map(_in_process, plans)
@@ -111,7 +111,7 @@ def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
     return study, study.linear.cells
 
 
-def _margins(study: PointStudy, cells: Sequence[int], plan: BatchPlan) -> list[Margins] | str:
+def _margins(study: PointStudy, cells: Sequence[int], plan: BatchPlan) -> list[LoopMargins] | str:
     """Return the margins of every channel at a plan's one trial, or the reason of their absence."""
     try:
         return [model.margins() for model in models_of_trial(study, plan, 0, cells).values()]
@@ -127,6 +127,6 @@ def _begin(asked: MarginAsked, cells: Sequence[int]) -> None:
     _begun = asked.open_request(), cells
 
 
-def _in_process(plan: BatchPlan) -> list[Margins] | str:
+def _in_process(plan: BatchPlan) -> list[LoopMargins] | str:
     assert _begun is not None  # the process has begun with it
     return _margins(*_begun, plan)

@@ -12,7 +12,7 @@ import numpy as np
 from ....common.errors import InputError, suggestion
 from ...campaigns.definition.campaign import Campaign
 from ...campaigns.definition.expressions import Expression
-from ...stability.loops.margin_values import UNSTABLE, Margins, Quantity
+from ...stability.loops.margin_values import UNSTABLE, LoopMargins, MarginQuantity
 from ..failure import failure_of
 from ..flown import strict
 
@@ -58,16 +58,16 @@ def metric_objective(campaign: Campaign, text: str | None) -> Objective:
 
 MOST = 1e9  # what a margin without a crossing counts as: more than any
 SIZES = {
-    "disk": ("disk_margin", Quantity.DISK),
-    "modulus": ("modulus_margin", Quantity.MODULUS),
-    "gain": ("gain_margin_db", Quantity.GAIN),
-    "phase": ("phase_margin_deg", Quantity.PHASE),
-    "delay": ("delay_margin_s", Quantity.DELAY),
+    "disk": ("disk_margin", MarginQuantity.DISK),
+    "modulus": ("modulus_margin", MarginQuantity.MODULUS),
+    "gain": ("gain_margin_db", MarginQuantity.GAIN),
+    "phase": ("phase_margin_deg", MarginQuantity.PHASE),
+    "delay": ("delay_margin_s", MarginQuantity.DELAY),
 }
 LARGEST = "largest_multiplier"
 
 
-def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[Margins] | None]) -> dict[str, np.ndarray]:
+def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[LoopMargins] | None]) -> dict[str, np.ndarray]:
     """Return the margins of all channels, a row for each of ``studied``, a column for each margin and largest
     multiplier.
 

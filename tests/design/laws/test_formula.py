@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from perilune.analysis.design.laws.expression_tree import expression_tree, nodes_of
 from perilune.analysis.design.laws.formula import formula
-from perilune.analysis.design.laws.law import Law, find_law, read_law
+from perilune.analysis.design.laws.law import NetworkOperator, find_law, read_law
 from perilune.fmus_src.kernel.matrices import Matrix
 from perilune.fmus_src.mathlib import network_operator
 from tests.support.laws.evaluation import evaluate_tree
@@ -79,7 +79,7 @@ def basic_law(theta, d, q):
 @pytest.mark.parametrize("law", [PAPER, BASIC], ids=lambda law: law.name)
 def test_matrices_decode_to_the_published_laws(law, mode):
     random = np.random.default_rng(2013)
-    law = Law(law.name, law.matrix, law.q, mode)
+    law = NetworkOperator(law.name, law.matrix, law.q, mode)
     for theta, d in zip(random.uniform(-4.0, 1.0, 1000), random.uniform(-1.5, 0.2, 1000), strict=True):
         expected = paper_law(theta, d, law.q, mode) if law.name == PAPER.name else basic_law(theta, d, law.q)
         assert evaluate_tree(law, theta, d) == pytest.approx(expected, rel=1e-9, abs=1e-9)
@@ -87,7 +87,9 @@ def test_matrices_decode_to_the_published_laws(law, mode):
 
 def test_the_slip_in_exp_matters_for_the_published_law():
     """Its saturated value works as a throttle switch: u2 about 20 where it saturates, beyond any limit without."""
-    saturated = [evaluate_tree(Law("", PAPER.matrix, PAPER.q, mode), -1.6, -0.9)[1] for mode in ("legacy", "true")]
+    saturated = [
+        evaluate_tree(NetworkOperator("", PAPER.matrix, PAPER.q, mode), -1.6, -0.9)[1] for mode in ("legacy", "true")
+    ]
     assert saturated[0] == pytest.approx(20.0, abs=1.0)
     assert saturated[1] > 1e7
 
@@ -138,7 +140,7 @@ def test_what_is_printed_is_what_is_evaluated():
     random = np.random.default_rng(7)
     compared = set()
     for _ in range(either(4000, 1500)):
-        law = Law("random", random_matrix(random), tuple(random.uniform(0.1, 2.0, 3)), "true")
+        law = NetworkOperator("random", random_matrix(random), tuple(random.uniform(0.1, 2.0, 3)), "true")
         theta, d = random.uniform(-3.0, 0.5), random.uniform(-1.0, 1.0)
         if all(1e-3 < abs(value) < 15.0 for value in node_values(law, theta, d)):
             actual = evaluate_tree(law, theta, d)
@@ -163,7 +165,7 @@ def node_values(law, theta, d):
 @settings(deadline=None)
 @given(matrices(), st.tuples(*[st.floats(-20.0, 20.0)] * 3), st.floats(-7.0, 7.0), st.floats(-2.0, 2.0))
 def test_the_tree_gives_the_kernels_bits(matrix, q, theta, d):
-    law = Law("random", matrix, q, "true")
+    law = NetworkOperator("random", matrix, q, "true")
     assert evaluate_tree(law, theta, d) == tuple(node_values(law, theta, d)[-2:])
 
 

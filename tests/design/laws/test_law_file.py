@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.design.laws.law import Law, find_law, read_law
+from perilune.analysis.design.laws.law import NetworkOperator, find_law, read_law
 from perilune.common.errors import InputError
 from tests.support.laws.networks import matrices
 
@@ -44,7 +44,7 @@ def test_published_laws(name, entries, q):
 
 LINE = st.text(st.characters(codec="utf-8", exclude_categories=["C", "Z"]), min_size=1)
 LAWS = st.builds(
-    Law,
+    NetworkOperator,
     LINE,
     matrices(),
     st.tuples(*[st.floats(allow_nan=False, allow_infinity=False, max_value=1e308, min_value=-1e308)] * 3),

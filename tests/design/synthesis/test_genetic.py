@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from perilune.analysis.design.laws.law import Law, find_law, read_law
+from perilune.analysis.design.laws.law import NetworkOperator, find_law, read_law
 from perilune.analysis.design.synthesis.candidate import Phenotype
 from perilune.analysis.design.synthesis.genetic import Search, SearchState
 from perilune.analysis.design.synthesis.search_settings import SearchSettings
@@ -45,7 +45,7 @@ def test_it_finds_a_formula(seed):
     assert chosen.evaluation.successes == chosen.evaluation.flown == FormulaEvaluator.trials
     law = actual.law(chosen)
     for point in POINTS:
-        u1, u2 = evaluate_tree(Law("", law.matrix, law.q, "true"), *point)
+        u1, u2 = evaluate_tree(NetworkOperator("", law.matrix, law.q, "true"), *point)
         assert (u1, u2) == pytest.approx(near(*point), abs=TOLERANCE)
     assert actual.state.evaluations == len(actual.state.known) == actual.evaluator.laws
     assert actual.state.flights == actual.evaluator.points

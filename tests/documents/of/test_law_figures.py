@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from perilune.analysis.design.laws.formula import formula
-from perilune.analysis.design.laws.law import Law, find_law, read_law
-from perilune.analysis.design.laws.layers import JOINT_GAP, NODE_GAP, Layout, longest_paths
+from perilune.analysis.design.laws.law import NetworkOperator, find_law, read_law
+from perilune.analysis.design.laws.layers import JOINT_GAP, NODE_GAP, GraphLayout, longest_paths
 from perilune.analysis.documents.font.text import text_width
 from perilune.analysis.documents.of.design.law_figures import law_chart, law_diagram
 from perilune.analysis.documents.render.diagram import diagram_svg
@@ -37,7 +37,7 @@ def longest(node, edges):
 @given(GRAPHS)
 def test_layers_gaps_and_ends(graph):
     nodes, edges = graph
-    layout = Layout(nodes, edges)
+    layout = GraphLayout(nodes, edges)
     lengths = longest_paths(nodes, edges)
     for node in nodes:
         assert lengths[node] == layout.nodes[node][0] == longest(node, edges)
@@ -59,7 +59,7 @@ def test_layers_gaps_and_ends(graph):
 @settings(deadline=None)
 @given(GRAPHS)
 def test_crossings_are_those_of_the_segments(graph):
-    layout = Layout(*graph)
+    layout = GraphLayout(*graph)
     segments = {pair for path in layout.paths.values() for pair in itertools.pairwise(path)}
     crossing = 0
     for ((x, a), (_, b)), ((other, c), (_, d)) in itertools.combinations(sorted(segments), 2):
@@ -69,9 +69,9 @@ def test_crossings_are_those_of_the_segments(graph):
 
 def test_a_graph_that_can_be_drawn_without_crossings_is():
     ladder = [(0, 5), (1, 4), (2, 3), (5, 6), (4, 7), (3, 8)]
-    assert Layout(list(range(9)), ladder).crossings() == 0
+    assert GraphLayout(list(range(9)), ladder).crossings() == 0
     tree = [(0, 4), (3, 4), (1, 5), (2, 5), (4, 6), (5, 6)]
-    assert Layout(list(range(7)), tree).crossings() == 0
+    assert GraphLayout(list(range(7)), tree).crossings() == 0
 
 
 @pytest.mark.parametrize("name", ["diveev_2013", "diveev_2013_basic"])
@@ -119,23 +119,23 @@ def test_labels_do_not_lie_on_each_other():
 @settings(deadline=None, max_examples=10)
 @given(matrices())
 def test_any_law_can_be_drawn(matrix):
-    assert len(texts(Law("random", matrix, (1.0, 1.0, 1.0), "true"))) >= 2
+    assert len(texts(NetworkOperator("random", matrix, (1.0, 1.0, 1.0), "true"))) >= 2
 
 
 def test_a_law_of_one_edge():
     matrix = np.zeros((16, 16), dtype=int)
     matrix[0, 14] = matrix[0, 15] = 1
-    law = Law("one", tuple(map(tuple, matrix.tolist())), (1.0, 1.0, 1.0), "true")
+    law = NetworkOperator("one", tuple(map(tuple, matrix.tolist())), (1.0, 1.0, 1.0), "true")
     assert {text for text, _ in texts(law)} == {"π + θ", "u1 = z15", "u2 = z16"}
 
 
 def test_a_law_of_nothing_and_one_with_an_edge_into_a_source():
     empty = np.zeros((16, 16), dtype=int)
-    law = Law("none", tuple(map(tuple, empty.tolist())), (1.0, 1.0, 1.0), "true")
+    law = NetworkOperator("none", tuple(map(tuple, empty.tolist())), (1.0, 1.0, 1.0), "true")
     assert {text for text, _ in texts(law)} == {"u1 = z15", "u2 = z16"}
     assert formula(law) == {"z15": "0", "z16": "0"}
     empty[1, 2] = 3
     empty[2, 14] = empty[2, 15] = 1
-    law = Law("fed source", tuple(map(tuple, empty.tolist())), (1.0, 1.0, 1.0), "true")
+    law = NetworkOperator("fed source", tuple(map(tuple, empty.tolist())), (1.0, 1.0, 1.0), "true")
     assert "z3, from (hf \N{MINUS SIGN} h)/h0" in {text for text, _ in texts(law)}
     assert formula(law) == {"z3": "(hf - h)/h0 - q1", "z15": "z3", "z16": "z3"}

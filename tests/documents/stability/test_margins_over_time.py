@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.documents.of.stability.over_time import courses, over_time_chart
-from perilune.analysis.stability.loops.margin_values import Quantity
+from perilune.analysis.stability.loops.margin_values import MarginQuantity
 from perilune.analysis.stability.loops.readings import Crossing
 from tests.support.loops.exact_margins import crossings
 from tests.support.loops.exact_systems import late_double_integrator
@@ -44,7 +44,7 @@ def test_what_is_drawn_is_python_controls(report):
     same, other = courses(report)
     assert [loops[0].name for loops in same.loops] == ["axis[1]", "axis[2]"]
     assert same.times.tolist() == other.times.tolist() == [10.0, 20.0, 30.0]
-    for quantity, place in ((Quantity.GAIN, 0), (Quantity.PHASE, 1)):
+    for quantity, place in ((MarginQuantity.GAIN, 0), (MarginQuantity.PHASE, 1)):
         chart = over_time_chart([same, other], quantity)
         exact = [crossings(late_double_integrator(derivative=GAINS[time]).loop)[place] for time in same.times]
         displayed = [DECIBEL * np.log(values) if place == 0 else np.degrees(values) for values in exact]

@@ -34,7 +34,7 @@ from perilune.analysis.documents.of.stability.figures import HEIGHT, loop_figure
 from perilune.analysis.documents.of.stability.parts import modes
 from perilune.analysis.documents.of.stability.words import complex_number, fold_long, in_decibels, numeral
 from perilune.analysis.documents.render.cell_markup import cell_markup
-from perilune.analysis.stability.loops.margin_values import Quantity
+from perilune.analysis.stability.loops.margin_values import MarginQuantity
 from perilune.analysis.stability.loops.readings import FrequencyResponse
 from perilune.analysis.stability.results.responses import Mode
 from tests.support.loops.exact_margins import crossings
@@ -85,10 +85,10 @@ def bars(chart):
 def test_figures_show_what_is_unstable(studies):
     """The hatched bar of a histogram counts the unstable trials; the hatched band of a sweep begins where they do."""
     (loop,) = studies.late.loops
-    chart = margin_chart(loop.dispersion, Quantity.GAIN, 3.0)
+    chart = margin_chart(loop.dispersion, MarginQuantity.GAIN, 3.0)
     ((left, right, height),) = bars(chart)[WHITE]
     assert height == 3
-    sizes = loop.dispersion.sizes(Quantity.GAIN)
+    sizes = loop.dispersion.sizes(MarginQuantity.GAIN)
     for low, high, count in bars(chart)[BLUE]:
         assert count == np.sum((sizes >= low) & (sizes < high + 1e-9 * (high - low)))
     assert sum(count for _, _, count in bars(chart)[BLUE]) == TRIALS - 3

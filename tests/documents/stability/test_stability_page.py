@@ -16,9 +16,9 @@ from perilune import StabilityReport
 from perilune.analysis.cli import main
 from perilune.analysis.documents.common.quantities import NONE
 from perilune.analysis.documents.of.stability.charts.sets import joint_chart
-from perilune.analysis.stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from perilune.analysis.stability.loops.margin_values import UNLIMITED, UNSTABLE, MarginQuantity
 from perilune.analysis.stability.loops.readings import Classical, FrequencyResponse
-from perilune.analysis.stability.results.requirement import Requirement, Scope
+from perilune.analysis.stability.results.requirement import MarginRequirement, Scope
 from perilune.analysis.stability.results.responses import Mode
 from tests.support.lengths import either
 from tests.support.loops.exact_margins import crossings, disk_margin
@@ -115,7 +115,7 @@ def test_what_is_not_applicable_is_said_with_its_reason(report, page, studies, t
     weak = text_of(write(studies.weak, tmp_path / "weak.html"))
     assert "none (no crossing)" in weak
     (loop,) = studies.weak.loops
-    assert loop.margins.size(Quantity.PHASE) == UNLIMITED
+    assert loop.margins.size(MarginQuantity.PHASE) == UNLIMITED
 
 
 def test_worst_case_can_be_flown_again(report, page, capsys):
@@ -134,7 +134,7 @@ def test_unstable_trials_are_worse_than_any_number(studies, page):
     spread = loop.dispersion
     assert (spread.trials, spread.unstable) == (TRIALS, 3)
     rows = {row[0]: row[1:] for row in rows_under(page, "Loops") if len(row) == 5}
-    for quantity, head in ((Quantity.GAIN, "gain margin, dB"), (Quantity.PHASE, "phase margin, deg")):
+    for quantity, head in ((MarginQuantity.GAIN, "gain margin, dB"), (MarginQuantity.PHASE, "phase margin, deg")):
         sizes = sorted(item.size(quantity) for item in spread.margins)
         assert sizes[:3] == [UNSTABLE] * 3 != sizes[3]
         minimum, low, median, worst = rows[head]
@@ -142,9 +142,9 @@ def test_unstable_trials_are_worse_than_any_number(studies, page):
         assert float(median) == pytest.approx(sizes[TRIALS // 2 - 1], rel=1e-3)
     assert f"3 of {TRIALS} trials are unstable" in text_of(page)
     actual = {item.quantity: item for item in spread.requirements}
-    assert actual[Quantity.STABILITY].value == pytest.approx(1.0 - 3 / TRIALS)
-    assert spread.replay in actual[Quantity.STABILITY].note
-    assert [actual[key].value for key in (Quantity.GAIN, Quantity.PHASE)] == [UNSTABLE] * 2
+    assert actual[MarginQuantity.STABILITY].value == pytest.approx(1.0 - 3 / TRIALS)
+    assert spread.replay in actual[MarginQuantity.STABILITY].note
+    assert [actual[key].value for key in (MarginQuantity.GAIN, MarginQuantity.PHASE)] == [UNSTABLE] * 2
     assert {item.passed for item in spread.requirements} == {False}
 
 
@@ -189,7 +189,7 @@ def test_joint_margins_ask_for_stability(studies, page, tmp_path):
 
 def test_a_sweep_into_instability(studies, page):
     (sweep,) = studies.late.sweeps
-    (edge,) = (item for item in sweep.crossings if item.quantity is Quantity.STABILITY)
+    (edge,) = (item for item in sweep.crossings if item.quantity is MarginQuantity.STABILITY)
     end = end_of_stability()
     assert edge.value == pytest.approx(end, rel=1e-3)
     assert not edge.below
@@ -197,14 +197,14 @@ def test_a_sweep_into_instability(studies, page):
     rows = rows_under(page, "Over parameters")
     assert sum(row[0] == "unstable" and row[1] == "above" for row in rows) == 1
     assert [row[1] for row in rows if len(row) == 4][-2:] == ["unstable"] * 2
-    limits = {Quantity.GAIN: 6.0, Quantity.PHASE: 30.0}
+    limits = {MarginQuantity.GAIN: 6.0, MarginQuantity.PHASE: 30.0}
     reached = [item for item in sweep.crossings if item.quantity in limits]
     assert {item.quantity for item in reached} == set(limits)
     for item in reached:
         gain, phase, _ = crossings(late_double_integrator(derivative=item.value).loop)
         sizes = {
-            Quantity.GAIN: np.min(abs(DECIBEL * np.log(gain))),
-            Quantity.PHASE: np.degrees(np.min(abs(phase))),
+            MarginQuantity.GAIN: np.min(abs(DECIBEL * np.log(gain))),
+            MarginQuantity.PHASE: np.degrees(np.min(abs(phase))),
         }
         assert sizes[item.quantity] == pytest.approx(limits[item.quantity], rel=5e-3)
 
@@ -222,7 +222,7 @@ def test_provenance(report, page):
 
 def test_text_of_others_is_escaped(report, studies, tmp_path):
     nasty = "<b>$x_1$ & 'y'</b>"
-    requirement = Requirement(Scope.NOMINAL, Quantity.GAIN, 1.0, 2.0, False, nasty)
+    requirement = MarginRequirement(Scope.NOMINAL, MarginQuantity.GAIN, 1.0, 2.0, False, nasty)
     strange = replace(
         studies.foreign.loops[0], name=nasty, loop=nasty, point=nasty, cut=nasty, sign=nasty, closed=(nasty,),
         not_applicable={nasty: nasty}, requirements=(requirement,), nonlinearities=(),
@@ -250,7 +250,7 @@ def extreme(studies):
     deadbeat = Mode(0j, complex(-math.inf, 0.0), math.nan, math.inf, "neither", 0.0, 0.0)
     free = replace(
         loop, name="free", classical=nothing, robust=robust, modes=(deadbeat,), poles_z=np.array([0j, 1.3]), step=None,
-        requirements=(Requirement.at_least(Scope.NOMINAL, Quantity.GAIN, UNLIMITED, 6.0),), dispersion=None,
+        requirements=(MarginRequirement.at_least(Scope.NOMINAL, MarginQuantity.GAIN, UNLIMITED, 6.0),), dispersion=None,
         nonlinearities=(), sampling=(),
     )  # fmt: skip
     start = replace(loop.classical.gain[0], value=0.9, frequency=0.0)  # L crosses the ray at its start

@@ -14,7 +14,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.stability.loops.margin_values import Margins
+from perilune.analysis.stability.loops.margin_values import LoopMargins
 from perilune.analysis.studies.worst.objective import margin_columns, margin_objective
 from perilune.common.errors import InputError
 from tests.support.lengths import LONG
@@ -202,7 +202,7 @@ def test_what_is_worse_than_what():
     """A draw without a margin, loops that are more and less unstable, margins from the least on, none to be reached."""
     draws = [None, (-1, 1.3), (-1, 1.1), (0.0, 1.0), (0.5, 0.9), (40.0, 0.9), (np.inf, 0.9)]
     rows = [
-        draw and [Margins(*[np.inf] * 2, draw[0], draw[0], np.inf, stable=draw[0] >= 0.0, largest=draw[1])]
+        draw and [LoopMargins(*[np.inf] * 2, draw[0], draw[0], np.inf, stable=draw[0] >= 0.0, largest=draw[1])]
         for draw in draws
     ]
     objective = margin_objective("loop", "there", ["loop"], "disk")

@@ -6,11 +6,11 @@ import math
 from collections.abc import Mapping
 
 from perilune.analysis.design.laws.expression_tree import SOURCE_NAMES, expression_tree, nodes_of
-from perilune.analysis.design.laws.law import Law
+from perilune.analysis.design.laws.law import NetworkOperator
 from perilune.fmus_src.mathlib.network_operator import LARGEST, LOG_LARGEST, binary, neutral, unary
 
 
-def evaluate_tree(law: Law, theta: float, altitude_error: float) -> tuple[float, ...]:
+def evaluate_tree(law: NetworkOperator, theta: float, altitude_error: float) -> tuple[float, ...]:
     """Evaluate the law's outputs, unclipped: thrust angle (rad) and thrust above nominal (kgf).
 
     ``theta`` is the path angle (rad), ``altitude_error`` is (hf - h)/h0.

@@ -2,7 +2,7 @@
 
 import math
 
-from perilune.analysis.design.laws.law import Law
+from perilune.analysis.design.laws.law import NetworkOperator
 from perilune.analysis.design.synthesis.candidate import Evaluation
 from tests.support.laws.evaluation import evaluate_tree
 
@@ -31,7 +31,7 @@ class FormulaEvaluator:
     def _evaluate(self, task, bar):
         self.laws += task.known.flown == 0
         sums, successes, flown = task.known
-        law = Law("", task.law.matrix, task.law.q, "true")
+        law = NetworkOperator("", task.law.matrix, task.law.q, "true")
         while flown < self.trials:
             collected = evaluate_tree(law, *POINTS[flown])
             missed = [abs(a - b) for a, b in zip(collected, self.target(*POINTS[flown]), strict=True)]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from perilune.analysis.stability.point.lifted import LiftedModel, Port
+from perilune.analysis.stability.point.lifted import LiftedModel, SampledChannel
 from perilune.analysis.stability.request.channels import Channel
 from tests.support.builders import component, connection, document, inline, system
 
@@ -85,7 +85,7 @@ def exact_model() -> LiftedModel:
     """Return the lifted model with a port at each axis' command."""
     state, u, v = hyperperiod()
     ports = tuple(
-        Port(channel, EVERY[axis] * STEP, axis * SAMPLES[0], SAMPLES[axis])
+        SampledChannel(channel, EVERY[axis] * STEP, axis * SAMPLES[0], SAMPLES[axis])
         for axis, channel in enumerate(
             Channel(name, name, (f"{name}.y",), None, None, every, None, None)
             for name, every in zip(("first", "second"), EVERY, strict=True)

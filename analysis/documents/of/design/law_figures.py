@@ -13,12 +13,12 @@ from ....design.laws.expression_tree import (
     IDENTITY,
     OUTPUT_NUMBERS,
     UNARY,
-    Node,
+    OperationNode,
     expression_tree,
     nodes_of,
 )
-from ....design.laws.law import Law
-from ....design.laws.layers import Edge, Layout
+from ....design.laws.law import NetworkOperator
+from ....design.laws.layers import Edge, GraphLayout
 from ...chart.lines import line
 from ...chart.marks import outline, rectangle
 from ...chart.symbols import BARB, arrow, mark, marker
@@ -44,16 +44,16 @@ OUTPUT_NAMES = dict(zip(OUTPUT_NUMBERS, ("u1", "u2"), strict=True))
 Point = tuple[float, float]
 
 
-def law_diagram(law: Law) -> Diagram:
+def law_diagram(law: NetworkOperator) -> Diagram:
     """Return the graph of a law."""
     return Diagram("law", f"Graph of {law.name}", partial(law_chart, law))
 
 
-def law_chart(law: Law) -> tuple[Chart, float, float]:
+def law_chart(law: NetworkOperator) -> tuple[Chart, float, float]:
     """Return the graph of what the outputs depend on, without axes; and its width and height, pt."""
     nodes = {node.number: node for node in nodes_of(expression_tree(law.matrix))}
     edges = [(other.number, node.number) for node in nodes.values() for _, other in node.terms]
-    layout = Layout(list(nodes), edges)
+    layout = GraphLayout(list(nodes), edges)
     heights = [y for path in layout.paths.values() for _, y in path] + [y for _, y in layout.nodes.values()]
     columns = max(x for x, _ in layout.nodes.values())
     width, height = COLUMN * (columns + 1.2), max(ROW * (max(heights) - min(heights) + 1.6), LOWEST)
@@ -128,16 +128,16 @@ def _columns(trace: np.ndarray) -> np.ndarray:
     return np.linspace(trace[0, 0] + 0.3, trace[-1, 0] - 0.3, 9 * int(np.ceil(trace[-1, 0] - trace[0, 0])))
 
 
-def _source(node: Node) -> str:
+def _source(node: OperationNode) -> str:
     return (node.source or "").replace("pi", "π").replace("theta", "θ").replace("-", MINUS)
 
 
-def _half_width(node: Node) -> float:
+def _half_width(node: OperationNode) -> float:
     """Return half the width of the box of a source that gathers nothing, 0 for other nodes; in columns."""
     return 0.0 if node.terms or not node.source else (text_width(_source(node), TEXT) / 2.0 + ROOM) / COLUMN
 
 
-def _box(node: Node, at: Point) -> list[Area]:
+def _box(node: OperationNode, at: Point) -> list[Area]:
     """Return the box of a source that gathers nothing."""
     across, down = _half_width(node), (TEXT / 2.0 + ROOM) / ROW
     if not across:
@@ -147,7 +147,7 @@ def _box(node: Node, at: Point) -> list[Area]:
     return [box, outline(box.x, box.y, FAINT, 0.8)]
 
 
-def _circle(node: Node, at: Point) -> list[Curve]:
+def _circle(node: OperationNode, at: Point) -> list[Curve]:
     """Return the circle of a node that gathers, or is an output."""
     if node.source and not node.terms:
         return []
@@ -155,7 +155,7 @@ def _circle(node: Node, at: Point) -> list[Curve]:
     return [mark(*at, marker("o", 2.0 * RADIUS - 1.0, colour, fill="#ffffff"))]
 
 
-def _names(node: Node, at: Point) -> Iterator[ChartNote]:
+def _names(node: OperationNode, at: Point) -> Iterator[ChartNote]:
     """Yield the name of a source in its box; or the operation in a circle, and below it the node's number."""
     source = _source(node)
     if source and not node.terms:

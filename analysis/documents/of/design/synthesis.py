@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from ....design.synthesis.outcome import SynthesisResult
+from ....design.synthesis.outcome import SynthesisOutcome
 from ...cell import Cell, Phrase, Quantity
 from ...model import Document, KeyNumbers, Section, Table, Text, Verdict
 from .law import formula_nodes
 from .law_figures import law_diagram
 
 
-def synthesis_document(result: SynthesisResult) -> Document:
+def synthesis_document(result: SynthesisOutcome) -> Document:
     """Return the document of a search as far as it came."""
     state, chosen, law = result.search.state, result.search.choose(), result.law
     evaluation = chosen.evaluation
@@ -32,7 +32,7 @@ def synthesis_document(result: SynthesisResult) -> Document:
     return Document(f"Search for a law: {law.name}", [verdict, KeyNumbers(numbers)], sections, result.content())
 
 
-def _pareto_set(result: SynthesisResult) -> Table:
+def _pareto_set(result: SynthesisOutcome) -> Table:
     """Return successes and objectives, in the order of the first objective."""
     rows: list[list[Cell]] = [
         [

@@ -12,7 +12,7 @@ import numpy as np
 
 from ....stability.loops.margin_values import MARGINS, UNSTABLE
 from ....stability.loops.readings import decibels
-from ....stability.results.report import JointReport, LoopReport, StabilityReport
+from ....stability.results.report import JointReport, LoopReport, StabilityStudy
 from ....stability.results.varied import SweepReport
 from ...chart.axes import linear_axis
 from ...chart.equal import Ends, to_scale
@@ -171,7 +171,7 @@ def joint_figure(joint: JointReport, name: str) -> Figure:
     return _small(f"{joint.name}, {joint.point}", name, words, joint_chart(joint), LOW)
 
 
-def sweep_figure(sweep: SweepReport, report: StabilityReport, name: str) -> Figure:
+def sweep_figure(sweep: SweepReport, report: StabilityStudy, name: str) -> Figure:
     """Return margins over a parameter with the study's limits."""
     limits = LimitLines(report.limits.get("gain_margin_db"), report.limits.get("phase_margin_deg"), None)
     words = f"Gain and phase margin of {sweep.loop} over {sweep.parameter}, {sweep.values.size} values"

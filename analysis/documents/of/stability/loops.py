@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ....stability.results.report import LoopReport, StabilityReport
+from ....stability.results.report import LoopReport, StabilityStudy
 from ...cell import Faint
 from ...common.quantities import MINUS, display_unit
 from ...model import Fold, Group, Items, Missing, Node, Note, Repeat, Text, Tile, Tiles
@@ -44,7 +44,7 @@ HOW_TO_READ = (
 )
 
 
-def loop_nodes(report: StabilityReport) -> list[Node]:
+def loop_nodes(report: StabilityStudy) -> list[Node]:
     """Return what L is, how to read figures and tables, and all loops."""
     figures = [figures_by_part(loop, anchor(index)) for index, loop in enumerate(report.loops)]
     shared = share(report.loops, figures)
@@ -60,7 +60,7 @@ def loop_nodes(report: StabilityReport) -> list[Node]:
     ]
 
 
-def _article(report: StabilityReport, index: int, shared: Shared, paper: Paper) -> Group:
+def _article(report: StabilityStudy, index: int, shared: Shared, paper: Paper) -> Group:
     loop = report.loops[index]
     figures = {key: paper.mark(members) for key, members in shared.figures.items()}
     known = [replace(part, figures=figures.get(part.key, [])) for part in parts(loop)]
@@ -98,7 +98,7 @@ def _figures(figures: Sequence[Figure]) -> list[Node]:
     return [Figures(lambda: figures)] if figures else []
 
 
-def _elsewhere(report: StabilityReport, shared: Shared, *, at_sight: bool) -> list[Node]:
+def _elsewhere(report: StabilityStudy, shared: Shared, *, at_sight: bool) -> list[Node]:
     """Return where the figures are that stand with another loop: those at first sight, or the others."""
     labelled = {
         other: [label for label in labels if (label in SEEN) == at_sight] for other, labels in shared.elsewhere.items()

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ....stability.loops.margin_values import UNSTABLE, Quantity
-from ....stability.results.report import Judged, LoopReport, StabilityReport
-from ....stability.results.requirement import Requirement, Scope
+from ....stability.loops.margin_values import UNSTABLE, MarginQuantity
+from ....stability.results.report import JudgedRequirement, LoopReport, StabilityStudy
+from ....stability.results.requirement import MarginRequirement, Scope
 from ...cell import Cell, Lines, Phrase, Strong
 from ...model import Table
 from ..reserve import TIGHTEST
@@ -35,7 +35,7 @@ from .words import (
 SCOPES = {Scope.NOMINAL: "nominal", Scope.DISPERSED: "dispersed", Scope.JOINT: "simultaneous"}
 
 
-def verdict_table(report: StabilityReport, judgements: Sequence[Judged]) -> Table:
+def verdict_table(report: StabilityStudy, judgements: Sequence[JudgedRequirement]) -> Table:
     """Return a row for each requirement: value, limit, verdict and, where there is none, why; one is the tightest."""
     nearest = tightest(report) if len(judgements) > 1 else None
     rows = [
@@ -55,7 +55,7 @@ def verdict_table(report: StabilityReport, judgements: Sequence[Judged]) -> Tabl
     return Table([*(head for group in heads for head in group), *sentences("note")], rows)
 
 
-def _note(requirement: Requirement, *, is_tightest: bool) -> Cell:
+def _note(requirement: MarginRequirement, *, is_tightest: bool) -> Cell:
     words = order_note(requirement)
     return Phrase([Strong(TIGHTEST), *([f", {words}"] if words else [])], is_unbroken=False) if is_tightest else words
 
@@ -65,7 +65,7 @@ SIZES = (
 )  # fmt: skip
 
 
-def summary_table(report: StabilityReport) -> Table:
+def summary_table(report: StabilityStudy) -> Table:
     """Return loops by operating points with their margins."""
     rows = [
         (with_mark(report, loop, link(report, loop)), loop.point, *margin_cells(loop), verdict(loop.verdict))
@@ -94,7 +94,7 @@ def margin_cells(loop: LoopReport) -> Sequence[Cell]:
     )
 
 
-def joint_table(report: StabilityReport) -> Table:
+def joint_table(report: StabilityStudy) -> Table:
     """Return disk margins of several channels that vary at once and independently."""
     rows: list[tuple[Cell, ...]] = []
     for joint in report.joint:
@@ -112,7 +112,7 @@ def joint_table(report: StabilityReport) -> Table:
     return Table(["channels", "operating point", *sizes, "verdict"], rows)
 
 
-def order_table(report: StabilityReport) -> Table:
+def order_table(report: StabilityStudy) -> Table:
     """Return two rows for each loop, without and with feedthrough; none where there is one order only."""
     others = {(loop.name, loop.point): loop for loop in order_loops(report)}
     rows: list[tuple[Cell, ...]] = []
@@ -122,7 +122,7 @@ def order_table(report: StabilityReport) -> Table:
             if each is None:
                 continue
             delay = state(each.margins) or numeral(each.classical.delay_margin, infinite=NO_CROSSING)
-            margins = [size(each.margins.size(quantity)) for quantity in (Quantity.MODULUS, Quantity.DISK)]
+            margins = [size(each.margins.size(quantity)) for quantity in (MarginQuantity.MODULUS, MarginQuantity.DISK)]
             crossings = gain_margin(each.margins), phase_margin(each.margins), delay
             rows.append((link(report, loop), loop.point, feedthrough, *crossings, *margins, verdict(loop.verdict)))
     sizes = numbers("gain margin, dB", "phase margin, deg", "delay margin, s", "modulus margin", "disk margin")

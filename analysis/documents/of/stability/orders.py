@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from ....stability.loops.margin_values import UNLIMITED, UNSTABLE
-from ....stability.results.report import JointReport, LoopReport, StabilityReport
-from ....stability.results.requirement import Requirement, Verdict
+from ....stability.results.report import JointReport, LoopReport, StabilityStudy
+from ....stability.results.requirement import MarginRequirement, MarginVerdict
 
 
-def order_loops(report: StabilityReport) -> tuple[LoopReport, ...]:
+def order_loops(report: StabilityStudy) -> tuple[LoopReport, ...]:
     """Return the loops in the other order, none where there is one order only."""
     return () if report.orders is None or report.orders.report is None else report.orders.report.loops
 
 
-def order_sentences(report: StabilityReport) -> list[str]:
+def order_sentences(report: StabilityStudy) -> list[str]:
     """Return the assumption and the other order in words, none where every FMU on a loop declares its dependencies."""
     orders = report.orders
     if orders is None:
@@ -38,7 +38,7 @@ def order_sentences(report: StabilityReport) -> list[str]:
     return sentences
 
 
-def withheld_line(report: StabilityReport, subject: LoopReport | JointReport, item: Requirement) -> str:
+def withheld_line(report: StabilityStudy, subject: LoopReport | JointReport, item: MarginRequirement) -> str:
     """Return the reason why a requirement is withheld, and what decides it."""
     assert report.orders is not None
     assert item.as_feedthrough is not None
@@ -51,18 +51,18 @@ def withheld_line(report: StabilityReport, subject: LoopReport | JointReport, it
     )
 
 
-def order_note(item: Requirement) -> str:
+def order_note(item: MarginRequirement) -> str:
     """Return the note of a table on a requirement: its own, or the reason why it is withheld."""
-    if item.verdict is not Verdict.WITHHELD or item.as_feedthrough is None:
+    if item.verdict is not MarginVerdict.WITHHELD or item.as_feedthrough is None:
         return item.note
     return f"{_value(item.as_feedthrough)} as feedthrough"
 
 
-def _unit(item: Requirement) -> str:
+def _unit(item: MarginRequirement) -> str:
     return "" if item.unit == "1" else f" {item.unit}"
 
 
-def _value(item: Requirement) -> str:
+def _value(item: MarginRequirement) -> str:
     if item.value is None or item.passed is None:
         return item.note or "not known"
     return {UNSTABLE: "unstable", UNLIMITED: "no crossing"}.get(item.value, f"{item.value:.4g}{_unit(item)}")

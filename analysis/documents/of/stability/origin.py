@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ....stability.results.report import StabilityReport
+from ....stability.results.report import StabilityStudy
 from ...cell import Cell, Digest, Inline, Phrase
 from ...common.quantities import NONE
 from ...model import Fold, Group, Items, KeyNumbers, Missing, Node, Note, Table
@@ -15,7 +15,7 @@ TIMES = ("step", "start_time", "stop_time")  # s
 ELSEWHERE = {"system", "system_sha256", "fmus", "parameters", "assumptions"}  # of the provenance
 
 
-def origin_nodes(report: StabilityReport) -> list[Node]:
+def origin_nodes(report: StabilityStudy) -> list[Node]:
     """Return everything that a study depends on."""
     limits, hashes = limit_table(report), hash_table(report)
     parameters = [
@@ -42,7 +42,7 @@ def _declared(limits: dict[str, float]) -> list[Inline]:
     return ["As declared: ", *values[1:], "."]
 
 
-def limit_table(report: StabilityReport) -> Table:
+def limit_table(report: StabilityStudy) -> Table:
     """Return the limits that were used, each once."""
     rows: dict[tuple[str, str], tuple[Cell, ...]] = {}
     for _, item in report.judgements():
@@ -50,7 +50,7 @@ def limit_table(report: StabilityReport) -> Table:
     return Table(["scope", "quantity", *numbers("limit")], list(rows.values()))
 
 
-def hash_table(report: StabilityReport) -> Table:
+def hash_table(report: StabilityStudy) -> Table:
     """Return the hashes of the system and its FMUs."""
     provenance = report.provenance
     rows: list[tuple[Cell, ...]] = []
@@ -62,7 +62,7 @@ def hash_table(report: StabilityReport) -> Table:
     return Table(["part", "name", "SHA-256"], rows)
 
 
-def facts(report: StabilityReport) -> list[tuple[str, Cell]]:
+def facts(report: StabilityStudy) -> list[tuple[str, Cell]]:
     """Return the rest of the provenance: seed, step, versions and so on."""
     return [
         (key.replace("_", " "), Phrase([*fact(value), " s"] if key in TIMES else fact(value)))

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ....stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from ....stability.loops.margin_values import UNLIMITED, UNSTABLE, MarginQuantity
 from ....stability.loops.readings import decibels
-from ....stability.results.report import LoopReport, StabilityReport
+from ....stability.results.report import LoopReport, StabilityStudy
 from ...cell import LegendEntry
 from ...chart.axes import linear_axis
 from ...chart.lines import line
@@ -28,7 +28,7 @@ from .charts.frequency import FORBIDDEN, WHITE
 from .shared import together
 from .words import numeral
 
-QUANTITIES = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS)
+QUANTITIES = (MarginQuantity.GAIN, MarginQuantity.PHASE, MarginQuantity.MODULUS)
 SAME = 1e-3  # relative: margins that differ by less are one line
 SIZE, LARGE = 4.5, 7.0  # pt, of marks, and of those at the edges
 BEYOND = 1.15  # of the largest decisive margin, up to which axes reach
@@ -44,18 +44,18 @@ class Course:
 
     loops: tuple[tuple[LoopReport, ...], ...]
     times: np.ndarray
-    upper: dict[Quantity, np.ndarray]
-    lower: dict[Quantity, np.ndarray]
-    sizes: dict[Quantity, np.ndarray]
+    upper: dict[MarginQuantity, np.ndarray]
+    lower: dict[MarginQuantity, np.ndarray]
+    sizes: dict[MarginQuantity, np.ndarray]
 
 
-def _sides(loop: LoopReport, quantity: Quantity) -> tuple[float, float]:
+def _sides(loop: LoopReport, quantity: MarginQuantity) -> tuple[float, float]:
     """Return the nearest margin up or in lag, and the nearest down or in lead, in the quantity's unit."""
     if loop.margins.unstable:
         return math.nan, math.nan
-    if quantity is Quantity.MODULUS:
+    if quantity is MarginQuantity.MODULUS:
         return loop.robust.modulus_margin, math.nan
-    if quantity is Quantity.GAIN:
+    if quantity is MarginQuantity.GAIN:
         signed = [float(decibels(crossing.value)) for crossing in loop.classical.gain]
     else:
         signed = [math.degrees(crossing.value) for crossing in loop.classical.phase]
@@ -65,7 +65,7 @@ def _sides(loop: LoopReport, quantity: Quantity) -> tuple[float, float]:
     )
 
 
-def courses(report: StabilityReport) -> list[Course]:
+def courses(report: StabilityStudy) -> list[Course]:
     """Return loops that are studied at several times of the same flight: with the same settings, at different times."""
     points = {point.name: point for point in report.points}
     flights: dict[tuple[str, str], list[LoopReport]] = {}
@@ -98,7 +98,7 @@ def _alike(one: Course, other: Course) -> bool:
     return all(np.allclose(*pair, rtol=SAME, atol=0.0, equal_nan=True) for pair in pairs)
 
 
-def _requirements(course: Course) -> set[tuple[Quantity, float]]:
+def _requirements(course: Course) -> set[tuple[MarginQuantity, float]]:
     return {(item.quantity, item.limit) for loops in course.loops for loop in loops for item in loop.requirements}
 
 
@@ -107,7 +107,7 @@ def course_look(index: int) -> Look:
     return look(index + (index >= COLOURS.index(VERMILION)))
 
 
-def over_time_chart(histories: Sequence[Course], quantity: Quantity) -> Chart:
+def over_time_chart(histories: Sequence[Course], quantity: MarginQuantity) -> Chart:
     """Return one margin of all loops over time, downwards or in lead below 0; what is less than required is shaded.
 
     The nearer margin of each loop is filled, the other hollow. A cross at 0 is an unstable loop, a triangle at the top
@@ -142,7 +142,7 @@ def over_time_chart(histories: Sequence[Course], quantity: Quantity) -> Chart:
     )
 
 
-def _margin_curves(course: Course, quantity: Quantity, style: Look, top: float) -> list[Curve]:
+def _margin_curves(course: Course, quantity: MarginQuantity, style: Look, top: float) -> list[Curve]:
     sizes = course.sizes[quantity]
     lines, dots = [], []
     hollow, full = (marker(style.marker, SIZE, style.colour, fill=fill) for fill in (WHITE, style.colour))
@@ -163,7 +163,7 @@ def _margin_curves(course: Course, quantity: Quantity, style: Look, top: float) 
     return lines + dots
 
 
-def over_time_nodes(histories: Sequence[Course], report: StabilityReport) -> list[Node]:
+def over_time_nodes(histories: Sequence[Course], report: StabilityStudy) -> list[Node]:
     """Return the margins of loops over the time of flight, and at which operating points they were studied."""
     studied = {loop.point for history in histories for loops in history.loops for loop in loops}
     points = sorted((point for point in report.points if point.name in studied), key=lambda point: point.time)
@@ -188,7 +188,7 @@ def _names(course: Course) -> str:
     return together([loops[0] for loops in course.loops])
 
 
-def _figure(histories: Sequence[Course], quantity: Quantity, name: str) -> Figure:
+def _figure(histories: Sequence[Course], quantity: MarginQuantity, name: str) -> Figure:
     minimum = min(size for history in histories for size in history.sizes[quantity].tolist())
     loops = sum(len(history.loops) for history in histories)
     words = f"{quantity.capitalize()} of {loops} loops over the time of flight, minimum "

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from ....stability.loops.margin_values import MARGINS, UNLIMITED, Quantity
-from ....stability.results.report import JointReport, LoopReport, StabilityReport, Unstudied
-from ....stability.results.requirement import Requirement, Verdict
+from ....stability.loops.margin_values import MARGINS, UNLIMITED, MarginQuantity
+from ....stability.results.report import JointReport, LoopReport, StabilityStudy, Unstudied
+from ....stability.results.requirement import MarginRequirement, MarginVerdict
 from ....stability.results.varied import SweepCrossing, SweepReport
 from ...render.words import rich_text
 from .orders import order_loops, order_sentences, withheld_line
 from .tightest import tightest_nodes
 
 
-def stability_lines(report: StabilityReport) -> list[str]:
+def stability_lines(report: StabilityStudy) -> list[str]:
     """Return a study in lines of text: loops, notes on feedthrough, sweeps, the verdict."""
     lines, others = list[str](), {(loop.name, loop.point): loop for loop in order_loops(report)}
     for loop in report.loops:
@@ -28,45 +28,45 @@ def stability_lines(report: StabilityReport) -> list[str]:
     return [*lines, f"{report.system}: {report.verdict}, {report.seconds:.1f} s"]
 
 
-def stability_problems(report: StabilityReport) -> list[str]:
+def stability_problems(report: StabilityStudy) -> list[str]:
     """Return a line for each requirement that is not met or withheld, and for everything that could not be studied."""
     judged = list(report.judgements())
-    failures = [item for item in judged if item.requirement.verdict is Verdict.FAIL]
+    failures = [item for item in judged if item.requirement.verdict is MarginVerdict.FAIL]
     lines = [
         _failure_line(subject, requirement)
         for subject, requirement in failures
         if not requirement.unstable or isinstance(subject, JointReport)  # else that it is unstable has a line already
     ]
-    withheld = [item for item in judged if item.requirement.verdict is Verdict.WITHHELD]
+    withheld = [item for item in judged if item.requirement.verdict is MarginVerdict.WITHHELD]
     lines += [withheld_line(report, subject, requirement) for subject, requirement in withheld]
     for loop in report.loops:
-        if loop.doubted and loop.verdict is Verdict.NOT_APPLICABLE:
+        if loop.doubted and loop.verdict is MarginVerdict.NOT_APPLICABLE:
             why = f"linearised and measured responses differ, {loop.not_applicable['agreement']}"
             lines.append(f"loop {loop.name} at {loop.point}: not passed: {why}")
     lines += [f"{lost.what} {lost.name} at {lost.point}: {lost.text}" for lost in report.unstudied]
-    if not lines and report.verdict is not Verdict.PASS:
+    if not lines and report.verdict is not MarginVerdict.PASS:
         lines.append(f"{report.system}: {report.verdict}")
     return lines
 
 
 def _verdict_line(lost: Unstudied) -> str:
     """Describe a loop that has a verdict though no margins."""
-    verdict = f": {lost.verdict}" if lost.verdict is Verdict.FAIL else ""
+    verdict = f": {lost.verdict}" if lost.verdict is MarginVerdict.FAIL else ""
     return f"{lost.name} at {lost.point}: {lost.text}{verdict}"
 
 
-def _failure_line(subject: LoopReport | JointReport, item: Requirement) -> str:
+def _failure_line(subject: LoopReport | JointReport, item: MarginRequirement) -> str:
     where = f"{'loops' if isinstance(subject, JointReport) else 'loop'} {subject.name} at {subject.point}"
     text = "of an unstable loop" if item.unstable else f"{item.value:.4g} {_unit(item)}".strip()
     note = f": {item.note}" if item.note else ""
     return f"{where}: {item.title} {text} misses the limit {item.limit:g} {_unit(item)}".strip() + note
 
 
-def _unit(item: Requirement) -> str:
+def _unit(item: MarginRequirement) -> str:
     return "" if item.unit == "1" else item.unit
 
 
-def _words(sizes: Mapping[Quantity, float], sides: Mapping[Quantity, str] | None = None) -> str:
+def _words(sizes: Mapping[MarginQuantity, float], sides: Mapping[MarginQuantity, str] | None = None) -> str:
     """Return sizes of margins, ``gain margin 12.39 dB, phase margin 44.28 deg``, and which of them are one-sided."""
     words = []
     for quantity, size in sizes.items():
@@ -82,8 +82,8 @@ def _margins(loop: LoopReport) -> str:
     margins = loop.margins
     sizes = {quantity: margins.size(quantity) for quantity in MARGINS}
     sides = {
-        Quantity.GAIN: "(lower)" if margins.gain < 1.0 else "",
-        Quantity.PHASE: "(lead)" if margins.phase < 0.0 else "",
+        MarginQuantity.GAIN: "(lower)" if margins.gain < 1.0 else "",
+        MarginQuantity.PHASE: "(lead)" if margins.phase < 0.0 else "",
     }
     return f"unstable, spectral radius {margins.largest:.4g}" if margins.unstable else _words(sizes, sides)
 
@@ -113,5 +113,5 @@ def _lines(loop: LoopReport) -> Iterator[str]:
 
 def _crossing_line(sweep: SweepReport, crossing: SweepCrossing) -> str:
     side = "below" if crossing.below else "above"
-    what = "unstable" if crossing.quantity is Quantity.STABILITY else f"{crossing.quantity} misses its limit"
+    what = "unstable" if crossing.quantity is MarginQuantity.STABILITY else f"{crossing.quantity} misses its limit"
     return f"{sweep.name}: {what} {side} {sweep.parameter} = {crossing.value:.4g}"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import partial
 
-from ....stability.loops.margin_values import Quantity
+from ....stability.loops.margin_values import MarginQuantity
 from ....stability.results.document import document
-from ....stability.results.report import LoopReport, StabilityReport
-from ....stability.results.requirement import Verdict as Judgement
+from ....stability.results.report import LoopReport, StabilityStudy
+from ....stability.results.requirement import MarginVerdict
 from ...cell import Strong
 from ...model import Document, Group, Medium, Missing, Node, Note, Only, Printed, Repeat, Section, Table, Text, Verdict
 from ...pictures import Figure, Figures
@@ -24,7 +24,7 @@ from .tightest import dispersion_nodes, tightest_nodes, with_mark
 from .words import fold_long, gain_margin, phase_margin, size, verdict
 
 
-def stability_document(report: StabilityReport, command: str = "") -> Document:
+def stability_document(report: StabilityStudy, command: str = "") -> Document:
     """Return the document of a study, which ``command`` repeats.
 
     How long it took is in a terminal only, so that its page is always the same.
@@ -55,12 +55,12 @@ def stability_document(report: StabilityReport, command: str = "") -> Document:
     )
 
 
-def decisive_loop(report: StabilityReport) -> LoopReport:
+def decisive_loop(report: StabilityStudy) -> LoopReport:
     """Return the first loop that fails, else the first."""
-    return next((loop for loop in report.loops if loop.verdict is Judgement.FAIL), report.loops[0])
+    return next((loop for loop in report.loops if loop.verdict is MarginVerdict.FAIL), report.loops[0])
 
 
-def _notebook_nodes(report: StabilityReport) -> list[Node]:
+def _notebook_nodes(report: StabilityStudy) -> list[Node]:
     """Return the verdict, the nearest margins of each loop, and the Bode diagram of the decisive one."""
     heads = ("loop", "operating point", "gain margin, dB", "phase margin, deg", "modulus", "disk", "")
     rows = [
@@ -69,7 +69,7 @@ def _notebook_nodes(report: StabilityReport) -> list[Node]:
             loop.point,
             gain_margin(loop.margins),
             phase_margin(loop.margins),
-            *(size(loop.margins.size(quantity)) for quantity in (Quantity.MODULUS, Quantity.DISK)),
+            *(size(loop.margins.size(quantity)) for quantity in (MarginQuantity.MODULUS, MarginQuantity.DISK)),
             verdict(loop.verdict),
         )
         for loop in report.loops
@@ -90,39 +90,39 @@ def _notebook_nodes(report: StabilityReport) -> list[Node]:
     ]
 
 
-def _verdict(report: StabilityReport) -> Verdict:
+def _verdict(report: StabilityStudy) -> Verdict:
     verdicts = [item.requirement.verdict for item in report.judgements()]
     words = {
-        Judgement.FAIL: "violated",
-        Judgement.WITHHELD: "withheld",
-        Judgement.NOT_APPLICABLE: "not applicable",
+        MarginVerdict.FAIL: "violated",
+        MarginVerdict.WITHHELD: "withheld",
+        MarginVerdict.NOT_APPLICABLE: "not applicable",
     }
     others = [f"{verdicts.count(each)} {text}" for each, text in words.items() if each in verdicts]
-    met = f"{verdicts.count(Judgement.PASS)} of {len(verdicts)} requirement{'s' if len(verdicts) != 1 else ''} met"
+    met = f"{verdicts.count(MarginVerdict.PASS)} of {len(verdicts)} requirement{'s' if len(verdicts) != 1 else ''} met"
     nodes = [Text(", ".join([met, *others])), *tightest_nodes(report), *dispersion_nodes(report)]
-    return Verdict([verdict(report.verdict)], nodes, is_bad=report.verdict is not Judgement.PASS)
+    return Verdict([verdict(report.verdict)], nodes, is_bad=report.verdict is not MarginVerdict.PASS)
 
 
-def _requirement_nodes(report: StabilityReport) -> list[Node]:
+def _requirement_nodes(report: StabilityStudy) -> list[Node]:
     judgements = list(report.judgements())
     if not judgements:
         return [Missing("the system declares no requirement")]
     everything = fold_long(verdict_table(report, judgements), "requirements")
-    failing = [item for item in judgements if item.requirement.verdict in (Judgement.FAIL, Judgement.WITHHELD)]
+    failing = [item for item in judgements if item.requirement.verdict in (MarginVerdict.FAIL, MarginVerdict.WITHHELD)]
     if not failing:
         return [everything]
-    is_withheld = any(item.requirement.verdict is Judgement.WITHHELD for item in failing)
+    is_withheld = any(item.requirement.verdict is MarginVerdict.WITHHELD for item in failing)
     heading = "Violated or withheld requirements" if is_withheld else "Violated requirements"
     return [Group(heading, [verdict_table(report, failing)]), Group("All requirements", [everything])]
 
 
-def _order_notes(report: StabilityReport) -> list[str]:
+def _order_notes(report: StabilityStudy) -> list[str]:
     if report.orders is None:  # of FMUs that no loop passes
         return [f"Assumed: {note}." for note in report.provenance.get("assumptions", ())]
     return [f"{sentence[0].upper()}{sentence[1:]}." for sentence in order_sentences(report)]
 
 
-def _order_nodes(report: StabilityReport) -> list[Node]:
+def _order_nodes(report: StabilityStudy) -> list[Node]:
     table = order_table(report)
     nodes: list[Node] = [Note(each) for each in _order_notes(report)]
     if table.rows:
@@ -134,17 +134,17 @@ def _order_nodes(report: StabilityReport) -> list[Node]:
     return nodes
 
 
-def _unstudied_nodes(report: StabilityReport) -> list[Node]:
+def _unstudied_nodes(report: StabilityStudy) -> list[Node]:
     return [
         Text([
             f"{item.what} ", Strong(item.name),
-            f" at {item.point}: {item.text}{': fail' if item.verdict is Judgement.FAIL else ''}",
+            f" at {item.point}: {item.text}{': fail' if item.verdict is MarginVerdict.FAIL else ''}",
         ])
         for item in report.unstudied
     ]  # fmt: skip
 
 
-def _margin_nodes(report: StabilityReport) -> list[Node]:
+def _margin_nodes(report: StabilityStudy) -> list[Node]:
     nearest = Note(
         "The gain margin is the one nearest to 0 dB, upwards or downwards, the phase margin the one nearest to 0. "
         "Samples are the loop's own. One loop is broken at a time, all other loops closed. Tightest: least reserve "

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ....stability.loops.margin_values import Quantity
-from ....stability.results.report import StabilityReport
+from ....stability.loops.margin_values import MarginQuantity
+from ....stability.results.report import StabilityStudy
 from ....stability.results.varied import SweepReport
 from ...common.quantities import label_with_unit
 from ...model import Fold, Group, Node, Note, Table
@@ -12,7 +12,7 @@ from .figures import sweep_figure
 from .words import UNSTABLE_WORD, gain_margin, numbers, numeral, phase_margin, size
 
 
-def sweep_nodes(report: StabilityReport) -> list[Node]:
+def sweep_nodes(report: StabilityStudy) -> list[Node]:
     """Return all sweeps of a study."""
     return [
         Figures(
@@ -42,7 +42,7 @@ def value_table(sweep: SweepReport) -> Table:
             numeral(float(value), sweep.unit),
             gain_margin(margins),
             phase_margin(margins),
-            size(margins.size(Quantity.MODULUS)),
+            size(margins.size(MarginQuantity.MODULUS)),
         )
         for value, margins in zip(sweep.values, sweep.margins, strict=True)
     ]
@@ -53,7 +53,7 @@ def crossing_table(sweep: SweepReport) -> Table:
     """Return where which limit is crossed."""
     rows = [
         (
-            UNSTABLE_WORD if crossing.quantity is Quantity.STABILITY else f"{crossing.quantity} misses its limit",
+            UNSTABLE_WORD if crossing.quantity is MarginQuantity.STABILITY else f"{crossing.quantity} misses its limit",
             "below" if crossing.below else "above",
             numeral(crossing.value, sweep.unit),
         )

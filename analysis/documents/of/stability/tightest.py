@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import PurePath
 
 from ....campaigns.summary import CONFIDENCE, success_interval
-from ....stability.loops.margin_values import UNSTABLE, Quantity
-from ....stability.results.report import JointReport, Judged, LoopReport, StabilityReport
-from ....stability.results.requirement import Requirement, Scope
+from ....stability.loops.margin_values import UNSTABLE, MarginQuantity
+from ....stability.results.report import JointReport, JudgedRequirement, LoopReport, StabilityStudy
+from ....stability.results.requirement import MarginRequirement, Scope
 from ....stability.results.varied import Dispersion
 from ...cell import Cell, Code, Inline, Percentage, Phrase, Strong
 from ...common.quantities import display_unit
@@ -16,7 +16,7 @@ from ..reserve import TIGHTEST, relative_reserve
 from .words import crossing_text, limit, link, size
 
 
-def tightest(report: StabilityReport, scopes: tuple[Scope, ...] = tuple(Scope)) -> Judged | None:
+def tightest(report: StabilityStudy, scopes: tuple[Scope, ...] = tuple(Scope)) -> JudgedRequirement | None:
     """Return the requirement on a margin with the least relative reserve, the first of equal ones.
 
     Instability has less than any margin, that of the loop less than that of its trials. None: no margin has a limit.
@@ -25,18 +25,18 @@ def tightest(report: StabilityReport, scopes: tuple[Scope, ...] = tuple(Scope)) 
     return min(known, key=lambda each: (_reserve(each.requirement), scopes.index(each.requirement.scope)), default=None)
 
 
-def is_tightest(report: StabilityReport, subject: LoopReport | JointReport) -> bool:
+def is_tightest(report: StabilityStudy, subject: LoopReport | JointReport) -> bool:
     """Return True if a loop, one of several, has the tightest margin."""
     nearest = tightest(report)
     return nearest is not None and nearest.subject is subject and len(report.loops) + len(report.joint) > 1
 
 
-def with_mark(report: StabilityReport, loop: LoopReport, name: Inline) -> Cell:
+def with_mark(report: StabilityStudy, loop: LoopReport, name: Inline) -> Cell:
     """Return the name of a loop for a table, marked where it has the tightest margin."""
     return Phrase([name, " ", Strong(TIGHTEST)]) if is_tightest(report, loop) else name
 
 
-def tightest_nodes(report: StabilityReport) -> list[Text]:
+def tightest_nodes(report: StabilityStudy) -> list[Text]:
     """Return the tightest margin with its limit, or that no margin has one; nothing without a loop."""
     if not report.loops:
         return []
@@ -46,13 +46,13 @@ def tightest_nodes(report: StabilityReport) -> list[Text]:
     return [Text(["tightest margin: ", *_who(report, nearest.subject), ", ", *_value(nearest)])]
 
 
-def dispersion_nodes(report: StabilityReport) -> list[Text]:
+def dispersion_nodes(report: StabilityStudy) -> list[Text]:
     """Return how the margins of the loop with the tightest ones vary over a campaign, or how to vary them."""
     nearest = tightest(report, (Scope.DISPERSED,))
     dispersed = [loop for loop in report.loops if loop.dispersion is not None]
     if not dispersed:
         return [Text(["not dispersed: ", Code("--campaign NAME"), " adds the trials of a campaign"])]
-    loop, quantity = min(dispersed, key=_least_disk), Quantity.DISK
+    loop, quantity = min(dispersed, key=_least_disk), MarginQuantity.DISK
     if nearest is not None and isinstance(nearest.subject, LoopReport):
         loop = nearest.subject
         quantity = nearest.requirement.quantity
@@ -60,7 +60,7 @@ def dispersion_nodes(report: StabilityReport) -> list[Text]:
     assert spread is not None
     stable = spread.trials - spread.unstable
     low, high = success_interval(stable, spread.trials, CONFIDENCE)
-    margins = [] if quantity is Quantity.STABILITY else _levels(spread, quantity)
+    margins = [] if quantity is MarginQuantity.STABILITY else _levels(spread, quantity)
     return [
         Text([
             f"over trials of {PurePath(spread.campaign).name}: ", *_who(report, loop),
@@ -70,25 +70,27 @@ def dispersion_nodes(report: StabilityReport) -> list[Text]:
     ]  # fmt: skip
 
 
-def _is_margin(requirement: Requirement) -> bool:
+def _is_margin(requirement: MarginRequirement) -> bool:
     return (
-        requirement.value is not None if requirement.quantity is not Quantity.STABILITY else requirement.passed is False
+        requirement.value is not None
+        if requirement.quantity is not MarginQuantity.STABILITY
+        else requirement.passed is False
     )
 
 
-def _reserve(requirement: Requirement) -> float:
-    if requirement.quantity is Quantity.STABILITY or requirement.value is None:
+def _reserve(requirement: MarginRequirement) -> float:
+    if requirement.quantity is MarginQuantity.STABILITY or requirement.value is None:
         return UNSTABLE
     other = requirement.as_feedthrough
     known = requirement.value if other is None or other.value is None else min(requirement.value, other.value)
     return relative_reserve(known, requirement.limit, None)
 
 
-def _who(report: StabilityReport, subject: LoopReport | JointReport) -> list[Inline]:
+def _who(report: StabilityStudy, subject: LoopReport | JointReport) -> list[Inline]:
     return [link(report, subject), f" at {subject.point}"]
 
 
-def _value(nearest: Judged) -> list[Inline]:
+def _value(nearest: JudgedRequirement) -> list[Inline]:
     subject, requirement = nearest
     if _reserve(requirement) != UNSTABLE:
         return [f"{requirement.title} ", *_inline(crossing_text(requirement)), ", limit ", *_inline(limit(requirement))]
@@ -96,7 +98,7 @@ def _value(nearest: Judged) -> list[Inline]:
     return ["unstable" if spread is None else f"unstable in {spread.unstable} of {spread.trials} trials"]
 
 
-def _levels(spread: Dispersion, quantity: Quantity) -> list[Inline]:
+def _levels(spread: Dispersion, quantity: MarginQuantity) -> list[Inline]:
     levels = spread.levels(quantity)
     unit = display_unit(quantity.unit)
     return [f", {quantity} at least ", size(levels["least"]), ", median ", size(levels["50 %"]), f" {unit}".rstrip()]
@@ -108,4 +110,4 @@ def _inline(cell: Phrase | Inline) -> list[Inline]:
 
 def _least_disk(loop: LoopReport) -> float:
     assert loop.dispersion is not None
-    return float(min(loop.dispersion.sizes(Quantity.DISK)))
+    return float(min(loop.dispersion.sizes(MarginQuantity.DISK)))

@@ -11,22 +11,27 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ....stability.loops.margin_values import UNSTABLE, Margins
+from ....stability.loops.margin_values import UNSTABLE, LoopMargins
 from ....stability.loops.readings import decibel_size, decibels, degree_size
-from ....stability.results.report import JointReport, LoopReport, StabilityReport
-from ....stability.results.requirement import Requirement, Verdict
+from ....stability.results.report import JointReport, LoopReport, StabilityStudy
+from ....stability.results.requirement import MarginRequirement, MarginVerdict
 from ...cell import Cell, Displayed, Head, Inline, Judged, Link, Phrase, Quantity, Rich, Strong
 from ...common.quantities import MINUS, NONE, display_unit, number
 from ...model import Fold, Node, Table
 
 NO_CROSSING = "none (no crossing)"
 UNSTABLE_WORD = "unstable"
-SIGNS = {Verdict.PASS: "✓", Verdict.FAIL: "✗", Verdict.WITHHELD: "?", Verdict.NOT_APPLICABLE: NONE}
-GRADES: dict[Verdict, Literal["pass", "fail", "withheld", "not-applicable"]] = {
-    Verdict.PASS: "pass",
-    Verdict.FAIL: "fail",
-    Verdict.WITHHELD: "withheld",
-    Verdict.NOT_APPLICABLE: "not-applicable",
+SIGNS = {
+    MarginVerdict.PASS: "✓",
+    MarginVerdict.FAIL: "✗",
+    MarginVerdict.WITHHELD: "?",
+    MarginVerdict.NOT_APPLICABLE: NONE,
+}
+GRADES: dict[MarginVerdict, Literal["pass", "fail", "withheld", "not-applicable"]] = {
+    MarginVerdict.PASS: "pass",
+    MarginVerdict.FAIL: "fail",
+    MarginVerdict.WITHHELD: "withheld",
+    MarginVerdict.NOT_APPLICABLE: "not-applicable",
 }
 LONG = 30  # rows; longer tables are folded
 
@@ -71,7 +76,7 @@ def anchor(index: int) -> str:
     return f"loop-{index + 1}"
 
 
-def link(report: StabilityReport, subject: LoopReport | JointReport) -> Link | str:
+def link(report: StabilityStudy, subject: LoopReport | JointReport) -> Link | str:
     """Return the name of a loop, which leads to its article, or of channels, which have none."""
     index = next((index for index, loop in enumerate(report.loops) if loop is subject), None)
     return subject.name if index is None else Link(subject.name, anchor(index))
@@ -128,12 +133,12 @@ def mode_numbers(z: complex, s: complex, damping: float, frequency: float) -> tu
     return complex_number(s), numeral(damping, digits=3), numeral(frequency)
 
 
-def state(margins: Margins) -> Strong | None:
+def state(margins: LoopMargins) -> Strong | None:
     """Return the word in the place of margins that an unstable loop does not have."""
     return Strong(UNSTABLE_WORD) if margins.unstable else None
 
 
-def gain_margin(margins: Margins) -> Cell:
+def gain_margin(margins: LoopMargins) -> Cell:
     """Return a gain margin in dB with its direction."""
     if margins.unstable or not math.isfinite(margins.gain):
         return state(margins) or NO_CROSSING
@@ -141,7 +146,7 @@ def gain_margin(margins: Margins) -> Cell:
     return Phrase([in_decibels(margins.gain, absolute=True), f" ({direction})"])
 
 
-def phase_margin(margins: Margins) -> Cell:
+def phase_margin(margins: LoopMargins) -> Cell:
     """Return a phase margin in degrees; a lead is marked as one."""
     if margins.unstable or not math.isfinite(margins.phase):
         return state(margins) or NO_CROSSING
@@ -159,7 +164,7 @@ def samples(delay: float, period: float) -> Quantity | str:
     return numeral(float(delay) / period, infinite=NO_CROSSING)
 
 
-def verdict(word: Verdict) -> Judged:
+def verdict(word: MarginVerdict) -> Judged:
     """Return a verdict with its sign and colour."""
     return Judged(f"{SIGNS[word]} {word}", GRADES[word])
 
@@ -169,14 +174,14 @@ def text_of_closed_loop(stable: bool | None) -> str:
     return {True: "stable", False: "unstable", None: "not known"}[None if stable is None else bool(stable)]
 
 
-def crossing_text(requirement: Requirement) -> Inline | Phrase:
+def crossing_text(requirement: MarginRequirement) -> Inline | Phrase:
     """Return the value of a requirement with its unit."""
     value = requirement.value
     is_number = value is not None and math.isfinite(value)
     return _with_unit(size(value), requirement.unit if is_number else "1")
 
 
-def limit(requirement: Requirement) -> Inline | Phrase:
+def limit(requirement: MarginRequirement) -> Inline | Phrase:
     """Return the limit of a requirement with its unit."""
     return _with_unit(numeral(float(requirement.limit)), requirement.unit)
 

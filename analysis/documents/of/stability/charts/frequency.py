@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .....stability.loops.margin_values import Quantity
+from .....stability.loops.margin_values import MarginQuantity
 from .....stability.loops.readings import Classical, FrequencyResponse, decibel_size, decibels, degree_size
 from .....stability.results.report import LoopReport
 from ....chart.axes import fine_axis, linear_axis
@@ -154,4 +154,6 @@ class LimitLines:
 def limits_of(loop: LoopReport) -> LimitLines:
     """Return the limits among a loop's requirements."""
     limits = {item.quantity: item.limit for item in loop.requirements}
-    return LimitLines(limits.get(Quantity.GAIN), limits.get(Quantity.PHASE), limits.get(Quantity.MODULUS))
+    return LimitLines(
+        limits.get(MarginQuantity.GAIN), limits.get(MarginQuantity.PHASE), limits.get(MarginQuantity.MODULUS)
+    )

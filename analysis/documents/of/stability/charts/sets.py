@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .....stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from .....stability.loops.margin_values import UNLIMITED, UNSTABLE, MarginQuantity
 from .....stability.loops.margins import disk_of_gain, disk_of_phase
 from .....stability.loops.readings import decibels, factor_of
 from .....stability.results.report import JointReport, LoopReport
@@ -44,7 +44,7 @@ def step_chart(loop: LoopReport) -> Chart:
     return Chart(NO_BOX, abscissa, linear_axis(ends, 6), title=title, curves=curves, rules=rules)
 
 
-def margin_chart(dispersion: Dispersion, quantity: Quantity, limit: float | None) -> Chart:
+def margin_chart(dispersion: Dispersion, quantity: MarginQuantity, limit: float | None) -> Chart:
     """Return trials by a margin's size: unstable ones hatched at the left, the limit dashed, the worst marked."""
     sizes, worst = dispersion.sizes(quantity), dispersion.worst
     unstable, finite = sizes == UNSTABLE, np.isfinite(sizes)
@@ -151,7 +151,7 @@ def sweep_charts(sweep: SweepReport, limits: LimitLines) -> tuple[Chart, Chart]:
     unstable = np.array([each.unstable for each in sweep.margins])
     gain = np.array([math.nan if each.unstable else decibels(each.gain) for each in sweep.margins])
     phase = np.array([math.nan if each.unstable else math.degrees(each.phase) for each in sweep.margins])
-    edges = [crossing.value for crossing in sweep.crossings if crossing.quantity is Quantity.STABILITY]
+    edges = [crossing.value for crossing in sweep.crossings if crossing.quantity is MarginQuantity.STABILITY]
     bands = _runs(unstable, sweep.values, edges)
     return (
         _sweep_chart(sweep, gain, limits.gain, "gain margin, dB", bands),
@@ -191,8 +191,10 @@ def joint_chart(joint: JointReport) -> Chart:
     if joint.stable and math.isfinite(joint.disk_frequency):
         curves.append(mark(joint.disk_frequency, joint.disk_margin, PEAK))
     limits = {item.quantity: item.limit for item in joint.requirements}
-    alphas = [disk_of_gain(factor_of(limits[Quantity.DISK_GAIN]))] if Quantity.DISK_GAIN in limits else []
-    alphas += [disk_of_phase(math.radians(limits[Quantity.DISK_PHASE]))] if Quantity.DISK_PHASE in limits else []
+    alphas = [disk_of_gain(factor_of(limits[MarginQuantity.DISK_GAIN]))] if MarginQuantity.DISK_GAIN in limits else []
+    alphas += (
+        [disk_of_phase(math.radians(limits[MarginQuantity.DISK_PHASE]))] if MarginQuantity.DISK_PHASE in limits else []
+    )
     finite = joint.disk_margins[np.isfinite(joint.disk_margins)]
     ends = (0.0, min(2.1, 1.1 * float(np.max(finite, initial=0.1))))
     title = "disk margin" if joint.stable else "distance; the closed loop is unstable"
