@@ -1,4 +1,4 @@
-"""The cells of tables and the inline parts of sentences: numbers with their units, words with a meaning."""
+"""Cells of tables and inline elements of sentences: numbers with units, words with a role."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ if TYPE_CHECKING:  # figures take as long to import as a verb without any takes 
 
 
 class Quantity(NamedTuple):
-    """A number in SI, displayed with ``digits`` significant digits in the unit that people read.
+    """A number in SI, displayed in a readable unit with ``digits`` significant digits.
 
-    ``is_bare``: without the unit, which its row or column states. ``decimals``: with this many instead of ``digits``,
-    for fractions, of which a column has the same decimals.
+    ``is_bare`` omits the unit, which the row or column states. ``decimals`` replaces ``digits`` for fractions, so that
+    all in a column have the same number of decimals.
     """
 
     value: float | int | bool | None
@@ -25,14 +25,14 @@ class Quantity(NamedTuple):
 
 
 class Displayed(NamedTuple):
-    """A number with the text of it that is no multiple of the exact SI value: a factor in dB, a complex number."""
+    """A number with its own text, for one that is not a multiple of the SI value: a factor in dB, a complex number."""
 
     text: str
     exact: float | complex
 
 
 class Vector(NamedTuple):
-    """Numbers of a vector in SI, displayed like a `Quantity` each; ``is_bare``: without the unit."""
+    """Elements of a vector in SI, each displayed like a `Quantity`; ``is_bare`` omits the unit."""
 
     values: Sequence[float]
     unit: str | None = None
@@ -48,14 +48,14 @@ class Percentage(NamedTuple):
 
 
 class Interval(NamedTuple):
-    """The two ends of an interval in one cell; at most one is None."""
+    """The two ends of an interval in one cell; at most one of them is None."""
 
     low: Quantity | Percentage | Displayed | None
     high: Quantity | Percentage | Displayed | None
 
 
 class Track(NamedTuple):
-    """A rate with its interval, drawn on a scale from ``start`` to 1, whose ends are written if ``has_ends``."""
+    """A rate with its interval, drawn on a scale from ``start`` to 1; ``has_ends`` labels the ends of the scale."""
 
     rate: float
     low: float
@@ -71,26 +71,26 @@ class Bar(NamedTuple):
 
 
 class Code(NamedTuple):
-    """Text of a program: an expression, a file, a digest; a column of ``is_long`` ones is not narrowed."""
+    """Program text: an expression, a file, a digest; a column of ``is_long`` entries is not narrowed."""
 
     text: str
     is_long: bool = False
 
 
 class CommandLine(NamedTuple):
-    """A command line, which a page copies at a click."""
+    """A command line, which a page copies on a click."""
 
     text: str
 
 
 class Digest(NamedTuple):
-    """A digest of a file."""
+    """The digest of a file."""
 
     text: str
 
 
 class Link(NamedTuple):
-    """Text that leads to the row or section with this ``anchor``."""
+    """Text linked to the row or section with this ``anchor``."""
 
     text: str
     anchor: str
@@ -107,26 +107,26 @@ class Judged(NamedTuple):
 
 
 class Strong(NamedTuple):
-    """A cell that stands out: the best of its column, a significant one."""
+    """A highlighted cell: the best of its column, or a significant value."""
 
     cell: Cell
 
 
 class Faint(NamedTuple):
-    """A cell that explains its neighbour."""
+    """A subdued cell that explains its neighbour."""
 
     cell: Cell
 
 
 class Lines(NamedTuple):
-    """Cells below each other in one; ``is_line_on_paper``: there next to each other."""
+    """Several cells in one, below each other; with ``is_line_on_paper`` side by side on paper."""
 
     content: Sequence[Cell]
     is_line_on_paper: bool = False
 
 
 class LegendEntry(NamedTuple):
-    """A look of lines or of marks, and what has it: the names of ``lines``, or words in them."""
+    """The look of lines or marks, and what they show: the names of ``lines``, or words that contain them."""
 
     look: Look | Marker | Curve
     lines: Sequence[str]
@@ -150,7 +150,7 @@ Rich = str | Sequence[Inline]  # a sentence; its numbers keep their exact values
 
 
 class Phrase(NamedTuple):
-    """Several numbers and words in a cell, which stays in one line if ``is_unbroken``."""
+    """Several numbers and words in a cell; ``is_unbroken`` keeps them on one line."""
 
     content: Sequence[Inline]
     is_unbroken: bool = True
@@ -160,10 +160,10 @@ Cell = Inline | Vector | Track | Bar | Digest | Lines | float | bool | Phrase | 
 
 
 class Head(NamedTuple):
-    """The heading of a column, or of the columns ``below`` it, with a ``note`` in a separate line.
+    """The heading of a column, or of the columns ``below`` it, with a ``note`` on a separate line.
 
-    A column of ``numbers`` is aligned to the right though some cells are words, as without this one of numbers alone;
-    ``names`` remain in one line, a column of ``sentences`` is not narrowed.
+    Columns of numbers alone are aligned to the right, with ``numbers`` also columns that contain words. ``names`` keeps
+    names on one line; a column of ``sentences`` is not narrowed.
     """
 
     text: str
@@ -173,7 +173,7 @@ class Head(NamedTuple):
 
 
 class Row(NamedTuple):
-    """Cells that links lead to by ``anchor``, or that begin a group of rows."""
+    """Cells of a row; links refer to it by ``anchor``, and it may begin a group of rows."""
 
     content: Sequence[Cell]
     anchor: str = ""
@@ -181,13 +181,13 @@ class Row(NamedTuple):
 
 
 class RowHeading(NamedTuple):
-    """The heading of the rows below it, over all columns; what stands out of ``title`` is `Strong`."""
+    """A heading of the following rows across all columns; the emphasised words of ``title`` are `Strong`."""
 
     title: Rich
     note: Rich = ""
 
 
 class RowNote(NamedTuple):
-    """A note on the row above it, below all columns but the first."""
+    """A note on the row above, across all columns but the first."""
 
     content: Rich

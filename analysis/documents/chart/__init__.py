@@ -1,1 +1,1 @@
-"""Charts as data: their ticks and ends, and the SVG that pages have without scripts and on paper."""
+"""Charts as data: axes, ticks and ends, and their SVG for paper and for pages without scripts."""

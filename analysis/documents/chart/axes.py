@@ -1,4 +1,4 @@
-"""Axes of charts: ends, ticks and their texts."""
+"""Axes of charts: ends, ticks and their labels."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ def linear_axis(
     integer: bool = False,
     multiples: Sequence[float] = STEPS,
 ) -> Axis:
-    """Return a linear axis with at most ``intervals`` intervals between ticks, at integers if ``integer``.
+    """Return a linear axis with at most ``intervals`` intervals between ticks; ``integer`` restricts ticks to
+    integers.
 
     The intervals are ``multiples`` of a power of ten.
     """
@@ -35,16 +36,18 @@ def ticked_axis(ends: tuple[float, float], ticks: Sequence[float], *, label: str
 def logarithmic_axis(
     ends: tuple[float, float], limit: int, *, label: str = "", multiples: tuple[float, ...] = (1.0,)
 ) -> Axis:
-    """Return a logarithmic axis with at most ``limit`` decades marked, by these ``multiples`` where it marks each."""
+    """Return a logarithmic axis with at most ``limit`` labelled decades; if all are, ``multiples`` of each are
+    ticks, too.
+    """
     low, high = min(ends), max(ends)
     ticks = [(at, log_tick(at)) for at in decade_ticks(low, high, limit, multiples)]
     return replace(_axis(ends, ticks, label, named=False), logarithmic=True)
 
 
 def fine_axis(ends: tuple[float, float], limit: int = 6, *, label: str = "") -> Axis:
-    """Return a logarithmic axis with ticks at k 10^n, k = 1 to 9, of which few have texts.
+    """Return a logarithmic axis with ticks at k 10^n, k = 1 to 9, few of them labelled.
 
-    Beyond ``limit`` decades ticks are at whole decades alone.
+    Beyond ``limit`` decades only whole decades have ticks.
     """
     texts = {at: log_tick(at) for at in text_ticks(*ends, limit)}
     decades = power_ticks(*ends, MULTIPLES[0])
@@ -53,19 +56,19 @@ def fine_axis(ends: tuple[float, float], limit: int = 6, *, label: str = "") -> 
 
 
 def named_axis(ends: tuple[float, float], ticks: Sequence[tuple[float, str]], *, label: str = "") -> Axis:
-    """Return an axis whose ticks have names."""
+    """Return an axis with names as tick labels."""
     return _axis(ends, list(ticks), label, named=True)
 
 
 def lane_axis(labels: Sequence[str], ends: tuple[float, float] | None = None, *, size: float = LABEL_SIZE) -> Axis:
-    """Return the ordinate of lanes at 0, 1, ..., the first at the top, without strokes or lines at them."""
+    """Return the ordinate of lanes at 0, 1, ..., the first at the top, without tick marks or grid lines."""
     low, high = ends or (len(labels) - 0.4, -0.6)
     ticks = [(float(index), label) for index, label in enumerate(labels)]
     return replace(named_axis((low, high), ticks), size=size, grid=False, marked=False)
 
 
 def bare_axis(axis: Axis) -> Axis:
-    """Return an axis without the texts of its ticks."""
+    """Return an axis without tick labels."""
     return replace(axis, ticks=[(at, "") for at, _ in axis.ticks], label="", named=False, bare=True)
 
 

@@ -1,4 +1,4 @@
-"""Charts in which a unit is as long on the ordinate as on the abscissa."""
+"""Charts with equal scales: a unit has the same length on both axes."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ ROUNDS = 4  # of layouts: other ends have other texts at their ticks, which need
 
 
 def equal_ends(x: Ends, y: Ends, width: float, height: float) -> tuple[Ends, Ends]:
-    """Return the ends of both axes, those of one widened about its middle, so that a unit is equally long on both.
+    """Return the ends of both axes, one of them widened about its middle so that the scales are equal.
 
-    ``width`` and ``height`` are those of the area of the axes.
+    ``width`` and ``height`` are those of the plotting area.
     """
     unit = max(abs(x[1] - x[0]) / width, abs(y[1] - y[0]) / height)
     return _widen(x, unit * width), _widen(y, unit * height)
@@ -32,10 +32,10 @@ def to_scale(
     title: str = "",
     fluid: bool = True,
 ) -> Chart:
-    """Return a chart that is laid out in a figure of this size (pt), with equal units on its axes.
+    """Return a chart with equal scales, laid out in a figure of this size (pt).
 
-    ``chart_of`` constructs it with ends of the abscissa and of the ordinate, which contain ``x`` and ``y``. ``fluid``:
-    it is one of a page, at any width.
+    ``chart_of`` constructs it from the ends of abscissa and ordinate, which contain ``x`` and ``y``. ``fluid`` lays it
+    out for a page, at any width.
     """
     lay = partial(lay_out_fluid, to_scale=True) if fluid else lay_out
     chart = lay(chart_of(x, y), width, height, title=title)

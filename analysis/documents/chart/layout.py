@@ -1,4 +1,4 @@
-"""Layout: the box of the axes of a chart in a figure, with room for all texts."""
+"""Layout of a chart: the plotting area within a figure, with space for all text."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ LINE = ASCENT + DESCENT  # of a text, of its size
 
 
 def lay_out(chart: Chart, width: float, height: float, *, title: str = "", left: float = 0.0) -> Chart:
-    """Return the chart with the ``box`` of its axes in a figure of this size (pt).
+    """Return the chart with its plotting area, ``box``, in a figure of this size (pt).
 
-    ``left`` (pt) is the room left of the axes at least, for charts below each other.
+    ``left`` (pt) is the minimum space to the left of the axes, which aligns charts below each other.
     """
     return replace(chart, box=_box(_margins(chart, width, height, title, left), width, height))
 
@@ -44,11 +44,11 @@ def lay_out_fluid(
     right: float = 0.0,
     to_scale: bool = False,
 ) -> Chart:
-    """Return the chart with ``fluid`` margins in a figure of this height (pt), which may be wider or narrower.
+    """Return the chart with ``fluid`` margins in a figure of this height (pt) and of variable width.
 
-    Its ``box`` is that at this ``width`` (pt), at which texts of ticks do not overlap, since those that would are left
-    out; on a narrow screen those that are ``few`` do not. ``left`` and ``right`` (pt) are the room there at least, for
-    charts below each other. ``to_scale``: the height follows the width.
+    Its ``box`` applies at this ``width`` (pt). Ticks whose labels would overlap there are omitted; on narrow screens
+    only the ``few`` ticks remain. ``left`` and ``right`` (pt) are minimum spaces, which align charts below each other.
+    With ``to_scale`` the height follows the width.
     """
 
     def margins_of(axis: Axis, at: float) -> np.ndarray:
@@ -72,7 +72,9 @@ def lay_out_fluid(
 
 
 def axes_size(chart: Chart, width: float, height: float) -> tuple[float, float]:
-    """Return the size (pt) of the area of the axes in a figure of this size; where it is `Fluid` on a narrow screen."""
+    """Return the size (pt) of the plotting area in a figure of this size; of a `Fluid` chart that on a narrow
+    screen.
+    """
     across, up = width * chart.box[2], height * chart.box[3]
     if not chart.fluid:
         return across, up
@@ -85,7 +87,10 @@ def _select(axis: Axis, ticks: Sequence[int]) -> Axis:
 
 
 def sparse_ticks(axis: Axis, length: float) -> Sequence[int]:
-    """Return the most ticks of an abscissa of this length (pt) whose texts do not overlap, the fewer the rounder."""
+    """Return the largest selection of ticks whose labels do not overlap on an abscissa of this length (pt).
+
+    Fewer ticks are at rounder numbers.
+    """
     chosen: Sequence[int] = range(len(axis.ticks))
     for ticks in _rounder(axis):
         if len(ticks) >= FEWEST:
@@ -96,7 +101,7 @@ def sparse_ticks(axis: Axis, length: float) -> Sequence[int]:
 
 
 def _rounder(axis: Axis) -> Iterator[Sequence[int]]:
-    """Yield all ticks, then ever fewer: of names each second, third, ...; of numbers multiples of a round step."""
+    """Yield ever smaller selections of ticks: every second, third, ... name; of numbers multiples of a round step."""
     everything: Sequence[int] = range(len(axis.ticks))
     yield everything
     at = np.array([each for each, _ in axis.ticks])
@@ -123,7 +128,7 @@ def _is_round(step: float) -> bool:
 
 
 def _length_for(axis: Axis) -> float:
-    """Return the length (pt) of an abscissa from which on texts of its ticks do not overlap."""
+    """Return the smallest length (pt) of an abscissa at which its tick labels do not overlap."""
     written = [(at, text) for at, text in axis.ticks if text]
     if axis.bare or len(written) < FEWEST:
         return 0.0
@@ -135,7 +140,7 @@ def _length_for(axis: Axis) -> float:
 def _margins(
     chart: Chart, width: float, height: float, title: str, left: float = 0.0, right: float = 0.0
 ) -> np.ndarray:
-    """Return the room (pt) left, above, right and below the axes, ``left`` and ``right`` at least."""
+    """Return the spaces (pt) left, above, right and below the axes, at least ``left`` and ``right``."""
     room = np.maximum(_room(chart, title), [left, 0.0, right, 0.0])
     for _ in range(2):  # the room for what is placed in fractions of the axes depends on their size
         across, up = width - room[0] - room[2], height - room[1] - room[3]
@@ -152,7 +157,7 @@ def _box(margins: np.ndarray, width: float, height: float) -> tuple[float, float
 
 
 def _room(chart: Chart, title: str) -> tuple[float, float, float, float]:
-    """Return the room (pt) for ticks, labels and the title: left, top, right, bottom."""
+    """Return the spaces (pt) for ticks, labels and title: left, top, right, bottom."""
     x, y = chart.x, chart.y
     widest = max((text_width(text, y.size) for _, text in y.ticks), default=0.0)
     left_label, label = (LABEL_GAP + LINE * LABEL_SIZE if axis.label else 0.0 for axis in (y, x))
@@ -163,7 +168,7 @@ def _room(chart: Chart, title: str) -> tuple[float, float, float, float]:
 
 
 def _ends_of_ticks(chart: Chart, width: float) -> tuple[float, float]:
-    """Return by how much texts of the abscissa's ticks exceed the left and the right end of axes of this width."""
+    """Return how far tick labels of the abscissa extend beyond the left and the right end of axes of this width."""
     if not chart.x.ticks:
         return 0.0, 0.0
     at = width * fraction(chart.x, np.array([each for each, _ in chart.x.ticks]))

@@ -1,4 +1,4 @@
-"""The legend of a chart, which a page has as text with swatches next to its panels."""
+"""Legend of a chart as text with swatches, next to its panels on a page."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def legend_of(charts: Sequence[Chart]) -> Legend:
 
 
 def swatch_of(curve: Curve) -> Markup:
-    """Return a curve's line and mark as a short line for legends in text."""
+    """Return a short line with a curve's style and mark, for a legend."""
     half = np.array([0.5])
     line = replace(curve, x=np.array([0.0, 1.0]), y=np.full(2, 0.5), factor=1.0, steps=False, marker=None)
     elements = draw_curve(FRAME, replace(line, width=max(curve.width, THIN)))

@@ -1,4 +1,4 @@
-"""Lines of charts in the look of a series or of a style, in units of the axes."""
+"""Lines of charts in the look of a series or a style, in units of the axes."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ def line(
     unit: str = "",
     metric: str = "",
 ) -> Curve:
-    """Return a line through points, [rows]; dashes in widths of the line, ``unit`` as displayed.
+    """Return a line through points, [rows]; dashes are in multiples of the line width, ``unit`` as displayed.
 
-    ``metric``: it is the distribution of that column over the trials of the variant ``name``.
+    With ``metric`` the line is the distribution of that column over the trials of the variant ``name``.
     """
     return Curve(
         x=np.asarray(x, dtype=float),

@@ -16,9 +16,9 @@ HATCHES = 8  # strokes in half a polygon
 def band_areas(
     x: np.ndarray, low: np.ndarray, high: np.ndarray, colour: str, opacity: float, *, steps: bool = False
 ) -> list[Area]:
-    """Return the areas between two ordinates, [rows]: one for each run of rows in which both are finite.
+    """Return the areas between two ordinates, [rows], one for each run of rows in which both are finite.
 
-    ``steps``: ordinates hold until the next row.
+    With ``steps`` ordinates hold until the next row.
     """
     finite = np.isfinite(low) & np.isfinite(high)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], finite, [False]]).astype(np.int8)))
@@ -34,17 +34,17 @@ def band_areas(
 
 
 def across(low: float, high: float, colour: str, opacity: float) -> Area:
-    """Return the area between two ordinates, as wide as the axes."""
+    """Return the area between two ordinates, across the full width of the axes."""
     return Area(SQUARE[:, 0], low + (high - low) * SQUARE[:, 1], (True, False), colour.lower(), opacity, 0.0)
 
 
 def during(begin: float, end: float, colour: str, opacity: float) -> Area:
-    """Return the area between two abscissas, as high as the axes."""
+    """Return the area between two abscissas, across the full height of the axes."""
     return Area(begin + (end - begin) * SQUARE[:, 0], SQUARE[:, 1], (False, True), colour.lower(), opacity, 0.0)
 
 
 def dashed_circle(radius: float, colour: str, width: float) -> Area:
-    """Return a circle around the origin, as `CIRCLE_DASHES` chords."""
+    """Return a circle around the origin as `CIRCLE_DASHES` chords."""
     angle = 2.0 * np.pi / CIRCLE_DASHES * (np.arange(CIRCLE_DASHES)[:, np.newaxis] + [-DASH / 2.0, DASH / 2.0])
     x, y = radius * np.cos(angle.ravel()), radius * np.sin(angle.ravel())
     return Area(x, y, (False, False), colour.lower(), 1.0, width)
@@ -63,7 +63,7 @@ def outline(x: np.ndarray, y: np.ndarray, colour: str, width: float) -> Area:
 
 
 def hatch(x: np.ndarray, y: np.ndarray, colour: str, width: float) -> Area:
-    """Return strokes in a closed convex polygon, [rows], parallel to a diagonal of the rectangle around it."""
+    """Return hatching of a closed convex polygon, [rows], parallel to a diagonal of its bounding box."""
     low, size = np.array([x.min(), y.min()]), np.array([np.ptp(x), np.ptp(y)])
     corners = (np.stack([x, y], axis=1) - low) / size
     offsets = corners[:, 1] - corners[:, 0]  # of parallels through the corners
@@ -77,15 +77,15 @@ def hatch(x: np.ndarray, y: np.ndarray, colour: str, width: float) -> Area:
 
 
 def level(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:
-    """Return a line across the axes at an ordinate; dashes in widths of the line."""
+    """Return a horizontal line across the axes at an ordinate; dashes are in multiples of its width."""
     return Rule(at=at, colour=colour.lower(), width=width, dashes=dashes)
 
 
 def instant(at: float, colour: str, width: float, dashes: tuple[float, ...] = ()) -> Rule:
-    """Return a line across the axes at an abscissa; dashes in widths of the line."""
+    """Return a vertical line across the axes at an abscissa; dashes are in multiples of its width."""
     return Rule(at=at, upright=True, colour=colour.lower(), width=width, dashes=dashes)
 
 
 def note_above(text: str) -> ChartNote:
-    """Return a faint text above the right end of the axes."""
+    """Return a subdued text above the right end of the axes."""
     return ChartNote(text, (1.0, 1.0), (True, True), (0.0, 5.0), ("right", "baseline"), FAINT, TICK_SIZE)

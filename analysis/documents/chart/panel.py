@@ -1,4 +1,4 @@
-"""A chart as a panel of a page: its picture, and its numbers for the page's script."""
+"""A chart as a panel of a page: its picture, and its data for the page's script."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ def chart_panel(
     trials: TrialPositions = no_trials,
     reduced: bool = False,
 ) -> FigurePanel:
-    """Return the panel of a ``chart``, sizes in inches; ``name`` must differ between the figures of a page.
+    """Return the panel of a ``chart``, sizes in inches; ``name`` must be unique among the figures of a page.
 
-    A chart that has its box keeps it, others are laid out. Text has one size at any width. ``title`` stands above the
-    axes; ``kind`` is a class more, for the style; ``trials`` returns the positions of its marks of trials; ``reduced``:
-    the page has only envelopes of its curves. A chart whose numbers a page cannot tell apart remains a picture.
+    A chart with a box keeps it, others are laid out; text has the same size at any width. ``title`` is above the axes;
+    ``kind`` is an additional CSS class; ``trials`` returns the positions of marks of trials; ``reduced`` embeds only
+    envelopes of the curves. A chart whose numbers exceed the resolution of the page remains a picture.
     """
     across, up = POINTS * width, POINTS * height
     placed = chart if chart.box != NO_BOX else lay_out_fluid(chart, across, up, title=title)
@@ -47,14 +47,14 @@ def chart_panel(
 
 
 def wide_figure(name: str, description: str, chart: Chart, height: float, *, title: str = "") -> Drawing:
-    """Return the figure of a ``chart`` as wide as the page; the arguments are those of `chart_panel`."""
+    """Return the figure of a ``chart`` of full page width; arguments are as in `chart_panel`."""
     return chart_panel("", name, description, chart, height, BROAD / POINTS, title=title).figure
 
 
 def stack_panel(
     label: str, name: str, description: str, charts: tuple[Chart, Chart], height: float, width: float = PANEL_WIDTH
 ) -> FigurePanel:
-    """Return the panel of two charts over the same abscissa, whose texts the lower one has; sizes in inches."""
+    """Return the panel of two charts over a common abscissa, labelled at the lower chart; sizes in inches."""
     upper, lower = charts
     stacked = (replace(upper, x=replace(upper.x, bare=True)), lower)
     heights = [(height - ABSCISSA) / 2.0, (height + ABSCISSA) / 2.0]
@@ -86,7 +86,7 @@ def _is_exact(chart: Chart) -> bool:
 
 
 def _reduce(curve: Curve) -> Curve:
-    """Reduce a curve of many rows to its envelope."""
+    """Replace a curve of many rows by its envelope."""
     assert isinstance(curve.y, np.ndarray)
     x, y = envelope(curve.x, curve.y)
     is_shorter = y.size < curve.y.size

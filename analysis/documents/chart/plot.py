@@ -1,4 +1,6 @@
-"""Charts drawn by matplotlib, for notebooks, PNG and PDF; of charts only this file and `plot_marks.py` import it."""
+"""Charts drawn by matplotlib, for notebooks, PNG and PDF; other files of charts do not import it, but
+`plot_marks.py`.
+"""
 
 from __future__ import annotations
 
@@ -33,11 +35,11 @@ def plot_charts(
     key: Sequence[str] = (),
     trials: TrialPositions = no_trials,
 ) -> Figure:
-    """Return a figure of charts, row by row; ``height`` and ``width`` (in) are those of one.
+    """Return a figure of charts, row by row; ``height`` and ``width`` (in) are those of one chart.
 
-    A chart that has its box keeps it, others are laid out, in one column with their axes above each other. ``titles``
-    stand above the axes; so do ``legends``, for each chart the labels of its first curves; ``key`` are those of the
-    first curves of all charts, above the figure. ``trials`` returns the positions of marks of trials.
+    A chart with a box keeps it, others are laid out; in a single column the axes are aligned. ``titles`` are above the
+    axes, as are ``legends``, the labels of each chart's first curves. ``key`` are labels of the first curves common to
+    all charts, above the figure. ``trials`` returns the positions of marks of trials.
     """
     texts = [*titles, *[""] * (len(charts) - len(titles))]
     labels = [*legends, *[()] * (len(charts) - len(legends))]

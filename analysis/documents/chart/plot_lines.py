@@ -1,4 +1,4 @@
-"""Lines of figures that know which quantity they show, so that a page can name it at the cursor."""
+"""Lines of matplotlib figures with the quantity that they show, which a page names at the cursor."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from matplotlib.lines import Line2D
 class QuantityLine(Line2D):
     """A line over time or over another quantity.
 
-    ``quantity`` is in SI, [rows]; it is drawn times ``factor``, in ``unit`` as displayed. ``time`` (s, [rows]) is
-    given where the abscissa is another quantity; ``metric`` where the line is its distribution over the trials of the
-    variant ``name``.
+    ``quantity`` is in SI, [rows]; multiplied by ``factor`` it is drawn in ``unit``. ``time`` (s, [rows]) is stated if
+    the abscissa is another quantity, ``metric`` if the line is its distribution over the trials of the variant
+    ``name``.
     """
 
     def __init__(
@@ -38,7 +38,7 @@ class QuantityLine(Line2D):
 
 
 class TrialDots(Line2D):
-    """Marks of trials of a ``variant``: those that succeeded or the others, over two columns of its trials by name."""
+    """Marks of the successful or the failed trials of a ``variant`` over two columns, ``names``."""
 
     def __init__(
         self, x: np.ndarray, y: np.ndarray, *, variant: str, names: tuple[str, str], success: bool, **style: Any

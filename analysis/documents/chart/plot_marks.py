@@ -20,12 +20,12 @@ SYSTEMS = {False: "data", True: "axes fraction"}
 
 
 def line_style(dashes: Sequence[float]) -> LineStyleType:
-    """Return matplotlib's style of dashes, in widths of the line."""
+    """Return matplotlib's dash style, in multiples of the line width."""
     return (0, tuple(dashes)) if dashes else "-"
 
 
 def plot_curve(axes: Axes, curve: Curve, label: str) -> None:
-    """Draw a curve and its marks; a ``label`` that begins with _ is in no legend."""
+    """Draw a curve and its marks; a ``label`` that begins with _ appears in no legend."""
     line = QuantityLine(
         curve.x,
         curve.displayed / curve.factor,
@@ -81,7 +81,7 @@ def plot_area(axes: Axes, area: Area) -> None:
 
 
 def _path(strokes: Sequence[np.ndarray] | np.ndarray) -> Path:
-    """Return lines as one path, in which those that follow each other are joined."""
+    """Return strokes as one path, consecutive ones joined."""
     points: list[np.ndarray] = []
     codes: list[np.uint8] = []
     for stroke in strokes:
@@ -93,7 +93,7 @@ def _path(strokes: Sequence[np.ndarray] | np.ndarray) -> Path:
 
 
 def plot_dots(axes: Axes, dots: Dots, x: np.ndarray, y: np.ndarray) -> None:
-    """Draw the marks of trials, as an image within a picture of paths."""
+    """Draw the marks of trials, rasterised within vector graphics."""
     line = TrialDots(
         x, y, variant=dots.variant, names=dots.names, success=dots.success, color=dots.colour, linestyle="none",
         marker="x" if dots.cross else "o", markersize=dots.size, rasterized=x.size > CROWD,
@@ -106,7 +106,7 @@ CROWD = 3000  # dots, from which they are an image in a picture of paths
 
 
 def plot_note(axes: Axes, note: ChartNote) -> None:
-    """Write a text at its point."""
+    """Draw a note at its point."""
     axes.annotate(
         note.text, note.at, note.offset, (SYSTEMS[note.of_axes[0]], SYSTEMS[note.of_axes[1]]), "offset points",
         ha=note.align[0], va=note.align[1], color=note.colour, fontsize=note.size, bbox=_box(note, note.backing),

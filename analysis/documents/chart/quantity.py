@@ -1,4 +1,4 @@
-"""Curves of quantities, known to the page by name, unit and exact SI numbers."""
+"""Curves of quantities, with name, unit and exact SI numbers for the page."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ DOT = 3.0  # pt, the diameter of a lone sample
 def quantity_curve(
     x: np.ndarray, quantity: np.ndarray, name: str, unit: str | None, index: int = 0, *, steps: bool = False
 ) -> Curve:
-    """Return a curve over ``x`` in the look of the index-th series; a lone sample as a dot.
+    """Return a curve over ``x`` in the look of the index-th series; a single sample is a dot.
 
-    ``quantity`` in ``unit``, [rows]; what is not finite is left out. ``steps``: it holds until the next row.
+    ``quantity`` is in ``unit``, [rows]; non-finite values are omitted. With ``steps`` it holds until the next row.
     """
     finite = np.where(np.isfinite(quantity), quantity, np.nan)
     colour = COLOURS[index % len(COLOURS)].lower()

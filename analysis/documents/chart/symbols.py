@@ -1,4 +1,4 @@
-"""Marks of curves: their outlines, and curves of marks alone."""
+"""Marks of curves: their outlines, and curves that consist of marks only."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ SHAFT, HEAD, BARB = 0.018 * 72.0, 4.5, 5.5  # pt, and in widths of the shaft: wi
 
 
 def marker(kind: str, size: float, colour: str, *, fill: str | None = None, width: float = 1.0) -> Marker:
-    """Return the mark of a letter of matplotlib's; ``size`` and the ``width`` of its edge in pt.
+    """Return the mark for one of matplotlib's marker letters; ``size`` and edge ``width`` in pt.
 
-    ``fill`` is the colour of its area, by default that of the edge; empty where it has none.
+    ``fill`` is the fill colour, by default that of the edge; empty for no fill.
     """
     painted = "" if kind in STROKES else colour if fill is None else fill
     edge = colour.lower() if width > 0.0 else ""
@@ -57,9 +57,7 @@ def marks(
     x: np.ndarray, y: np.ndarray, mark: Marker, *, name: str = "", unit: str | None = None, opacity: float = 1.0,
     beyond: bool = False,
 ) -> Curve:  # fmt: skip
-    """Return a curve of marks, which are not joined; ``y`` in ``unit``, [rows]. ``beyond``: an end of the axes does
-    not cut them.
-    """
+    """Return a curve of unconnected marks; ``y`` is in ``unit``, [rows]. ``beyond`` does not clip them at the axes."""
     curve = quantity_curve(x, y, name, unit)
     colour = mark.edge or mark.fill
     return replace(curve, colour=colour, dashes=(), joined=False, marker=mark, opacity=opacity, beyond=beyond)
@@ -71,9 +69,9 @@ def mark(x: float, y: float, symbol: Marker, *, beyond: bool = False) -> Curve:
 
 
 def arrow(at: tuple[float, float], angle: float, length: float, colour: str, width: float = SHAFT) -> Curve:
-    """Return an arrow from a point of the data at an ``angle`` (rad, from the right to the top of the figure).
+    """Return an arrow from a data point at an ``angle`` (rad, counter-clockwise from the right of the figure).
 
-    ``length`` and the ``width`` of its shaft are in pt, the same at any zoom.
+    ``length`` and shaft ``width`` are in pt and independent of zoom.
     """
     half, barb = width / 2.0, min(BARB * width, length)
     shape = np.array(

@@ -1,4 +1,4 @@
-"""The ends of an axis and its ticks at round numbers, as matplotlib chooses them."""
+"""Ends and ticks of an axis at round numbers, chosen as matplotlib does."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ ROUNDING = 1e-10  # of a step
 
 
 def axis_ends(numbers: np.ndarray, margin: float = MARGIN) -> tuple[float, float]:
-    """Return the ends of an axis of these numbers, a ``margin`` (of their range) beyond them.
+    """Return the ends of an axis for these numbers, extended by ``margin`` (a fraction of their range).
 
-    Those that are not finite are left out.
+    Non-finite numbers are ignored.
     """
     finite = numbers[np.isfinite(numbers)]
     low, high = _widen(float(finite.min()), float(finite.max())) if finite.size else (-MARGIN, MARGIN)
@@ -30,7 +30,7 @@ def axis_ends(numbers: np.ndarray, margin: float = MARGIN) -> tuple[float, float
 
 
 def _widen(low: float, high: float) -> tuple[float, float]:
-    """Return a range of nonzero width around one of none."""
+    """Return a range of nonzero width around an empty one."""
     size = max(abs(low), abs(high))
     if size < SMALLEST:
         return -MARGIN, MARGIN
@@ -44,8 +44,8 @@ def axis_ticks(
 ) -> list[float]:
     """Return the ticks between two ends: at most ``intervals`` intervals, at integers if ``integer``.
 
-    The steps are ``multiples`` of a power of ten, from 1 to 10; ends between which there are less than two ticks get
-    smaller steps.
+    Steps are ``multiples`` (1 to 10) of a power of ten; if fewer than two ticks fit between the ends, steps are
+    smaller.
     """
     width, centre = high - low, (high + low) / 2.0
     offset = 0.0
@@ -70,9 +70,9 @@ def axis_ticks(
 
 
 def decade_ticks(low: float, high: float, limit: int, multiples: tuple[float, ...] = (1.0,)) -> list[float]:
-    """Return at most ``limit`` powers of ten between two ends, at equal numbers of decades.
+    """Return at most ``limit`` powers of ten between two ends, a constant number of decades apart.
 
-    Where each decade has one, ``multiples`` of it are ticks as well.
+    If every decade has a tick, ``multiples`` of it are ticks as well.
     """
     lowest, highest = math.log10(low), math.log10(high)
     first, last = math.ceil(lowest), math.floor(highest)
@@ -96,14 +96,14 @@ def decade_ticks(low: float, high: float, limit: int, multiples: tuple[float, ..
 
 
 def power_ticks(low: float, high: float, multiples: Sequence[float]) -> list[float]:
-    """Return ``multiples`` of powers of ten, ascending, between two positive ends."""
+    """Return ``multiples`` of powers of ten between two positive ends, ascending."""
     powers = [10.0**exponent for exponent in range(math.floor(math.log10(low)) - 1, math.ceil(math.log10(high)) + 1)]
     ticks = [multiple * power for power in powers for multiple in multiples]
     return [tick for tick in ticks if low * (1.0 - ROUNDING) <= tick <= high * (1.0 + ROUNDING)]
 
 
 def text_ticks(low: float, high: float, limit: int) -> list[float]:
-    """Return the ticks of a logarithmic axis that have texts: decades, or where these are few more multiples."""
+    """Return the ticks of a logarithmic axis that have labels: decades, and multiples of them if these are few."""
     if high >= DECADES * low:
         return decade_ticks(low, high, limit)
     for multiples in MULTIPLES[1:]:
@@ -113,7 +113,7 @@ def text_ticks(low: float, high: float, limit: int) -> list[float]:
 
 
 def _floor(number: float, step: float, offset: float) -> float:
-    """Return the number of steps in a number, rounded down but for rounding errors."""
+    """Return the number of whole steps in a number, tolerant of rounding errors."""
     quotient, remainder = divmod(number, step)
     return quotient + 1 if _is_close(remainder / step, 1.0, step, offset) else quotient
 

@@ -1,4 +1,4 @@
-"""A chart as an SVG element: what a page shows without scripts and on paper, and below the script's own lines."""
+"""A chart as an SVG element, shown on paper and by pages without scripts, and below the script's lines."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TrialPositions = Callable[[Dots], tuple[np.ndarray, np.ndarray]]  # abscissas an
 
 
 def no_trials(dots: Dots) -> tuple[np.ndarray, np.ndarray]:
-    """Raise the error of a chart whose trials nobody has."""
+    """Raise the error for a chart with marks of trials but without their positions."""
     raise ValueError(f"a chart has marks of the trials of {dots.variant}, whose positions are not known")
 
 
@@ -34,10 +34,10 @@ def write_svg(
     kind: str = "",
     trials: TrialPositions = no_trials,
 ) -> Markup:
-    """Return the <svg> element of a chart that was laid out by `lay_out_fluid` in a figure of this size (pt).
+    """Return the <svg> element of a chart laid out by `lay_out_fluid` in a figure of this size (pt).
 
-    ``name`` must differ between the figures of a page; ``description`` is what a screen reader says; ``title``
-    stands above the axes; ``kind`` is a class more; ``trials`` returns the positions of its `Dots`.
+    ``name`` must be unique among the figures of a page; ``description`` is the text for screen readers; ``title`` is
+    above the axes; ``kind`` is an additional CSS class; ``trials`` returns the positions of its `Dots`.
     """
     assert chart.fluid
     scaled, point, (left, top, right, bottom) = in_pixels(chart), chart.fluid.point, chart.fluid.margins
@@ -54,7 +54,7 @@ def write_svg(
 
 
 def _elements(frame: FluidFrame, chart: Chart, title: str, trials: TrialPositions, label_size: float) -> str:
-    """Return the elements of the picture, from the back to the front."""
+    """Return the elements of the picture from back to front."""
     return "".join(
         (
             *draw_axes(frame),
@@ -67,7 +67,7 @@ def _elements(frame: FluidFrame, chart: Chart, title: str, trials: TrialPosition
 
 
 def _inside(frame: FluidFrame, chart: Chart, trials: TrialPositions) -> Iterator[str]:
-    """Yield the elements within the axes; paths that follow each other share one."""
+    """Yield the elements within the axes; consecutive paths share one element."""
     paths = [draw_area(frame, each) for each in chart.areas]
     paths += [draw_rule(frame, each) for each in chart.rules]
     paths += [draw_dots(frame, each, *trials(each)) for each in chart.dots]

@@ -1,1 +1,1 @@
-"""Common elements of all pages: templates, style, numbers, panels, signals."""
+"""Elements common to all pages: templates, style, numbers, panels, signals."""

@@ -1,6 +1,6 @@
-"""Colours: of figures those of Okabe and Ito, which colour-blind readers can tell apart, of pages in light and dark.
+"""Colours of figures (Okabe and Ito, distinguishable by colour-blind readers) and of light and dark pages.
 
-The style sheets of pages have them as properties, `colour_properties`; scripts in web/generated/colours.ts.
+Style sheets have them as custom properties, `colour_properties`, scripts in web/generated/colours.ts.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Shade(NamedTuple):
-    """A colour of a page in light and in dark."""
+    """A colour of a page in its light and its dark version."""
 
     light: str
     dark: str
@@ -76,7 +76,7 @@ SHADES = {
 
 
 def colour_properties() -> str:
-    """Return `SHADES` and `HUES` as custom properties of CSS: scene_veil is --scene-veil."""
+    """Return `SHADES` and `HUES` as custom properties of CSS: scene_veil becomes --scene-veil."""
     shades = (f"--{name.replace('_', '-')}: light-dark({light}, {dark});" for name, (light, dark) in SHADES.items())
     hues = (f"--{name}: {colour};" for name, colour in HUES.items())
     return ":root {\n  " + "\n  ".join((*shades, *hues)) + "\n}\n"
@@ -87,7 +87,7 @@ MARKERS = "osD^vPX"
 
 
 class Look(NamedTuple):
-    """Style of one of several series: colour, dashes and marker differ at once."""
+    """Style of a series; two series differ in colour, dashes and marker at once."""
 
     colour: str
     dashes: LineStyleType
@@ -95,7 +95,7 @@ class Look(NamedTuple):
 
     @property
     def lengths(self) -> tuple[float, ...]:
-        """Lengths of dashes and gaps in widths of the line."""
+        """The lengths of dashes and gaps, in multiples of the line width."""
         return () if isinstance(self.dashes, str) else tuple(self.dashes[1] or ())
 
 

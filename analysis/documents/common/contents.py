@@ -1,4 +1,4 @@
-"""The headings of a page's sections with their anchors, from which its list of contents is."""
+"""Headings of a page's sections with their anchors, for its table of contents."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ PREFIX = "section-"  # of anchors, which no identifier inside a figure has
 
 
 class ContentsEntry(NamedTuple):
-    """The title of a section and the anchor at which it begins."""
+    """The title of a section, and its anchor."""
 
     title: str
     anchor: str
 
 
 class Contents:
-    """The sections of one page in their order, as its template writes them."""
+    """The sections of one page in the order in which its template writes them."""
 
     def __init__(self) -> None:
         self.entries: list[ContentsEntry] = []
 
     def add(self, title: str) -> Markup:
-        """Return the anchor of a further section."""
+        """Add a section and return its anchor."""
         slug = "-".join("".join(letter if letter.isalnum() else " " for letter in title.lower()).split())
         name = f"{PREFIX}{slug}"
         if any(entry.anchor == name for entry in self.entries):

@@ -1,4 +1,4 @@
-"""Display of a result in a notebook: a heading, a few tables, one figure; nothing that clashes with its other cells."""
+"""Display of a result in a notebook: a heading, a few tables, one figure, without side effects on other cells."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ MOST_ROWS = 12
 
 
 class CellGrid(NamedTuple):
-    """A small table: head cells and rows of cells, text or markup."""
+    """A small table: head cells and rows of cells, as text or markup."""
 
     head: Sequence[str]
     rows: Sequence[Sequence[Markup | str]]
 
 
 def notebook_view(title: str, words: Iterable[str], grids: Iterable[CellGrid], plot: Plot | None) -> str:
-    """Return the HTML of a result, with the first rows of long tables and their number of rows."""
+    """Return the HTML of a result; of a long table the first rows and their total number."""
     displayed = [(grid.head, grid.rows[:MOST_ROWS], len(grid.rows)) for grid in grids if grid.rows]
     picture = None
     if plot is not None:  # as paths, whose identifiers no other figure of the notebook can meet

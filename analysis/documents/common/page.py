@@ -1,4 +1,4 @@
-"""Pages from templates, and their tables: jinja2, one style sheet, nothing fetched from outside."""
+"""Pages from jinja2 templates, and their tables: one style sheet, no external resources."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ FOLDER = Path(__file__).parent
 
 
 def exact(value: Any, unit: str | None = None, digits: int = 4, decimals: int | None = None) -> Markup:
-    """Return a number for reading in its shown unit, with the exact SI value in the markup for programs.
+    """Return a number in its displayed unit, with the exact SI value in the markup for programs.
 
-    It has ``digits`` significant digits, or ``decimals``.
+    It has ``digits`` significant digits, or ``decimals`` decimals.
     """
     displayed = number(in_display_unit(value, unit), digits, decimals)
     if value is None or isinstance(value, str):
@@ -37,14 +37,14 @@ def with_exact(exact_value: str, displayed: str) -> Markup:
 
 
 def breakable(name: str) -> Markup:
-    """Return a variant's name that may break into a new line before each of its FMUs."""
+    """Return a variant's name with permitted line breaks before each of its FMUs."""
     return Markup("__<wbr>").join(name.split("__"))
 
 
 def render_page(template: Path, **content: Any) -> str:
-    """Render a page from a template, which may use others of this folder and of its own folder.
+    """Render a page from a template, which may include templates of this folder and of its own.
 
-    A name that the template needs and does not get is an error.
+    A name that the template needs but does not receive is an error.
     """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined  # which the terminal's numbers do not need
 
@@ -80,12 +80,12 @@ def answering(figure: Drawing, embedded: Embedded) -> Markup:
 
 
 def write_page(path: Path, template: Path, **content: Any) -> None:
-    """Write a page, and the folder it lies in."""
+    """Write a page and, if necessary, its folder."""
     write_atomically(path, render_page(template, **content).encode())
 
 
 class PageTable(NamedTuple):
-    """Headings and rows of cells; the columns ``numbers`` are aligned right."""
+    """Headings and rows of cells; the columns ``numbers`` are aligned to the right."""
 
     heads: Sequence[str]
     rows: Sequence[Sequence[Markup | str]]

@@ -1,6 +1,6 @@
-"""Small figures of one size that a page lays out side by side, or below each other on a narrow screen.
+"""Small figures of one size, side by side on a page, or below each other on a narrow screen.
 
-A figure fills what it stands in, and its text is at least 11 px high at any width.
+A figure fills its container, and its text is at least 11 px high at any width.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ KILOMETRES = 1e4  # m, from which on lengths are in km
 
 
 class FigurePanel(NamedTuple):
-    """A figure with its heading, a label, which has a look where it is a contender's, and its legend."""
+    """A figure with its label as heading, the label's look if it is a contender, and its legend."""
 
     label: str
     figure: Drawing
@@ -30,7 +30,7 @@ class FigurePanel(NamedTuple):
 
 
 def far(values: np.ndarray) -> tuple[float, str]:
-    """Return the factor and the unit in which lengths in m are shown together: km where one is long, else m."""
+    """Return factor and unit to display lengths in m: km if one is long, else m."""
     return (1e-3, "km") if values.size and np.nanmax(np.abs(values)) >= KILOMETRES else (1.0, "m")
 
 

@@ -1,4 +1,4 @@
-"""Numbers and units as pages show them: SI inside, degrees and superscripts on screen."""
+"""Numbers and units as pages show them: SI internally, degrees and superscripts on screen."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ PLAIN_DIGITS = 6  # before the point; larger numbers have an exponent
 
 
 def display_unit(unit: str | None) -> str:
-    """Return a unit as it is shown: ``m/s2`` is m/s², radians (per second) are degrees, ``1`` and None are empty."""
+    """Return a unit as displayed: ``m/s2`` is m/s², radians (per second) become degrees, ``1`` and None are empty."""
     if unit is None or unit == "1":
         return ""
     return declared_unit(unit.replace("rad", "deg") if RADIANS.fullmatch(unit) else unit)
 
 
 def declared_unit(unit: str | None) -> str:
-    """Return a connector's unit, radians too: ``rad/s2`` is rad/s², ``1`` and None are empty."""
+    """Return a connector's unit as text, radians included: ``rad/s2`` is rad/s², ``1`` and None are empty."""
     if unit is None or unit == "1":
         return ""
     return POWER.sub(lambda power: power.group(1).translate(SUPERSCRIPTS), unit).replace(".", "·")
@@ -34,15 +34,15 @@ def display_factor(unit: str | None) -> float:
 
 
 def label_with_unit(name: str, unit: str | None) -> str:
-    """Return an axis label: ``name, unit``, or the name alone where there is no unit."""
+    """Return an axis label: ``name, unit``, or the name alone without a unit."""
     displayed = display_unit(unit)
     return f"{name}, {displayed}" if displayed else name
 
 
 def number(value: Any, digits: int = 4, decimals: int | None = None) -> str:
-    """Return a number rounded to ``digits`` significant digits, with an exponent from a million on; None is a dash.
+    """Return a number with ``digits`` significant digits, in exponential form from a million on; None is a dash.
 
-    With ``decimals`` it has that many instead, for a number of the order of 1.
+    ``decimals`` sets the number of decimals instead, for numbers of the order of 1.
     """
     if value is None:
         return NONE
@@ -64,13 +64,13 @@ def number(value: Any, digits: int = 4, decimals: int | None = None) -> str:
 
 
 def in_display_unit(value: Any, unit: str | None) -> Any:
-    """Convert a value in ``unit`` to the unit that is shown; Integers, Booleans and None stay as they are."""
+    """Convert a value in ``unit`` to its displayed unit; Integers, Booleans and None remain unchanged."""
     factor = display_factor(unit)
     return value if factor == 1.0 or value is None or isinstance(value, bool | str) else value * factor
 
 
 def tick(value: float, _: int = 0) -> str:
-    """Return a tick label: plain digits, a proper minus, no offset to be added in the head."""
+    """Return a tick label: plain digits, a proper minus sign, no offset."""
     text = f"{value:.10g}"
     if text.endswith("00000") and abs(value) >= 1e6:
         text = f"{value:.6g}"
@@ -78,7 +78,7 @@ def tick(value: float, _: int = 0) -> str:
 
 
 def log_tick(value: float, _: int = 0) -> str:
-    """Return a tick label of a logarithmic axis: plain digits near 1, powers of ten beyond."""
+    """Return a tick label of a logarithmic axis: plain digits near 1, powers of ten elsewhere."""
     if 1e-2 <= value < 1e4:
         return tick(value)
     mantissa, exponent = f"{value:.0e}".split("e")

@@ -1,6 +1,6 @@
-"""Positions over a round body: its radius where the signals show it, and how far along its ground they are.
+"""Positions above a round body: its radius, if signals reveal it, and distances along its ground.
 
-Positions are in m in the frame of a landing site: z is up there, the body's centre at (0, 0, -radius).
+Positions are in m in the frame of a landing site: z is up, and the body's centre is at (0, 0, -radius).
 """
 
 from __future__ import annotations
@@ -14,10 +14,11 @@ MISMATCH = 1e-3  # m, and this fraction of 1e6 of the distance: altitudes furthe
 
 
 def radius_of(position: np.ndarray, altitude: np.ndarray) -> float | None:
-    """Return the radius (m) of the sphere above which positions, [3, n], have these altitudes, [n], or None.
+    """Return the radius (m) of the sphere above which positions, [3, n], have these altitudes (m), [n], or None.
 
-    With the centre at (0, 0, -R) and |p - centre| = R + a, |p|^2 - a^2 = 2 R (a - z): a line through the origin, whose
-    slope is fitted by least squares. None too where nothing moves far enough for the curvature to be seen.
+    With the centre at (0, 0, -R) and |p - centre| = R + a, |p|^2 - a^2 = 2 R (a - z): a line through the origin whose
+    slope is fitted by least squares. None if no sphere fits, or if the motion is too short for the curvature to be
+    observable.
     """
     finite = np.all(np.isfinite(position), axis=0) & np.isfinite(altitude)
     points, height = position[:, finite], altitude[finite]
@@ -33,7 +34,7 @@ def radius_of(position: np.ndarray, altitude: np.ndarray) -> float | None:
 
 
 def altitude_over(position: np.ndarray, radius: float) -> np.ndarray:
-    """Return altitudes (m) of positions, [3, n], above a sphere of this radius (m)."""
+    """Return the altitudes (m) of positions, [3, n], above a sphere of this radius (m)."""
     x, y, z = position
     return np.sqrt(x**2 + y**2 + (z + radius) ** 2) - radius
 
@@ -43,9 +44,9 @@ def track_angles(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return angles (rad) along and across the great circle through the target that best fits a track.
 
-    ``position``, [3, n]; ``target``, [3], the origin of the frame if None. Along is 0 at the target, grows in the
-    direction of flight, continuously beyond half the circumference; the row nearest to the target is within half of
-    it. nan for what is not finite. A track without a direction, straight up or at rest, is taken as one along x.
+    ``position`` is [3, n]; ``target``, [3], is by default the origin of the frame. The angle along is 0 at the target,
+    grows in the direction of flight, and is continuous beyond half the circumference; the row nearest to the target is
+    within half of it. Non-finite rows are NaN. A track without a direction, straight up or at rest, is taken along x.
     """
     centre = np.array([0.0, 0.0, -radius])
     up = (np.zeros(3) if target is None else target) - centre
@@ -75,8 +76,8 @@ def downrange(position: np.ndarray, radius: float, target: np.ndarray | None = N
 def track_normal(position: np.ndarray, centre: Sequence[float]) -> np.ndarray:
     """Return the unit normal, [3], of the great circle that best fits a track, [3, n], around a ``centre``.
 
-    The circle goes through the point straight up from the centre, along z. About the normal the track turns in the
-    direction of flight. One without a direction is taken as one along x.
+    The circle passes through the point above the centre, along z. The track turns about the normal in the direction of
+    flight. A track without a direction is taken along x.
     """
     direction = position[:, np.all(np.isfinite(position), axis=0)] - np.array(centre)[:, None]
     return _normal(direction / np.linalg.norm(direction, axis=0), np.array([0.0, 0.0, 1.0]))

@@ -1,4 +1,4 @@
-"""Signals of a run grouped into vectors and components, by names, units and types alone."""
+"""Signals of a run grouped into vectors and components, from names, units and types only."""
 
 from __future__ import annotations
 
@@ -24,13 +24,15 @@ INDEXED = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 
 
 def vector_of(name: str) -> str:
-    """Return the vector of which a signal is an element: ``plant.position`` of ``plant.position[1]``, else itself."""
+    """Return the vector that contains a signal: ``plant.position`` for ``plant.position[1]``, else the signal
+    itself.
+    """
     indexed = INDEXED.fullmatch(name)
     return indexed[1] if indexed else name
 
 
 def axes_of(result: Result) -> Mapping[str, str]:
-    """Return the names of axes by signal, as the system of a run declares them."""
+    """Return the names of axes by signal, as declared by the system of a run."""
     return result.provenance.get("axes", {})
 
 
@@ -40,7 +42,7 @@ def displayed_name(name: str, axes: Mapping[str, str]) -> str:
 
 
 def names_of_elements(names: Sequence[str], axes: Mapping[str, str]) -> tuple[str, ...]:
-    """Return the axes along which these elements are; none where one of them has no name."""
+    """Return the names of the axes of these elements; none unless all have a name."""
     return tuple(axes[name] for name in names) if all(name in axes for name in names) else ()
 
 
@@ -48,8 +50,8 @@ def names_of_elements(names: Sequence[str], axes: Mapping[str, str]) -> tuple[st
 class SignalGroup:
     """A scalar, or the elements of a vector that share name, unit and type.
 
-    ``component`` is empty for a connector of the system itself. ``indices`` are as written,
-    ``1`` or ``2,3``; empty for a scalar. ``labels`` are names of axes where all elements have one, else ``[1]`` ...
+    ``component`` is empty for a connector of the system. ``indices`` are as written, ``1`` or ``2,3``; empty for a
+    scalar. ``labels`` are names of axes if all elements have one, else ``[1]`` ...
     """
 
     component: str
@@ -66,12 +68,12 @@ class SignalGroup:
 
     @property
     def is_named(self) -> bool:
-        """True if its elements are along named axes."""
+        """True if the elements are along named axes."""
         return bool(self.labels) and not self.labels[0].startswith("[")
 
     @property
     def axes(self) -> str:
-        """The axes of its elements in words, empty where they have no names."""
+        """The axes of the elements in words, empty without names."""
         return ", ".join(self.labels) if self.is_named else ""
 
     @property
@@ -88,7 +90,7 @@ class SignalGroup:
 
 
 def signal_groups(result: Result) -> list[SignalGroup]:
-    """Return all signals in their order, elements of vectors grouped."""
+    """Return all signals in their order, with elements of vectors grouped."""
     components, axes = result.provenance["fmus"], axes_of(result)
     by_key: dict[tuple[str, str, str | None, str, bool], list[tuple[str, str]]] = {}
     for name in result.signals:
@@ -107,9 +109,9 @@ def signal_groups(result: Result) -> list[SignalGroup]:
 
 
 def distinct(groups: Iterable[SignalGroup], result: Result) -> dict[SignalGroup, SignalGroup]:
-    """Map each group to the first group of the same unit and values, itself if there is none before it.
+    """Map each group to the first group with the same unit and values, possibly itself.
 
-    A connected input repeats the output that drives it and needs no plot of its own.
+    A connected input repeats the output that drives it and needs no separate plot.
     """
     first: dict[tuple, SignalGroup] = {}
     return {
@@ -118,7 +120,7 @@ def distinct(groups: Iterable[SignalGroup], result: Result) -> dict[SignalGroup,
 
 
 def states_and_commands(groups: Iterable[SignalGroup], result: Result) -> list[SignalGroup]:
-    """Select states and commands, by the names of variables: of each the first signal that changes."""
+    """Return states and commands, recognised by their names: for each variable the first signal that changes."""
     first: dict[str, SignalGroup] = {}
     for group in groups:
         if group.component and group.is_real and group.variable in STATES + COMMANDS:
@@ -129,7 +131,7 @@ def states_and_commands(groups: Iterable[SignalGroup], result: Result) -> list[S
 
 
 def position_groups(result: Result) -> list[SignalGroup]:
-    """Return distinct signals COMPONENT.position[1..3] in m: the paths of a trajectory plot."""
+    """Return distinct signals COMPONENT.position[1..3] in m, the paths of a trajectory plot."""
     groups = [
         group
         for group in signal_groups(result)

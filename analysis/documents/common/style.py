@@ -1,4 +1,4 @@
-"""The look of every figure: Okabe and Ito's colours, which colour-blind readers can tell apart, and plain axes."""
+"""Style of matplotlib figures: colours of Okabe and Ito, distinguishable by colour-blind readers, and plain axes."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ SETTINGS: Any = {
 
 @contextmanager
 def house_style() -> Iterator[None]:
-    """Apply the house style to figures created inside, whatever the user's matplotlibrc says."""
+    """Apply the house style to figures created in the context, regardless of the user's matplotlibrc."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(SETTINGS)
@@ -61,7 +61,7 @@ def house_style() -> Iterator[None]:
 
 
 def new_figure(height: float, width: float = WIDTH) -> Picture:
-    """Return an empty figure, sizes in inches."""
+    """Return an empty figure; sizes are in inches."""
     return Picture(figsize=(width, height), layout="constrained")
 
 

@@ -1,4 +1,4 @@
-"""Figures as SVG documents for files and notebooks, the same bytes every time."""
+"""Figures as SVG documents for files and notebooks, reproducible to the byte."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ IMAGE_DPI = 200  # of what is no vector
 
 
 class Picture(Figure):
-    """matplotlib's figure, which a notebook shows where it stands as a cell's result."""
+    """A matplotlib figure that a notebook displays as the result of a cell."""
 
     def _repr_svg_(self) -> str:
         return svg_bytes(self, "notebook", text_as_paths=True).decode()
 
 
 def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
-    """Return a figure as an SVG document without date or version; ``name`` salts its identifiers."""
+    """Return a figure as an SVG document without date or version; ``name`` makes its identifiers unique."""
     buffer = io.BytesIO()
     settings: Any = {"svg.hashsalt": name, "svg.fonttype": "path" if text_as_paths else "none"}
     with matplotlib.rc_context(settings), _lay_out(figure) as canvas:
@@ -32,7 +32,7 @@ def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
 
 @contextmanager
 def _lay_out(figure: Figure) -> Iterator[FigureCanvasSVG]:
-    """Yield the canvas of a figure with its layout computed: savefig would draw the whole once more for that."""
+    """Yield the canvas of a figure with its layout computed, which saves a complete drawing in savefig."""
     before, dpi, engine = figure.canvas, figure.dpi, figure.get_layout_engine()
     canvas = FigureCanvasSVG(figure)  # whose text the layout measures
     try:

@@ -1,1 +1,1 @@
-"""The elements of a chart's picture: axes, lines, marks and texts at their positions in pt."""
+"""SVG of charts: axes, lines, marks and texts at positions in pt."""

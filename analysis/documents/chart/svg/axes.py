@@ -1,4 +1,4 @@
-"""Axes in a picture: grid, edges, strokes of ticks and their texts, labels."""
+"""Axes in SVG: grid, edges, tick marks and tick labels, axis labels."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ FINE = "fine"  # the class of ticks that a narrow figure has not, with the width
 
 
 def text_offset(axis: Axis) -> float:
-    """Return how far (pt) the texts of an axis begin from its edge."""
+    """Return the distance (pt) between the edge of an axis and its tick labels."""
     return (STROKE if axis.marked else 0.0) + GAP
 
 
 def draw_axes(frame: FluidFrame) -> Iterator[str]:
-    """Yield the elements of both axes; none of those whose texts have no size, as of a drawing."""
+    """Yield the elements of both axes; none for axes with texts of size 0, as in a drawing."""
     if not frame.x.size and not frame.y.size:
         return
     ticks, few = list(enumerate(frame.x.ticks)), set(frame.x.few)
@@ -44,7 +44,7 @@ def draw_axes(frame: FluidFrame) -> Iterator[str]:
 
 
 def _abscissa(frame: FluidFrame, ticks: list[tuple[float, str]], grid: str, edges: str) -> str:
-    """Return ticks of the abscissa as SVG: texts, strokes, and lines that extend those of a ``grid``."""
+    """Return the ticks of the abscissa as SVG: labels, marks, and the lines of a ``grid``."""
     x = frame.across(np.array([at for at, _ in ticks]))
     grid += "".join(f"M{at:.2f} {frame.height:g}V0" for at in x[_have_lines(frame.x, ticks)])
     strokes = "".join(f"M{at:.2f} 0v{STROKE:g}" for at in x if frame.x.marked)
@@ -55,7 +55,7 @@ def _abscissa(frame: FluidFrame, ticks: list[tuple[float, str]], grid: str, edge
 
 
 def _have_lines(axis: Axis, ticks: Sequence[tuple[float, str]]) -> np.ndarray:
-    """Return the ticks with a grid line, [ticks]: those with texts, or all where none has."""
+    """Return True for each tick with a grid line, [ticks]: ticks with labels, or all if none has a label."""
     named = np.array([bool(text) for _, text in ticks], dtype=bool)
     return axis.grid & (named | ~named.any())
 
@@ -77,7 +77,7 @@ def _texts(axis: Axis, anchor: str, offset: tuple[float, float], positions: list
 
 
 def draw_labels(frame: FluidFrame, title: str, size: float) -> Iterator[str]:
-    """Yield the labels of the axes and the title in texts of this size, which remain where a script draws the chart."""
+    """Yield axis labels and title in this text size; they remain when a script redraws the chart."""
     left, bottom = MARGIN + ASCENT * size - frame.margins[0], frame.margins[3] - MARGIN - DESCENT * size
     for text, x, y, anchor, shift in (
         ("" if frame.x.bare else frame.x.label, "50%", "100%", "middle", f"translate(0 {bottom:.2f})"),

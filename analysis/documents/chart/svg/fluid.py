@@ -1,7 +1,7 @@
-"""Charts as wide as what they stand in: px are px at any width of it, so that text and lines keep their sizes.
+"""SVG of charts of variable width, in which text and line widths keep their sizes in px.
 
-The area of the axes is that of the <svg> element, whose padding texts overflow. Positions of marks and texts are
-percentages of it; paths are stretched, their strokes are not.
+The <svg> element covers the plotting area, and texts overflow into its padding. Positions of marks and texts are
+percentages of the area; paths are stretched, but not their line widths.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ VISIBLE = 'overflow="visible"'
 
 @dataclass(frozen=True)
 class FluidFrame(Frame):
-    """A rectangle with 0 at its left upper corner, of any size.
+    """A plotting area of variable size with the origin at its upper left corner.
 
-    ``name`` differs between the figures of a page; ``margins`` (px) are left, above, right and below.
+    ``name`` is unique among the figures of a page; ``margins`` (px) are left, above, right and below.
     """
 
     name: str
@@ -34,27 +34,27 @@ class FluidFrame(Frame):
         return _percentage(y / self.height)
 
     def put(self, x: float, y: float, element: str) -> str:
-        """Return an element, which is written for the origin, at a position."""
+        """Return an element, drawn about the origin, at a position."""
         return f'<svg x="{self.along(x)}" y="{self.rise(y)}" {VISIBLE}>{element}</svg>'
 
     def stretch(self, elements: str) -> str:
-        """Return paths without what lies outside."""
+        """Return paths stretched with the area, clipped at its edges."""
         return _stretch(elements, self.width, self.height, 'fill="none"')
 
     def stretch_edges(self, elements: str) -> str:
-        """Return paths that may lie on the edge."""
+        """Return paths stretched with the area, not clipped, for lines on its edges."""
         return _stretch(elements, self.width, self.height, VISIBLE)
 
     def stretch_up(self, elements: str, width: float) -> str:
-        """Return paths left of the rectangle that are as high as it is, and have a fixed ``width``."""
+        """Return paths to the left of the area, stretched to its height, with a fixed ``width``."""
         return _stretch(elements, width, self.height, f'x="{-width:g}" width="{width:g}" {VISIBLE}')
 
     def stretch_across(self, elements: str, height: float) -> str:
-        """Return paths below the rectangle that are as wide as it is, and have a fixed ``height``."""
+        """Return paths below the area, stretched to its width, with a fixed ``height``."""
         return _stretch(elements, self.width, height, f'y="100%" height="{height:g}" {VISIBLE}')
 
     def clip(self, elements: str) -> str:
-        """Return elements without what lies outside."""
+        """Return elements clipped at the edges of the area."""
         return f"<svg>{elements}</svg>" if elements else ""
 
     def repeat(self, element: str, positions: Sequence[tuple[float, float]]) -> str:
@@ -75,7 +75,7 @@ def _percentage(fraction: float) -> str:
 
 
 def in_pixels(chart: Chart) -> Chart:
-    """Return a chart whose sizes are in px instead of pt."""
+    """Return a chart with its sizes in px instead of pt."""
     return replace(
         chart,
         x=_axis(chart.x),

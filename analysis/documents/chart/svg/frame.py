@@ -1,4 +1,4 @@
-"""The area of the axes in a picture, and where abscissas and ordinates lie in it."""
+"""Plotting area of a picture, and the conversion of data to positions in it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ EDGE = 0.05  # pt, by which a mark on an edge may lie outside
 
 
 def fraction(axis: Axis, numbers: np.ndarray) -> np.ndarray:
-    """Return where numbers lie between the ends of an axis: 0 at the first, 1 at the second; nan where they cannot."""
+    """Return the positions of numbers on an axis: 0 at its first end, 1 at its second; NaN where undefined."""
     low, high = axis.ends
     if axis.logarithmic:
         low, high = np.log10(low), np.log10(high)
@@ -24,7 +24,7 @@ def fraction(axis: Axis, numbers: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Frame:
-    """A rectangle (pt, from the left and the top of the picture) and the axes that it has."""
+    """A plotting area (pt, from the upper left corner of the picture) with its axes."""
 
     x: Axis
     y: Axis
@@ -42,38 +42,38 @@ class Frame:
         return self.top + self.height
 
     def across(self, numbers: np.ndarray, *, of_axes: bool = False) -> np.ndarray:
-        """Return the positions of abscissas; ``of_axes``: they are fractions of the rectangle, from its left."""
+        """Return the positions of abscissas; with ``of_axes`` they are fractions of the width, from the left."""
         position: np.ndarray = self.left + self.width * (numbers if of_axes else fraction(self.x, numbers))
         return position
 
     def down(self, numbers: np.ndarray, *, of_axes: bool = False) -> np.ndarray:
-        """Return the positions of ordinates; ``of_axes``: they are fractions of the rectangle, from its bottom."""
+        """Return the positions of ordinates; with ``of_axes`` they are fractions of the height, from the bottom."""
         position: np.ndarray = self.top + self.height * (1.0 - (numbers if of_axes else fraction(self.y, numbers)))
         return position
 
     def point(self, at: tuple[float, float], of_axes: tuple[bool, bool] = (False, False)) -> tuple[float, float]:
-        """Return the position of a point."""
+        """Return the position of a point; ``of_axes`` tells which coordinates are fractions of the axes."""
         x, y = (np.array([each]) for each in at)
         return float(self.across(x, of_axes=of_axes[0])[0]), float(self.down(y, of_axes=of_axes[1])[0])
 
     def along(self, x: float) -> str:
-        """Return an abscissa as an attribute."""
+        """Return an abscissa as text of an SVG attribute."""
         return f"{x:.2f}"
 
     def rise(self, y: float) -> str:
-        """Return an ordinate as an attribute."""
+        """Return an ordinate as text of an SVG attribute."""
         return f"{y:.2f}"
 
     def stretch(self, elements: str) -> str:
-        """Return paths, whose coordinates are those of this rectangle."""
+        """Return paths with coordinates of this frame; here unchanged."""
         return elements
 
     def repeat(self, element: str, positions: Sequence[tuple[float, float]]) -> str:
-        """Return an element, which is written for the origin, at each of these positions."""
+        """Return copies of an element, drawn about the origin, at these positions."""
         return "".join(f'<g transform="translate({x:g} {y:g})">{element}</g>' for x, y in positions)
 
     def has(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return which positions lie in the rectangle or on its edge, [rows]."""
+        """Return True for each position within the area or on its edge, [rows]."""
         inside: np.ndarray = (
             (x >= self.left - EDGE) & (x <= self.right + EDGE) & (y >= self.top - EDGE) & (y <= self.bottom + EDGE)
         )

@@ -1,4 +1,4 @@
-"""Curves, areas and rules in a picture."""
+"""Curves, areas and rules in SVG."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .polyline import path_of
 
 
 def draw_curve(frame: Frame, curve: Curve) -> str:
-    """Return the line of a curve; nothing where its points are not joined."""
+    """Return the line of a curve; empty if its points are not joined."""
     if not curve.joined:
         return ""
     x, y = frame.across(curve.x), frame.down(curve.displayed)
@@ -25,7 +25,7 @@ def draw_curve(frame: Frame, curve: Curve) -> str:
 
 
 def draw_area(frame: Frame, area: Area) -> str:
-    """Return a filled polygon, or strokes; those that follow each other are one line."""
+    """Return a filled polygon, or strokes, of which consecutive ones are joined."""
     x, y = frame.across(area.x, of_axes=area.of_axes[0]), frame.down(area.y, of_axes=area.of_axes[1])
     if not area.stroke:
         path = path_of(x, y, steps=False)
@@ -38,7 +38,7 @@ def draw_area(frame: Frame, area: Area) -> str:
 
 
 def draw_rule(frame: Frame, rule: Rule) -> str:
-    """Return a straight line across the axes; nothing beyond their ends."""
+    """Return a straight line across the axes; empty outside their ends."""
     low, high = (frame.x if rule.upright else frame.y).ends
     if not min(low, high) <= rule.at <= max(low, high):
         return ""
@@ -52,17 +52,17 @@ def draw_rule(frame: Frame, rule: Rule) -> str:
 
 
 def dashed(width: float, dashes: Sequence[float]) -> str:
-    """Return the attribute of dashes, which are in widths of the line."""
+    """Return the attribute for dashes in multiples of the line width."""
     return f' stroke-dasharray="{" ".join(f"{width * each:g}" for each in dashes)}"' if dashes else ""
 
 
 def opaque(kind: str, opacity: float) -> str:
-    """Return the attribute of an opacity below 1: of all, or ``kind``: fill- or stroke-."""
+    """Return the attribute for an opacity below 1; ``kind`` restricts it: fill- or stroke-."""
     return f' {kind}opacity="{opacity:g}"' if opacity < 1.0 else ""
 
 
 def _joined(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return strokes between pairs of points as lines, separated by nan."""
+    """Return strokes between pairs of points as lines separated by NaN."""
     points, gap = np.stack([x, y]), np.full((2, 1), np.nan)
     begins, ends = points[:, ::2], points[:, 1::2]
     breaks = np.flatnonzero(np.any(begins[:, 1:] != ends[:, :-1], axis=0)) + 1

@@ -1,4 +1,4 @@
-"""Marks in a picture: of the points of curves, and of trials."""
+"""Marks in SVG: of the points of curves, and of trials."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ CROSS_WIDTH = 0.29  # of the size of a cross
 
 
 def draw_marks(frame: Frame, curve: Curve) -> str:
-    """Return the marks at the points of a curve that lie within the axes."""
+    """Return the marks at the points of a curve within the axes."""
     if curve.marker is None:
         return ""
     positions = _within(frame, frame.across(curve.x), frame.down(curve.displayed))
@@ -23,13 +23,13 @@ def draw_marks(frame: Frame, curve: Curve) -> str:
 
 
 def draw_dots(frame: Frame, dots: Dots, x: np.ndarray, y: np.ndarray) -> str:
-    """Return marks of trials at abscissas and ordinates, [trials], as one path; those that coincide are one."""
+    """Return the marks of trials at abscissas and ordinates, [trials], as one path; coincident marks are drawn once."""
     positions = np.unique(_within(frame, frame.across(x), frame.down(y)), axis=0)
     return (_crosses if dots.cross else _round)(positions, dots.size, dots.colour)
 
 
 def _within(frame: Frame, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the positions within the axes in tenths of pt, [marks, 2]."""
+    """Return the positions within the axes, in tenths of pt, [marks, 2]."""
     return np.rint(10.0 * np.stack([x, y], axis=1)[frame.has(x, y)]).astype(np.int64)
 
 
@@ -50,7 +50,7 @@ def _draw(frame: Frame, marker: Marker, positions: np.ndarray) -> str:
 
 
 def _round(positions: np.ndarray, diameter: float, colour: str) -> str:
-    """Return the SVG of discs as the round ends of strokes without length, all in one path."""
+    """Return discs as round caps of strokes of zero length, in one path."""
     moves = np.diff(positions, axis=0, prepend=0).tolist()
     path = "".join(f"m{in_tenths(move)}h0" for move in moves)
     # A page's style sheet has the other ends for strokes, which an attribute would not change.
@@ -59,7 +59,7 @@ def _round(positions: np.ndarray, diameter: float, colour: str) -> str:
 
 
 def _crosses(positions: np.ndarray, size: float, colour: str) -> str:
-    """Return the SVG of crosses in one path as narrow as the figure: thousands of elements would delay the page."""
+    """Return crosses in one path that scales with the figure, because thousands of elements would slow the page."""
     arm = int(np.rint(5.0 * size))
     ends = np.array([(-arm, -arm), (arm, arm), (-arm, arm), (arm, -arm)])  # tenths, from the middle
     moves = np.diff((positions[:, np.newaxis] + ends).reshape(-1, 2), axis=0, prepend=0).reshape(-1, 2, 2).tolist()
@@ -68,7 +68,7 @@ def _crosses(positions: np.ndarray, size: float, colour: str) -> str:
 
 
 def _shapes(frame: Frame, positions: np.ndarray, outline: Sequence[Sequence[float]], size: float, paint: str) -> str:
-    """Return the SVG of an outline at all positions."""
+    """Return an outline at all positions."""
     strokes = [np.rint(10.0 * size * np.reshape(stroke, (-1, 2)) * (1.0, -1.0)).astype(np.int64) for stroke in outline]
     moves = [in_tenths(np.diff(stroke, axis=0).ravel().tolist()) for stroke in strokes]
     ends = ["z" if np.array_equal(stroke[0], stroke[-1]) else "" for stroke in strokes]

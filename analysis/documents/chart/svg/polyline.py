@@ -1,4 +1,4 @@
-"""A line of many samples as an SVG path of few letters."""
+"""A line of many samples as a compact SVG path."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ FAR = 1e6  # px, where a line ends that goes on
 
 
 def path_of(x: np.ndarray, y: np.ndarray, *, steps: bool, width: float | None = None) -> str:
-    """Return the path through points (px), [rows]; it is interrupted where a coordinate is not finite.
+    """Return the path through points (px), [rows], with gaps at non-finite coordinates.
 
-    ``steps``: an ordinate holds until the next row. A line with ascending abscissas of more rows than can be told
-    apart over ``width`` (px) is its envelope.
+    With ``steps`` an ordinate holds until the next row. A line with ascending abscissas and more rows than are
+    distinguishable over ``width`` (px) is replaced by its envelope.
     """
     if steps:
         changes = np.flatnonzero(np.append(True, ~((y[1:] == y[:-1]) | (np.isnan(y[1:]) & np.isnan(y[:-1])))))
@@ -31,13 +31,13 @@ def path_of(x: np.ndarray, y: np.ndarray, *, steps: bool, width: float | None = 
 
 
 def _finite_runs(finite: np.ndarray) -> list[slice]:
-    """Return the rows between those that are not finite."""
+    """Return the runs of consecutive rows with finite coordinates."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], finite, [False]]).astype(np.int8)))
     return [slice(int(first), int(end)) for first, end in zip(edges[::2], edges[1::2], strict=True)]
 
 
 def _thin(points: np.ndarray) -> np.ndarray:
-    """Return points [2, rows] without those that lie on the chord of their neighbours."""
+    """Return points, [2, rows], without those on the chord of their neighbours."""
     for _ in range(PASSES):
         before, here, after = points[:, :-2:2], points[:, 1:-1:2], points[:, 2::2]
         size = min(here.shape[1], after.shape[1])
@@ -53,7 +53,7 @@ def _thin(points: np.ndarray) -> np.ndarray:
 
 
 def _stroke(points: np.ndarray) -> str:
-    """Return a stroke: its first point, then each one relative to the last; a repeated point is left out."""
+    """Return the path commands of a stroke, relative to the previous point, without repeated points."""
     tenths = np.rint(10.0 * points).astype(np.int64)
     moves = np.diff(tenths, axis=1).T
     moves = moves[np.any(moves != 0, axis=1)]
@@ -62,7 +62,7 @@ def _stroke(points: np.ndarray) -> str:
 
 
 def in_tenths(tenths: Iterable[int]) -> str:
-    """Return tenths as decimals; a minus is its own separator."""
+    """Return tenths as decimals; a minus sign also separates numbers."""
     return "".join(map(_number, tenths)).strip()
 
 

@@ -1,4 +1,4 @@
-"""Notes in a picture, and how far they reach."""
+"""Notes in SVG, and the space that they need outside the axes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ RISES = {"top": ASCENT, "center": MIDDLE, "bottom": -DESCENT, "baseline": 0.0}
 
 
 def draw_note(frame: FluidFrame, note: ChartNote) -> str:
-    """Return a text at a point of the data or of the axes, over its backing; nothing where the data lie outside."""
+    """Return a text with its backing at a point of the data or of the axes; empty if the point is outside."""
     x, y = frame.point(note.at, note.of_axes)
     of_data = (frame.left if note.of_axes[0] else x, frame.top if note.of_axes[1] else y)
     if not frame.has(*np.array(of_data)[:, np.newaxis]).all():
@@ -33,7 +33,7 @@ def _write(note: ChartNote) -> str:
 
 
 def overhang(note: ChartNote, width: float, height: float) -> tuple[float, float, float, float]:
-    """Return how far (pt) a note at the edge of axes of this size reaches beyond: left, top, right, bottom."""
+    """Return how far (pt) a note extends beyond axes of this size: left, top, right, bottom."""
     left = note.offset[0] + BEGINS[note.align[0]] * _width(note)
     base = -note.offset[1] + RISES[note.align[1]] * note.size
     right, top, bottom = left + _width(note), base - ASCENT * note.size, base + DESCENT * note.size
@@ -51,7 +51,7 @@ def _width(note: ChartNote) -> float:
 
 
 def _backing(note: ChartNote, x: float, y: float) -> str:
-    """Return a rectangle as high as the tallest letters, so that it is equal for all texts."""
+    """Return a rectangle as high as the tallest letters, so that all backings have the same height."""
     if note.backing is None:
         return ""
     margin, width = note.backing.margin, _width(note)
