@@ -32,7 +32,7 @@ if TYPE_CHECKING:  # figures take as long to import as a verb without any takes 
 
 
 class Medium(Enum):
-    """A reader's medium: what a renderer writes."""
+    """A medium for which a renderer writes."""
 
     TERMINAL = "terminal"
     NOTEBOOK = "notebook"
@@ -41,9 +41,9 @@ class Medium(Enum):
 
 @dataclass(frozen=True)
 class Text:
-    """A statement of a result, without a full stop; ``style`` is that of a page.
+    """A statement of a result, without a full stop; ``style`` applies to a page.
 
-    ``is_wrapped``: a terminal breaks a long one into several lines.
+    ``is_wrapped`` lets a terminal break a long one into several lines.
     """
 
     kind: ClassVar[str] = "text"
@@ -54,7 +54,7 @@ class Text:
 
 @dataclass(frozen=True)
 class Printed:
-    """Lines of a terminal, for what a page and a notebook show in another way."""
+    """Lines for a terminal, where a page and a notebook show the content in another form."""
 
     kind: ClassVar[str] = "printed"
     lines: Sequence[str]
@@ -62,7 +62,9 @@ class Printed:
 
 @dataclass(frozen=True)
 class Note:
-    """An aid to read a figure or a table, which only a page needs; ``style``: on ``paper`` or on a ``screen`` only."""
+    """A remark that helps to read a figure or a table, only on a page; ``style`` restricts it to ``paper`` or
+    ``screen``.
+    """
 
     kind: ClassVar[str] = "note"
     content: Rich
@@ -71,7 +73,7 @@ class Note:
 
 @dataclass(frozen=True)
 class Missing:
-    """A statement of what a result does not have and why, in the place where readers look for it."""
+    """A statement of what a result lacks and why, where readers would look for it."""
 
     kind: ClassVar[str] = "missing"
     content: Rich
@@ -79,7 +81,7 @@ class Missing:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The answer of a document in one statement, and what stands with it."""
+    """The answer of a document in one statement, with accompanying nodes."""
 
     kind: ClassVar[str] = "verdict"
     lead: Rich
@@ -97,7 +99,7 @@ class KeyNumbers:
 
 @dataclass(frozen=True)
 class Items:
-    """Short statements as a list; ``style`` is that of a page: names with values in columns, or in one line."""
+    """Short statements as a list; ``style`` applies to a page: names with values in columns, or all on one line."""
 
     kind: ClassVar[str] = "items"
     items: Sequence[Rich]
@@ -106,7 +108,7 @@ class Items:
 
 @dataclass(frozen=True)
 class Commands:
-    """Command lines with their purposes; ``missing`` says why there is none."""
+    """Command lines with their purposes; ``missing`` states why there is none."""
 
     kind: ClassVar[str] = "commands"
     entries: Sequence[tuple[str, str]]
@@ -125,8 +127,8 @@ class Repeat:
 class Table:
     """Rows of cells below ``heads``; a terminal and a notebook list the first ``listed`` rows.
 
-    ``is_grouped``: a cell of the first column is left out where it equals the one above. ``style`` is that of a page:
-    ``tight`` for many columns, ``replays`` for rows that stack on a narrow page; ``is_printed``: on paper, too.
+    ``is_grouped`` omits cells of the first column equal to the one above. ``style`` applies to a page: ``tight`` for
+    many columns, ``replays`` for rows that stack on a narrow page. ``is_printed`` includes the table on paper.
     """
 
     kind: ClassVar[str] = "table"
@@ -140,7 +142,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Listing:
-    """Rows of words without heads, below a ``heading``; a terminal wraps their last cell, unless it is code.
+    """Rows of words without column heads, below a ``heading``; a terminal wraps the last cell, unless it is code.
 
     ``columns`` are the widths (characters) of all columns but the last in a terminal, by default those of their cells.
     """
@@ -153,7 +155,7 @@ class Listing:
 
 @dataclass(frozen=True)
 class ForScript:
-    """A document by ``name`` that the page's script ``bundle`` reads, and the nodes that only make sense with it.
+    """A document, ``name``, that the page's script ``bundle`` reads, and nodes that are useful only with it.
 
     Without a name there are only nodes.
     """
@@ -169,9 +171,9 @@ class ForScript:
 
 @dataclass(frozen=True)
 class Group:
-    """Nodes below a small ``heading`` inside a section; at ``level`` 4 inside a group.
+    """Nodes below a small ``heading`` within a section, or at ``level`` 4 within a group.
 
-    With an ``anchor``, to which links lead, it is set off as an article. ``is_printed``: on paper, too.
+    With an ``anchor``, the target of links, it is a separate article. ``is_printed`` includes it on paper.
     """
 
     kind: ClassVar[str] = "group"
@@ -184,10 +186,9 @@ class Group:
 
 @dataclass(frozen=True)
 class Fold:
-    """Nodes that few readers need, behind their ``summary``.
+    """Nodes that few readers need, collapsed under their ``summary``.
 
-    ``is_open``: a page has it open at first; ``is_printed``: it is open on paper. ``is_listed``: a terminal lists the
-    nodes, too.
+    ``is_open`` opens it initially on a page, ``is_printed`` on paper; ``is_listed`` includes the nodes in a terminal.
     """
 
     kind: ClassVar[str] = "fold"
@@ -200,7 +201,7 @@ class Fold:
 
 @dataclass(frozen=True)
 class Tile:
-    """Nodes of one place in a row; one that ``is_wide`` fills the row."""
+    """Nodes in one cell of a row of tiles; with ``is_wide`` the tile fills the row."""
 
     nodes: Sequence[Node]
     is_wide: bool = False
@@ -208,7 +209,7 @@ class Tile:
 
 @dataclass(frozen=True)
 class Tiles:
-    """Nodes next to each other where a page has room for them, each tile as wide as its content."""
+    """Tiles side by side as far as a page has space, each as wide as its content."""
 
     kind: ClassVar[str] = "tiles"
     tiles: Sequence[Tile]
@@ -216,7 +217,7 @@ class Tiles:
 
 @dataclass(frozen=True)
 class Only:
-    """Nodes that one medium has; ``compose`` them while it is written, since they may take a simulation."""
+    """Nodes for one medium; ``compose`` is called while it is written, since it may run a simulation."""
 
     kind: ClassVar[str] = "only"
     medium: Medium
@@ -250,10 +251,10 @@ Node = (
 
 @dataclass(frozen=True)
 class Section:
-    """Nodes below a ``heading``, which may be empty; ``given`` is what all its numbers are conditional on.
+    """Nodes below a ``heading``, which may be empty; ``given`` is the condition of all its numbers, if any.
 
-    A page folds it if ``is_folded``; ``style`` is that of a page: only on screens, or unbroken on paper, on a separate
-    sheet.
+    ``is_folded`` folds it on a page. ``style`` applies to a page: only on screens, or on paper unbroken or on a
+    separate sheet.
     """
 
     heading: str
@@ -265,10 +266,10 @@ class Section:
 
 @dataclass(frozen=True)
 class Document:
-    """A result for its readers: ``summary`` first, then sections.
+    """A result for its readers: the ``summary`` followed by sections.
 
-    ``json`` is what programs read, or a function that returns it; its keys are part of the interface.
-    ``has_contents``: a page lists its sections. ``page_sections`` composes those that only a page has, after the rest.
+    ``json`` is the content for programs, or a function that returns it; its keys belong to the public interface.
+    ``has_contents`` adds a table of contents to a page. ``page_sections`` composes further sections for a page only.
     ``in_degrees`` are the quantities that a page displays in degrees.
     """
 
@@ -282,13 +283,13 @@ class Document:
 
 
 def nodes_of(document: Document, medium: Medium) -> list[Node]:
-    """Return the nodes of the summary and of all sections that a medium has, in order."""
+    """Return the nodes of the summary and of all sections for a medium, in order."""
     nodes = [*document.summary, *(node for section in document.sections for node in section.nodes)]
     return [each for node in nodes for each in select(node, medium)]
 
 
 def select(node: Node, medium: Medium) -> Sequence[Node]:
-    """Return a node for a medium: itself, or what `Only` composes for it."""
+    """Return the nodes that a node stands for in a medium: itself, or what `Only` composes."""
     if not isinstance(node, Only):
         return [node]
     return node.compose() if node.medium is medium else []

@@ -1,4 +1,4 @@
-"""The nodes of a document that are drawn: figures, diagrams, scenes."""
+"""Nodes of a document that are drawn: figures, diagrams, scenes."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:  # figures take as long to import as a verb without any takes 
 
 @dataclass(frozen=True)
 class Figure:
-    """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` describe it for blind readers.
+    """A chart of ``height`` (in); ``name`` is unique in its document, ``words`` are the text for screen readers.
 
-    ``is_wide``: as wide as the page; ``is_narrow``: three in a row of a wide page, not two. ``below`` is a second chart
-    over the same abscissa. ``look``: that of what the label names. ``legend`` is that of this figure alone.
-    ``is_printed``: on paper, too. ``trials`` returns the positions of marks of trials.
+    ``is_wide`` fills the width of the page; ``is_narrow`` puts three instead of two in a row. ``below`` is a second
+    chart over the same abscissa. ``look`` is that of the object named by the label. ``legend`` is for this figure
+    alone. ``is_printed`` includes it on paper. ``trials`` returns the positions of marks of trials.
     """
 
     label: str
@@ -43,9 +43,9 @@ class Figure:
 
 @dataclass(frozen=True)
 class Figures:
-    """Figures next to each other with one legend; ``draw`` them only where they show.
+    """Figures side by side with one legend; ``draw`` is called only where they are shown.
 
-    ``is_in_order``: entries of the legend are for the first lines of each figure, which may have no names.
+    ``is_in_order`` means that legend entries are in the order of each figure's first lines, which may be unnamed.
     """
 
     kind: ClassVar[str] = "figures"
@@ -56,9 +56,9 @@ class Figures:
 
 @dataclass(frozen=True)
 class Diagram:
-    """A drawing without axes; ``draw`` returns it with its width and height (pt), which it has at any width of a page.
+    """A drawing without axes; ``draw`` returns it with its width and height (pt), which are constant on a page.
 
-    ``name`` is unique in its document, ``words`` are its text for screen readers.
+    ``name`` is unique in its document; ``words`` are the text for screen readers.
     """
 
     kind: ClassVar[str] = "diagram"
@@ -69,7 +69,7 @@ class Diagram:
 
 @dataclass(frozen=True)
 class Plot:
-    """A figure that matplotlib draws, for a notebook in the place of the charts."""
+    """A figure drawn by matplotlib, which a notebook shows in place of the charts."""
 
     kind: ClassVar[str] = "plot"
     draw: Callable[[], Drawing | None]
@@ -85,7 +85,7 @@ class Blocks:
 
 @dataclass(frozen=True)
 class Scene:
-    """A view in space that a page's script turns and plays, and its first and last picture where there is no script."""
+    """A three-dimensional view that a page's script rotates and plays; without a script its first and last picture."""
 
     kind: ClassVar[str] = "scene"
     view: Any

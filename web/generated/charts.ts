@@ -1,10 +1,10 @@
 // Written by build_web.py from analysis/documents/interactive/charts.py.
 
-// An axis: its ends as drawn, the first at the left or the bottom, and its ticks in between with their texts.
+// An axis: its ends as drawn, the first at the left or bottom, and its ticks with their labels.
 //
-// ``label`` is what figures that share an abscissa have in common; ``named`` where texts are no numbers, ``bare``
-// where ticks have none; ``size`` (pt) is that of the texts; ``grid`` and ``marked`` where ticks have lines, strokes;
-// ``few`` are the numbers of those ticks that a figure has up to the width ``narrow`` (px), where it has not all.
+// ``label`` identifies an abscissa shared by figures. ``named`` means that tick labels are not numbers, ``bare`` that
+// there are none; ``size`` (pt) is their text size. ``grid`` and ``marked`` mean that ticks have grid lines and tick
+// marks. ``few`` are the indices of the ticks that a figure shows up to the width ``narrow`` (px), if not all.
 export interface Axis {
   label?: string;
   ends: [number, number];
@@ -19,9 +19,9 @@ export interface Axis {
   narrow?: number;
 }
 
-// A mark at points of a line: a circle of diameter ``size`` (pt), or the strokes ``outline`` in units of it.
+// A mark at points of a line: a circle of diameter ``size`` (pt), or the strokes ``outline`` in multiples of it.
 //
-// A stroke is abscissas and ordinates in turn. ``fill`` and ``edge`` are colours, empty where nothing is drawn.
+// A stroke is a sequence x, y, x, y, ...; ``fill`` and ``edge`` are colours, empty for none.
 export interface Marker {
   size: number;
   outline?: number[][];
@@ -30,10 +30,11 @@ export interface Marker {
   width: number;
 }
 
-// A line; ``signal`` where its ``name`` is not that of the signal; ``time`` (s) where its abscissa is another
-// quantity; ``reduced`` where it is the envelope of its rows;
-// ``metric`` where it is the distribution of that over the trials of a variant; ``beyond`` where marks reach beyond
-// the area of the axes.
+// A line through ``x`` and ``factor`` * ``y``.
+//
+// ``signal`` is stated if it differs from ``name``, ``time`` (s) if the abscissa is another quantity, ``metric`` if
+// the line is its distribution over the trials of a variant. ``reduced`` means that the line is an envelope,
+// ``beyond`` that marks are not clipped at the axes.
 export interface Curve<Column = number> {
   x: Column;
   y: Column;
@@ -54,7 +55,7 @@ export interface Curve<Column = number> {
   metric?: string;
 }
 
-// Marks of trials, `TrialDots`; ``cross`` or a filled circle.
+// Marks of the successful or the failed trials of a variant, as a ``cross`` or a filled circle.
 export interface Dots {
   variant: string;
   names: [string, string];
@@ -64,7 +65,7 @@ export interface Dots {
   cross?: boolean;
 }
 
-// A filled polygon, or strokes from each second point to the next; a coordinate is of the data or of the axes.
+// A filled polygon, or strokes between points 1 and 2, 3 and 4, ...; coordinates are of the data or of the axes.
 export interface Area<Column = number> {
   x: Column;
   y: Column;
@@ -75,7 +76,7 @@ export interface Area<Column = number> {
   dashes?: number[];
 }
 
-// A straight line across the axes, at ``at`` of the abscissa (``upright``) or of the ordinate.
+// A straight line across the axes at ``at``, an abscissa if ``upright``, else an ordinate.
 export interface Rule {
   at: number;
   upright?: boolean;
@@ -84,14 +85,14 @@ export interface Rule {
   dashes?: number[];
 }
 
-// The background of a text: a rectangle that is larger by ``margin`` (pt) on each side.
+// The background of a text: a rectangle that extends beyond it by ``margin`` (pt).
 export interface Backing {
   colour: string;
   opacity: number;
   margin: number;
 }
 
-// A text at a point, each coordinate of the data or of the axes, ``offset`` (pt) from it to the right and up.
+// A text at a point with coordinates of the data or of the axes, ``offset`` (pt) to the right and up.
 export interface ChartNote {
   text: string;
   at: [number, number];
@@ -104,19 +105,20 @@ export interface ChartNote {
   backing?: Backing;
 }
 
-// A figure of any width: its axes keep their distances (px) from its left, top, right and bottom.
+// Margins of a figure of variable width: distances (px) of its axes from its left, top, right and bottom.
 //
-// ``point``: px of a pt. ``to_scale``: its height follows its width, so that the axes keep the ratio of their lengths.
+// ``point`` is the size of a pt in px. With ``to_scale`` the height follows the width, so the aspect ratio is
+// constant.
 export interface Fluid {
   margins: [number, number, number, number];
   point: number;
 }
 
-// A pair of axes; ``box`` is left, top, width and height of their area as fractions of the figure.
+// A pair of axes with their content.
 //
-// With ``fluid`` margins they are those of a figure as wide as on a wide screen. The ``title`` stands above the axes.
-//
-// A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it.
+// ``box`` is the plotting area as left, top, width and height, in fractions of the figure; with ``fluid`` margins it
+// applies to a figure on a wide screen. ``title`` is above the axes. A chart that is a ``picture`` has no data for the
+// page's script, which only marks the cursor in it.
 export interface Chart<Column = number> {
   x: Axis;
   y: Axis;

@@ -1,6 +1,6 @@
 // Written by build_web.py from analysis/documents/interactive/columns.py.
 
-// A column; without a range its numbers are float32.
+// Description of a column; without a range its numbers are float32.
 export interface Encoded {
   low?: number;
   high?: number;

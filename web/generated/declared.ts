@@ -1,6 +1,6 @@
 // Written by build_web.py from analysis/documents/figures/scene/declared.py.
 
-// A plate of solar cells: its centre ``at`` and its ``size`` along the body's axes (m).
+// A solar panel: its centre ``at`` and its ``size`` along the body's axes (m).
 export interface Panel {
   at: [number, number, number];
   size: [number, number, number];

@@ -42,7 +42,7 @@ def breakable(name: str) -> Markup:
 
 
 def render_page(template: Path, **content: Any) -> str:
-    """Render a page from a template, which may include templates of this folder and of its own.
+    """Render a page from a template, which may include templates of this folder and of the template's folder.
 
     A name that the template needs but does not receive is an error.
     """

@@ -1,1 +1,1 @@
-"""The block diagram of a system: its graph, the layout, the drawing, tables of blocks and connections."""
+"""Block diagram of a system: graph, layout, drawing, tables of blocks and connections."""

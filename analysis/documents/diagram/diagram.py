@@ -34,7 +34,10 @@ BROAD = 1.6  # of a diagram's height, from which width on it is larger on a shee
 
 @dataclass(frozen=True)
 class BlockDiagram:
-    """A diagram, or why there is none; ``system`` is its graph, ``is_broad``: it is printed on a sheet on its side."""
+    """A diagram, or the reason why there is none.
+
+    ``system`` is its graph; ``is_broad`` prints it in landscape format.
+    """
 
     system: DiagramBlock
     svg: Markup | None
@@ -43,7 +46,7 @@ class BlockDiagram:
 
 
 def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> BlockDiagram:
-    """Return the diagram of a prepared system, with the faults that its run has. No FMU is loaded."""
+    """Return the diagram of a prepared system, including the faults of its run. No FMU is loaded."""
     system = read_graph(prepared, faults)
     blocks = sum(1 for _ in system.all_blocks()) - 1
     parameters = sum(len(block.parameters) for block in system.all_blocks())
@@ -63,7 +66,7 @@ def make_diagram(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> Bloc
 
 
 def _lay_out(system: DiagramBlock) -> Arrangement | None:
-    """Lay out a system; return None where the engine was not built. Raises LayoutError."""
+    """Lay out a system; return None if the layout engine was not built. Raises LayoutError."""
     engine = Engine.load()
     if engine is None:
         return None
@@ -72,7 +75,7 @@ def _lay_out(system: DiagramBlock) -> Arrangement | None:
 
 
 def _outside_loops(call: Callable[[], Result]) -> Result:
-    """Return the result of a call, in a separate thread where an event loop runs, as in notebooks: V8 would wait."""
+    """Call a function, in a separate thread if an event loop runs (notebooks), and return its result."""
     try:
         asyncio.get_running_loop()
     except RuntimeError:
@@ -97,7 +100,7 @@ def block_table(system: DiagramBlock) -> PageTable:
 
 
 def connection_table(system: DiagramBlock) -> PageTable:
-    """Return the edges of the diagram: ends, number of connections, unit, conversion on the way."""
+    """Return the edges of the diagram: ends, number of connections, unit, conversion."""
     ports = {key: port for block in system.all_blocks() for key, port in block.ports.items()}
     rows = []
     for edge in system.all_edges():
@@ -107,7 +110,7 @@ def connection_table(system: DiagramBlock) -> PageTable:
 
 
 def parameter_table(prepared: PreparedSystem, system: DiagramBlock) -> PageTable:
-    """Return the parameters that a system gives to its blocks, with their values; a dash where no value is set."""
+    """Return the parameters that a system passes to its blocks, with their values; a dash if no value is set."""
     targets: dict[str, list[str]] = defaultdict(list)
     for block in system.all_blocks():
         for source, target in (pair for edge in block.parameters for pair in edge.pairs):

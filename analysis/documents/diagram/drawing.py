@@ -1,8 +1,8 @@
-"""The diagram as SVG: text stays text, the same bytes every time. Lengths in px.
+"""Drawing of the diagram as SVG: text remains text, reproducible to the byte. Lengths are in px.
 
-Groups of class ``block`` and ``edge`` say in ``data-signals`` which signals are theirs, as JSON: a block's, or those
-from which an edge takes its values, in the order of ``data-targets``, to which it gives them. A parameter in the list
-of a block is a group of class ``parameter`` with both.
+Groups of class ``block`` and ``edge`` list their signals in ``data-signals`` as JSON: those of a block, or those from
+which an edge takes its values, in the order of its ``data-targets``. A parameter in the list of a block is a group of
+class ``parameter`` with both attributes.
 """
 
 from __future__ import annotations
@@ -97,7 +97,9 @@ def _draw_frame(parent: etree._Element, placed: Placed, colour: str) -> None:
 
 
 def _draw_edge(parent: etree._Element, route: Route, earlier: Iterable[Segment], colour: str) -> None:
-    """Draw an edge: its line where ``earlier`` lines of its port do not cover it, and the whole for the pointer."""
+    """Draw an edge: its line except where ``earlier`` lines of its port cover it, and the whole line for the
+    pointer.
+    """
     attributes = {"class": "edge", "data-signals": _json(a for a, _ in route.edge.pairs)}
     group = etree.SubElement(parent, "g", attributes | {"data-targets": _json(b for _, b in route.edge.pairs)})
     _title(group, edge_text(route.edge))
@@ -168,7 +170,7 @@ def _draw_terminal(parent: etree._Element, terminal: Terminal) -> None:
 
 
 def edge_text(edge: Edge) -> str:
-    """Describe an edge in one line: its ends, and the conversion on the way."""
+    """Describe an edge in one line: its ends and the conversion."""
     ends = []
     for key, names in zip((edge.source, edge.target), zip(*edge.pairs, strict=True), strict=True):
         owner = f"{key.block}." if key.block else ""
@@ -192,7 +194,7 @@ def _text(
     is_bold: bool = False,
     is_right: bool = False,
 ) -> None:
-    """Draw a line of text with its measured width, whatever font the reader has."""
+    """Draw a line of text at its computed width, independent of the reader's fonts."""
     if not text:
         return
     width = text_width(text, size, is_bold=is_bold)
@@ -212,5 +214,5 @@ def _json(names: Iterable[str]) -> str:
 
 
 def _number(length: float) -> str:
-    """Format a length to hundredths of a px."""
+    """Return a length rounded to hundredths of a px, as text."""
     return f"{round(length, 2) + 0.0:g}" if abs(length) < 1e4 else f"{length:.2f}"

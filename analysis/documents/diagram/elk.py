@@ -1,6 +1,6 @@
-"""The layout engine: ELK, the Eclipse Layout Kernel, in V8. Lengths in px.
+"""Layout engine: ELK, the Eclipse Layout Kernel, in V8. Lengths are in px.
 
-V8 gets sizes, sides and identifiers of ours: no text of a system enters it.
+V8 receives only sizes, sides and generated identifiers: no text of a system.
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ OPTIONS = {
 
 
 class LayoutError(Exception):
-    """The engine has not laid out a graph; the text says why."""
+    """The engine failed to lay out a graph; the text states why."""
 
 
 class Engine:
-    """ELK loaded once, for several layouts; a context. ``script`` is the bundle of web/layout.ts."""
+    """ELK, loaded once for several layouts; a context manager. ``script`` is the bundle of web/layout.ts."""
 
     def __init__(self, script: str) -> None:
         self.context = MiniRacer()
@@ -48,7 +48,7 @@ class Engine:
 
     @classmethod
     def load(cls) -> Engine | None:
-        """Return the engine, or None where its bundle was not built."""
+        """Return the engine, or None if its bundle was not built."""
         script = read_bundle("layout")
         return None if script is None else cls(script)
 
@@ -59,7 +59,7 @@ class Engine:
         self.context.close()
 
     def lay_out(self, nodes: list[dict[str, Any]], edges: list[dict[str, Any]]) -> dict[str, Any]:
-        """Return a graph of ELK's JSON with the positions of its nodes and ports, and the points of its edges.
+        """Return a graph in ELK's JSON with positions of nodes and ports, and points of edges, added.
 
         Raises LayoutError.
         """

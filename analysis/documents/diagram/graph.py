@@ -11,16 +11,16 @@ MAX_OPEN = 30  # ports of a side that are drawn though nothing is connected to t
 
 
 class Side(StrEnum):
-    """Side of a block that has a port: values enter on the left and leave on the right."""
+    """Side of a block with ports: values enter on the left and leave on the right."""
 
     IN = "in"
     OUT = "out"
 
 
 class PortKey(NamedTuple):
-    """A port of a block by the block's path; a vector ``x`` has the name ``x[]``, which no scalar has.
+    """A port, identified by the path of its block and its name; a vector ``x`` is named ``x[]``, unlike any scalar.
 
-    What several other ports lead to, such as the elements of a vector or the terms of a sum, has an ``entry`` for each.
+    If several ports lead to one, such as elements of a vector or terms of a sum, each has a separate ``entry``.
     """
 
     block: str
@@ -31,9 +31,9 @@ class PortKey(NamedTuple):
 
 @dataclass
 class DiagramPort:
-    """A connector, or a vector's connectors. ``size`` is the vector's, ``3`` or ``2,3``; empty for a scalar.
+    """A connector, or all connectors of a vector of this ``size``: ``3`` or ``2,3``; empty for a scalar.
 
-    ``signals`` are the names of its elements as a run records them.
+    ``signals`` are the names of its elements as recorded by a run.
     """
 
     name: str
@@ -49,11 +49,10 @@ class DiagramPort:
 
 @dataclass(frozen=True)
 class Edge:
-    """One or more connections from one port to another; ``pairs`` are source and target of each by flat names.
+    """One or more connections from one port to another; ``pairs`` are their sources and targets by flat name.
 
-    ``elements`` are those of both ends that are connected, such as ``[1..2]``; both are empty where they are the whole
-    vectors in order, and that of a scalar is. ``change`` is what happens to values on their way: a conversion of
-    units, a transformation, a sum.
+    ``elements`` are the connected elements of both ends, such as ``[1..2]``, or empty for whole vectors in order and
+    for scalars. ``change`` describes a conversion of the values: of units, a transformation, a sum.
     """
 
     source: PortKey
@@ -64,7 +63,7 @@ class Edge:
 
     @property
     def note(self) -> str:
-        """The elements and the change in words; empty for whole vectors that arrive as they are."""
+        """The elements and the conversion in words; empty for whole vectors without conversion."""
         source, target = self.elements
         elements = source if source == target else f"{source} → {target}".strip()
         return ", ".join(filter(None, (elements, self.change)))
@@ -72,11 +71,11 @@ class Edge:
 
 @dataclass
 class DiagramBlock:
-    """A component, a system with ``blocks`` inside, or a reference to a signal dictionary.
+    """A component, a system with inner ``blocks``, or a reference to a signal dictionary.
 
-    ``path`` is its flat name, empty for the whole system. ``kind`` is that of an FMU of the catalogue, or what the
-    block is. ``parameters`` are connections of its parameters, which are listed and not drawn. ``edges`` are those
-    between its inner blocks, and between these and its ports.
+    ``path`` is its flat name, empty for the whole system. ``kind`` is the kind of its FMU in the catalogue, or of the
+    block. ``parameters`` are connections of parameters, which are listed and not drawn. ``edges`` connect its inner
+    blocks with each other and with its ports.
     """
 
     path: str
@@ -91,31 +90,31 @@ class DiagramBlock:
     edges: list[Edge] = field(default_factory=list)
 
     def add_entry(self, key: PortKey, number: int) -> PortKey:
-        """Return the key of a port's entry with this number, which is added if it is missing."""
+        """Return the key of a port's entry with this number, after adding it if necessary."""
         entry = key._replace(entry=number)
         self.ports.setdefault(entry, replace(self.ports[key]))
         return entry
 
     def all_blocks(self) -> Iterator[DiagramBlock]:
-        """Yield the block, and those inside it."""
+        """Yield the block and all blocks inside it."""
         yield self
         for block in self.blocks:
             yield from block.all_blocks()
 
     def all_edges(self) -> Iterator[Edge]:
-        """Yield the edges of the system and of those inside it."""
+        """Yield the edges of the system and of all systems inside it."""
         for block in self.all_blocks():
             yield from block.edges
 
     @property
     def kind_label(self) -> str:
-        """The kind of one block: plant, sensor, guidance."""
+        """The kind of the block: plant, sensor, guidance."""
         return self.kind.removesuffix("s")
 
     def visible_ports(self) -> dict[PortKey, DiagramPort]:
-        """Return the ports that the diagram shows: those connected, and some inputs that are not.
+        """Return the ports to draw: connected ones, and some unconnected inputs.
 
-        Of a block to which nothing is connected they are the first ones of both sides.
+        For a block without connections these are the first ports of both sides.
         """
         is_alone = not any(port.is_connected for port in self.ports.values())
         chosen, room = {}, dict.fromkeys(Side, MAX_OPEN)

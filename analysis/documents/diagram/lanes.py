@@ -1,8 +1,8 @@
-"""Rows put below each other, and the edges that ELK does not route: loops back, and from row to row. Lengths in px.
+"""Assembly of rows below each other, and routing of edges that ELK does not route. Lengths are in px.
 
-Such an edge leaves its port to the right, goes down to a lane below its row, and from there to its target: up in the
-same row, down in the next one, or through the channel on the left to another row. Vertical lines are in strips that are
-inserted at the sides of columns, where there is nothing else but horizontal lines.
+These are feedback edges and edges between rows. Such an edge leaves its port to the right, runs down to a lane below
+its row, and from there to its target: up in the same row, down in the next one, or through the channel on the left to
+another row. Vertical lines are in strips inserted at the sides of columns, which contain only horizontal lines.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ ROW_GAP = 16.0  # between a lane and the next row
 
 
 class Way(Enum):
-    """Way of an edge at its port: it leaves, or it enters from a lane below or above, or from the channel."""
+    """Direction of an edge at its port: leaving, or entering from a lane below or above, or from the channel."""
 
     LEAVES = "leaves"
     FROM_BELOW = "from below"
@@ -36,7 +36,9 @@ Stub = tuple[PortKey, Way]
 
 @dataclass
 class _Group:
-    """The edges of a port in ``row``. ``lanes`` are the abscissas that each lane reaches, by row, ``y`` its height."""
+    """The edges of one port in ``row``; ``lanes`` are the abscissas spanned by its lanes, ``y`` their ordinates, by
+    row.
+    """
 
     source: PortKey
     row: int
@@ -47,7 +49,7 @@ class _Group:
 
 
 def join_rows(rows: Sequence[Arrangement], edges: Sequence[Edge]) -> Arrangement:
-    """Join all rows into one placement, with the edges that are not in any of them."""
+    """Combine all rows into one arrangement, with the edges that are not within a row."""
     return _Lanes(rows, edges).join()
 
 
@@ -66,7 +68,7 @@ class _Lanes:
         self.tops = self.add_lanes()
 
     def join(self) -> Arrangement:
-        """Join all rows into one placement."""
+        """Combine all rows into one arrangement."""
         routes = [Route(edge, self.line(edge, group)) for group in self.groups for edge in group.edges]
         joined = Arrangement(max(row.width for row in self.rows) - self.left, self.tops[-1])
         for row, top in zip(self.rows, self.tops, strict=False):
@@ -79,22 +81,22 @@ class _Lanes:
         return joined
 
     def way_in(self, edge: Edge) -> Way:
-        """Return the way in which an edge enters its target."""
+        """Return the direction in which an edge enters its target."""
         source, target = self.homes[edge.source], self.homes[edge.target]
         if edge.target in self.first and target not in (source, source + 1):
             return Way.FROM_CHANNEL
         return Way.FROM_ABOVE if target > source else Way.FROM_BELOW
 
     def lane_row(self, edge: Edge) -> int:
-        """Return the row below which the last lane of an edge is: the target's own, or that above it."""
+        """Return the row above the last lane of an edge: the target's row, or the one before it."""
         return self.homes[edge.target] - (self.way_in(edge) is Way.FROM_ABOVE)
 
     def widen(self, number: int) -> None:
         """Insert strips for vertical lines at the sides of a row's columns.
 
-        Those of even and odd rows differ by half a pitch, so that lines of two rows do not cover each other. Next to a
-        block is the line of its lowest port where lines come from below, of its highest where they come from above:
-        then they do not cross each other.
+        Strips of even and odd rows are offset by half a pitch, so lines of two rows do not cover each other. The line
+        closest to a block belongs to its lowest port if lines arrive from below, to its highest port if from above,
+        which avoids crossings.
         """
         row = self.rows[number]
         ports, parity = row.ports(), PITCH / 2.0 * (number % 2)
@@ -137,7 +139,7 @@ class _Lanes:
         return groups
 
     def add_channel(self) -> float:
-        """Assign vertical lines on the left to groups that reach other rows; the fewest abscissa of all."""
+        """Assign vertical lines on the left to groups that reach other rows; return the smallest abscissa."""
 
         def rows_apart(group: _Group) -> int:
             return max(abs(self.lane_row(edge) - group.row) for edge in group.edges)
@@ -150,7 +152,7 @@ class _Lanes:
         return min((group.channel for group in through), default=0.0)
 
     def add_lanes(self) -> list[float]:
-        """Add the lanes below each row, the shortest uppermost; where each row begins, and the end."""
+        """Add the lanes below each row, the shortest uppermost; return the top of each row, and the bottom."""
         tops = [0.0]
         for number, row in enumerate(self.rows):
             obstacles = [(box.x, box.x + box.width, box.bottom) for box in row.boxes]
@@ -189,6 +191,6 @@ class _Lanes:
 
 
 def _nearness(stub: Stub, ports: dict[PortKey, Point]) -> tuple[bool, float]:
-    """Return the sort key of vertical lines from their block outwards."""
+    """Return the sort key that orders vertical lines by distance from their block."""
     is_above, height = stub[1] is Way.FROM_ABOVE, ports[stub[0]][1]
     return is_above, height if is_above else -height

@@ -1,4 +1,4 @@
-"""Lays a system out: forward edges by ELK, loops back below, systems inside it first. Lengths in px."""
+"""Layout of a system: forward edges by ELK, feedback edges below, nested systems first. Lengths are in px."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ INNER = 14.0  # between a system's frame and what is inside
 
 
 def lay_out(system: DiagramBlock, engine: Engine) -> Arrangement:
-    """Lay out the whole system. Raises LayoutError."""
+    """Lay out a whole system. Raises LayoutError."""
     return _System(engine, system, is_whole=True).placement()
 
 
@@ -33,7 +33,7 @@ class _System:
         self.ids: dict[PortKey, str] = {}
 
     def placement(self) -> Arrangement:
-        """Lay out the system, in rows if it would be wider than a page."""
+        """Lay out the system, in several rows if it would be wider than a page."""
         boxes: list[Placed | Terminal] = [self.block(block) for block in self.system.blocks]
         boxes += self.terminals()
         forward, back = self.split()
@@ -49,9 +49,9 @@ class _System:
         return join_rows(placements, [*between, *back])
 
     def rows(self, whole: Arrangement) -> list[list[Placed | Terminal]]:
-        """Return the boxes of each row; a system inside another is one row, with terminals at both sides.
+        """Return the boxes of each row; a nested system is a single row with terminals at both sides.
 
-        A terminal of the whole is in the row of the first block that it is connected to.
+        A terminal of the whole system is in the row of the first block that it is connected to.
         """
         columns = columns_of(whole.blocks)
         if not self.is_whole or not columns:
@@ -67,7 +67,7 @@ class _System:
         return rows
 
     def arrange(self, boxes: Sequence[Placed | Terminal], edges: Sequence[Edge]) -> Arrangement:
-        """Lay out boxes with edges between them from left to right."""
+        """Lay out boxes and the edges between them from left to right."""
         lines = [
             {"id": f"e{number}", "sources": [self.ids[edge.source]], "targets": [self.ids[edge.target]]}
             for number, edge in enumerate(edges)
@@ -90,7 +90,7 @@ class _System:
         return placement
 
     def block(self, block: DiagramBlock) -> Placed:
-        """Place a block and add its node; a system inside is laid out first."""
+        """Place a block and add its node; a nested system is laid out first."""
         shape = shape_of(block, self.notes)
         node: dict[str, Any] = {"id": f"b{len(self.nodes)}"}
         placed = Placed(block, shape, 0.0, 0.0, shape.width, shape.height, {})
@@ -129,7 +129,7 @@ class _System:
         return port if position is None else port | {"x": position[0], "y": position[1]}
 
     def terminals(self) -> list[Terminal]:
-        """Return the system's connectors: at its frame, or anywhere where it is the whole, which has no frame."""
+        """Return the system's connectors: at its frame, or anywhere in the whole system, which has no frame."""
         visible = self.system.visible_ports()
         labels = {key: self.terminal_label(key) for key in visible}
         widths = {side: max((labels[key].width for key in visible if key.side is side), default=0.0) for side in Side}
@@ -155,7 +155,7 @@ class _System:
         return port_label(PortKey(key.block, Side.OUT, key.name), port, "") if not note else port_label(key, port, note)
 
     def split(self) -> tuple[list[Edge], list[Edge]]:
-        """Return the edges from left to right, and those that lead back."""
+        """Return the edges from left to right, and the feedback edges."""
         numbers = {block.path: number for number, block in enumerate(self.system.blocks)}
         inner = [edge for edge in self.system.edges if edge.source.block in numbers and edge.target.block in numbers]
         arcs = [(numbers[edge.source.block], numbers[edge.target.block]) for edge in inner]
@@ -168,7 +168,7 @@ class _System:
 
 
 def _notes(system: DiagramBlock) -> dict[PortKey, str]:
-    """Return the notes at the ports that edges enter; of several entries to a port, with the source block of each."""
+    """Return the notes at the ports that edges enter; a port with several entries names their source blocks."""
     names = {block.path: block.name for block in system.blocks} | {system.path: ""}
     shared = {edge.target._replace(entry=0) for edge in system.edges if edge.target.entry}
     notes: dict[PortKey, list[str]] = defaultdict(list)

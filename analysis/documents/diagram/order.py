@@ -1,4 +1,4 @@
-"""The order of blocks from left to right, against which edges are loops back."""
+"""Order of blocks from left to right, which determines the feedback edges."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ MUCH = 2  # times as many loops back as another order has: then the description'
 
 
 def order_blocks(count: int, arcs: Sequence[Arc]) -> list[int]:
-    """Return positions of blocks numbered from 0; an arc for each edge, from block to block.
+    """Return the positions of blocks numbered from 0; an arc is a pair of blocks for each edge.
 
-    The order of the description, which is how its author thinks of the system, unless it has at fewest `MUCH` times as
-    many loops back as that of `short_loops`.
+    The order of the description, which reflects how its author thinks of the system, unless it has at least `MUCH`
+    times as many feedback edges as that of `short_loops`.
     """
     other = short_loops(count, arcs)
     mine = list(range(count))
@@ -21,15 +21,15 @@ def order_blocks(count: int, arcs: Sequence[Arc]) -> list[int]:
 
 
 def loops_back(positions: Sequence[int], arcs: Sequence[Arc]) -> int:
-    """Return the number of edges that lead back."""
+    """Return the number of feedback edges."""
     return sum(positions[source] >= positions[target] for source, target in arcs)
 
 
 def short_loops(count: int, arcs: Sequence[Arc]) -> list[int]:
     """Return positions by the heuristic of Eades, Lin and Smyth, Information Processing Letters 47 (1993), p. 319.
 
-    Sinks go to the end and sources to the beginning; where there are neither, the block with the most edges out over
-    edges in goes to the beginning.
+    Sinks are moved to the end and sources to the beginning; without either, the block with the greatest excess of
+    outgoing over incoming edges is moved to the beginning.
     """
     remaining = dict.fromkeys(range(count))
     first: list[int] = []

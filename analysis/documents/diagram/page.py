@@ -1,4 +1,4 @@
-"""The page of `perilune describe --report`: the block diagram of a system, its blocks, connections and parameters."""
+"""Page of `perilune describe --report`: block diagram, blocks, connections and parameters of a system."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ TEMPLATE = Path(__file__).with_name("system.html")
 
 
 def write_system_page(prepared: PreparedSystem, path: Path) -> None:
-    """Write one self-contained HTML page about a prepared system; the same system gives the same bytes."""
+    """Write one self-contained HTML page about a prepared system, reproducible to the byte."""
     diagram = make_diagram(prepared)
     name, file = prepared.archive.name, Path(prepared.network.file).name
     write_page(

@@ -1,4 +1,4 @@
-"""A laid-out system: where its blocks, terminals and edges are. Lengths in px, from the system's upper left corner."""
+"""Positions of blocks, terminals and edges of a laid-out system. Lengths are in px from its upper left corner."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ Segment = tuple[Point, Point]
 
 @dataclass
 class Placed:
-    """A block. ``ports`` are the points at which edges end; ``inner`` is what a system has inside, at ``origin``."""
+    """A placed block. ``ports`` are the points at which edges end; ``inner`` is a nested system's content at
+    ``origin``.
+    """
 
     block: DiagramBlock
     shape: Shape
@@ -33,14 +35,14 @@ class Placed:
         return self.y + self.height
 
     def move(self, x: float, y: float) -> None:
-        """Move it with its ports."""
+        """Move the block with its ports."""
         self.x, self.y = self.x + x, self.y + y
         self.ports = {key: (px + x, py + y) for key, (px, py) in self.ports.items()}
 
 
 @dataclass
 class Terminal:
-    """A connector of the system itself; an edge ends at its ``point``."""
+    """A connector of the system; an edge ends at its ``point``."""
 
     key: PortKey
     port: DiagramPort
@@ -60,25 +62,25 @@ class Terminal:
         return {self.key: self.point}
 
     def move(self, x: float, y: float) -> None:
-        """Move it with its point."""
+        """Move the terminal with its point."""
         self.x, self.y, self.point = self.x + x, self.y + y, (self.point[0] + x, self.point[1] + y)
 
 
 @dataclass
 class Route:
-    """An edge with the points of its line, from its source to its target."""
+    """An edge with the points of its line from source to target."""
 
     edge: Edge
     points: list[Point]
 
     def segments(self) -> Iterator[Segment]:
-        """Yield the straight spans of the line."""
+        """Yield the straight segments of the line."""
         return pairwise(self.points)
 
 
 @dataclass
 class Arrangement:
-    """A system, or a row of its blocks."""
+    """The placed blocks, terminals and edges of a system, or of a row of its blocks."""
 
     width: float
     height: float
@@ -88,7 +90,7 @@ class Arrangement:
 
     @property
     def boxes(self) -> list[Placed | Terminal]:
-        """Obstacles of lines: blocks and terminals."""
+        """Blocks and terminals, which lines must avoid."""
         return [*self.blocks, *self.terminals]
 
     def ports(self) -> dict[PortKey, Point]:
@@ -96,14 +98,14 @@ class Arrangement:
         return {key: point for box in self.boxes for key, point in box.ports.items()}
 
     def move(self, x: float, y: float) -> None:
-        """Move everything."""
+        """Move all items."""
         for box in self.boxes:
             box.move(x, y)
         for route in self.routes:
             route.points = [(px + x, py + y) for px, py in route.points]
 
     def stretch(self, strips: Sequence[tuple[float, float]]) -> None:
-        """Insert empty strips, each at an abscissa and of a width; ends of edges stay at their ports."""
+        """Insert empty strips, each of a width at an abscissa; ends of edges stay at their ports."""
 
         def shift(x: float) -> float:
             return sum(width for position, width in strips if x >= position)
@@ -117,7 +119,7 @@ class Arrangement:
         self.width += sum(width for _, width in strips)
 
     def junctions(self) -> Iterator[tuple[PortKey, Point]]:
-        """Yield the points at which lines from one port part, or lines into one port meet, with their source port."""
+        """Yield the points where lines of one port diverge or merge, with the source port."""
         seen: dict[Point, PortKey] = {}
         for end in ("source", "target"):
             groups: dict[PortKey, list[Route]] = defaultdict(list)

@@ -1,4 +1,4 @@
-"""The graph of a prepared system: of what its description says, without any FMU loaded."""
+"""Graph of a prepared system, read from its description without loading FMUs."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Vectors = dict[str, list[str]]  # the indices of a vector's elements, in their o
 
 
 def read_graph(prepared: PreparedSystem, faults: Sequence[Fault] = ()) -> DiagramBlock:
-    """Read the whole system as a block with its components inside."""
+    """Return the whole system as a block that contains its components."""
     return _GraphReader(prepared, faults).system(prepared.network.description.system, "", prepared.archive.name)
 
 
@@ -97,7 +97,7 @@ class _GraphReader:
         return split_name(fault.name, self.network.fmus)[0]
 
     def add_ports(self, block: DiagramBlock, element: Element, path: str) -> None:
-        """Add the connectors of an element, on both sides for a dictionary's signals; an FMU's other outputs, too."""
+        """Add the connectors of an element (of a dictionary on both sides), and all other outputs of an FMU."""
         sizes = self.sizes(block, element)
         self.vectors[block.path] = sizes
         declared = {name: self.kind_and_unit(connector, path) for name, connector in element.connectors.items()}
@@ -120,12 +120,12 @@ class _GraphReader:
         return node.kind, node.unit.name if node.unit else connector.unit
 
     def sizes(self, block: DiagramBlock, element: Element) -> Vectors:
-        """Return the vectors of an element: of all variables of an FMU, not only of its declared connectors."""
+        """Return the vectors of an element; of an FMU those of all its variables, not only of declared connectors."""
         fmu = self.network.fmus.get(block.path) if isinstance(element, Component) else None
         return vectors_of(element.connectors if fmu is None else fmu.variables)
 
     def key(self, block: DiagramBlock, inner: dict[str, DiagramBlock], point: Point, node: Node, side: Side) -> PortKey:
-        """Return the port at one end of a connection; seen from inside, a system's inputs are sources."""
+        """Return the port at one end of a connection; inside a system its inputs are sources."""
         element, connector = point
         name, is_vector = base_name(connector)
         if element is None:
@@ -133,7 +133,7 @@ class _GraphReader:
         return PortKey(block.path if element is None else inner[element].path, side, f"{name}[]" if is_vector else name)
 
     def elements(self, source: PortKey, target: PortKey, nodes: Sequence[tuple[Node, Node]]) -> tuple[str, str]:
-        """Return the connected elements of two ports, empty where all of both are connected in their order."""
+        """Return the connected elements of two ports; empty if all are connected in order."""
         texts, is_whole = [], True
         for key, variables in zip((source, target), zip(*nodes, strict=True), strict=True):
             indices = [match[2] for node in variables if (match := ELEMENT.fullmatch(node.variable))]
@@ -143,7 +143,7 @@ class _GraphReader:
 
 
 def base_name(variable: str) -> tuple[str, bool]:
-    """Return the name without indices, and whether it had some."""
+    """Return the name without indices, and True if it had indices."""
     match = ELEMENT.fullmatch(variable)
     return (match[1], True) if match else (variable, False)
 
@@ -158,7 +158,7 @@ def vectors_of(names: Iterable[str]) -> Vectors:
 
 
 def size_text(indices: Sequence[str]) -> str:
-    """Return the size of a vector with these elements: ``3``, ``2,3``; ``0..2`` where it is not counted from 1."""
+    """Return the size of a vector as text: ``3``, ``2,3``; ``0..2`` if indices do not start at 1."""
     if "," in indices[0]:
         rows = [tuple(map(int, index.split(","))) for index in indices]
         return ",".join(str(max(column)) for column in zip(*rows, strict=False))
@@ -167,7 +167,7 @@ def size_text(indices: Sequence[str]) -> str:
 
 
 def ranges(indices: Sequence[str]) -> str:
-    """Return indices with neighbours joined: ``1..3, 5``, or only their number where there are many."""
+    """Return indices as text with consecutive ones joined: ``1..3, 5``, or only their number if there are many."""
     joined: list[tuple[int, int] | str] = []
     for index in indices:
         if "," in index:
@@ -187,7 +187,7 @@ def ranges(indices: Sequence[str]) -> str:
 
 
 def _change(connection: Connection, source: Node, target: Node, *, is_sum: bool) -> str:
-    """Describe the conversion of a value on its way, empty where it arrives unchanged."""
+    """Describe the conversion of a value in a connection; empty without conversion."""
     units = ""
     if source.unit and target.unit and not source.unit.is_same(target.unit):
         units = f"{declared_unit(source.unit.name)} → {declared_unit(target.unit.name)}"

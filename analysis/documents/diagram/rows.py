@@ -1,4 +1,4 @@
-"""Columns of blocks, cut into rows below each other where they would be wider than a page. Lengths in px."""
+"""Division of columns of blocks into rows if they would be wider than a page. Lengths are in px."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WIDEST = 1360.0  # of a row of several columns
 
 @dataclass
 class BoxColumn:
-    """Boxes one above the other, between the abscissas ``left`` and ``right``; no other box is between these."""
+    """Boxes one above the other, between the abscissas ``left`` and ``right``, where no other box is."""
 
     left: float
     right: float
@@ -21,7 +21,7 @@ class BoxColumn:
 
 
 def columns_of(boxes: Iterable[Placed | Terminal]) -> list[BoxColumn]:
-    """Return the columns that boxes are in, from left to right."""
+    """Return the columns of boxes from left to right."""
     columns: list[BoxColumn] = []
     for box in sorted(boxes, key=lambda box: box.x):
         if columns and box.x < columns[-1].right:
@@ -33,10 +33,11 @@ def columns_of(boxes: Iterable[Placed | Terminal]) -> list[BoxColumn]:
 
 
 def cut_into_rows(columns: Sequence[BoxColumn], arcs: Sequence[tuple[int, int]]) -> list[range]:
-    """Return the columns of each row: as few rows as `WIDEST` allows, with as many edges as possible inside rows.
+    """Return the columns of each row: the fewest rows that `WIDEST` allows, with as many edges as possible within
+    rows.
 
-    ``arcs`` are the columns that each edge connects. Of equally good cuts the one with rows of the most equal widths
-    is taken. Dynamic programming over the end of each row.
+    ``arcs`` are the columns that each edge connects. Among equal solutions the most uniform widths are chosen. The
+    method is dynamic programming over the ends of rows.
     """
     count = len(columns)
     inside = _edges_inside(count, arcs)
@@ -63,7 +64,7 @@ def cut_into_rows(columns: Sequence[BoxColumn], arcs: Sequence[tuple[int, int]])
 
 
 def _edges_inside(count: int, arcs: Sequence[tuple[int, int]]) -> list[list[int]]:
-    """Return, by [begin][end], the number of edges between columns from begin to before end."""
+    """Return, by [begin][end], the number of edges among the columns begin to end - 1."""
     table = [[0] * (count + 1) for _ in range(count + 1)]
     for arc in arcs:
         table[min(arc)][max(arc) + 1] += 1

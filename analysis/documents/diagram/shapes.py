@@ -1,4 +1,4 @@
-"""The size of blocks and what is written in them, before they are laid out; lengths in px."""
+"""Sizes of blocks and their texts before layout. Lengths are in px."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TERMINAL = 16.0  # height of a system's connector
 
 @dataclass(frozen=True)
 class Label:
-    """A line of text, its unit or remark behind it; ``width`` is that of both."""
+    """A line of text followed by its unit or remark; ``width`` includes both."""
 
     text: str
     remark: str = ""
@@ -38,7 +38,7 @@ class Label:
 
 @dataclass(frozen=True)
 class BlockEntry:
-    """An entry of the list at the foot of a block: a parameter with the ``edge`` that gives it, or a fault."""
+    """An entry in the list at the bottom of a block: a fault, or a parameter with the ``edge`` that sets it."""
 
     text: str
     x: float
@@ -48,7 +48,7 @@ class BlockEntry:
 
 @dataclass
 class Shape:
-    """The smallest size of a block, and its text. ``foot`` is the height of its list."""
+    """The smallest size of a block, and its texts. ``foot`` is the height of its list."""
 
     width: float
     height: float
@@ -58,12 +58,12 @@ class Shape:
 
 
 def plain(text: str, longest: int = LONGEST) -> str:
-    """Return a name as it is drawn: on one line, without marks that turn the writing, and not too long."""
+    """Return a name to draw: on one line, without direction marks, shortened if long."""
     return shorten(on_one_line(visible(text)), longest)
 
 
 def shape_of(block: DiagramBlock, notes: dict[PortKey, str]) -> Shape:
-    """Return the shape of a component; ``notes`` are the remarks on what enters a port."""
+    """Return the shape of a component; ``notes`` are the remarks on values that enter a port."""
     labels = {key: port_label(key, port, notes.get(key, "")) for key, port in block.visible_ports().items()}
     widths = {side: max((labels[key].width for key in labels if key.side is side), default=0.0) for side in Side}
     both = sum(widths.values()) + (GAP if all(widths.values()) else 0.0)
@@ -79,18 +79,18 @@ def shape_of(block: DiagramBlock, notes: dict[PortKey, str]) -> Shape:
 
 
 def port_label(key: PortKey, port: DiagramPort, note: str) -> Label:
-    """Return the label of a port: its unit where values leave or nothing is connected, else what happens to them."""
+    """Return the label of a port: its unit if it is an output or unconnected, else the conversion of its input."""
     has_unit = key.side is Side.OUT or not port.is_connected
     return Label(plain(port.label), plain(note or (declared_unit(port.unit) if has_unit else "")))
 
 
 def fault_text(fault: str) -> str:
-    """Return a fault as its block shows it."""
+    """Return a fault as its block displays it."""
     return plain(f"fault: {fault}", 2 * LONGEST)
 
 
 def parameter_text(edge: Edge) -> str:
-    """Return a parameter that another one gives: its name, and the other's where it differs."""
+    """Return a parameter set by another one: its name, and the other's if different."""
     source, target = (
         key.name.removesuffix("[]") + elements
         for key, elements in zip((edge.source, edge.target), edge.elements, strict=True)
@@ -100,7 +100,7 @@ def parameter_text(edge: Edge) -> str:
 
 
 def _items(block: DiagramBlock, width: float) -> Iterable[BlockEntry]:
-    """Return faults, a line each, then parameters, as many in a line as fit."""
+    """Return faults, a line each, then parameters, as many per line as fit."""
     line = -1
     for fault in block.faults:
         line += 1

@@ -1,4 +1,4 @@
-"""Lines of one port drawn once where they run together: drawn twice they would look bolder than others."""
+"""Removal of duplicate strokes where lines of one port coincide, which would look bolder."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .placement import Point, Segment
 
 
 def uncovered(points: Sequence[Point], earlier: Iterable[Segment]) -> list[list[Point]]:
-    """Return the stretches of an orthogonal line that no segment of an earlier line covers, each as its corners."""
+    """Return the stretches of an orthogonal line that no segment of earlier lines covers, each as its corners."""
     known = list(earlier)
     stretches: list[list[Point]] = []
     for segment in pairwise(points):

@@ -1,1 +1,1 @@
-"""The figures that a system asks for of its run, drawn."""
+"""Figures that a system declares for its runs."""

@@ -1,4 +1,4 @@
-"""The figures that a system can declare, and what they consist of: signals, selections of samples, a title."""
+"""Figures that a system can declare, and their elements: signals, selections of samples, titles."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from ..common.round_body import downrange
 
 @dataclass(frozen=True)
 class Signal:
-    """A Real or Integer scalar, or a vector of them, in the unit of a figure.
+    """A Real or Integer scalar, or a vector of such, in the unit of a figure.
 
-    ``label`` is its name on pages, ``names`` those of its elements in the record. A recorded value x of element k
-    stands for ``factor`` * x + ``offsets[k]`` in ``unit``, None where there is none.
+    ``label`` is its name on pages, ``names`` are the recorded names of its elements. A recorded value x of element k is
+    ``factor`` * x + ``offsets[k]`` in ``unit`` (None: without unit).
     """
 
     label: str
@@ -28,12 +28,12 @@ class Signal:
     offsets: tuple[float, ...]
 
     def values(self, flight: Flight) -> np.ndarray:
-        """Return values in ``unit``, [elements, samples]; nan and infinite values unchanged."""
+        """Return values in ``unit``, [elements, samples], including non-finite ones."""
         recorded = np.stack([flight[name] for name in self.names])
         return self.factor * recorded + np.array(self.offsets)[:, None]
 
     def plot_values(self, flight: Flight) -> np.ndarray:
-        """Return values to be plotted: angles in deg, nan where not finite."""
+        """Return values to plot: angles in deg, NaN where not finite."""
         values = self.values(flight)
         return np.where(np.isfinite(values), values, np.nan) * display_factor(self.unit_name)
 
@@ -44,7 +44,7 @@ class Signal:
 
 @dataclass(frozen=True)
 class Arc:
-    """Downrange of a ``position`` from the origin of its frame, see common/round_body.py.
+    """Downrange distance of a ``position`` from the origin of its frame; see common/round_body.py.
 
     The origin is on a sphere of ``radius`` (m) around (0, 0, -radius); the position has three elements in m.
     """
@@ -61,13 +61,13 @@ class Arc:
         return "m"
 
     def plot_values(self, flight: Flight) -> np.ndarray:
-        """Return values to be plotted, in m, as of a scalar; nan where not finite."""
+        """Return values to plot, in m, [1, samples]; NaN where not finite."""
         return downrange(self.position.plot_values(flight), self.radius)[None]
 
 
 @dataclass(frozen=True)
 class GroupDeclaration:
-    """Figures under a common heading, its ``title``; a page shows them at once, or folded until they are opened."""
+    """Figures under a common heading ``title``, which a page shows immediately or folded."""
 
     title: str
     is_folded: bool
@@ -75,9 +75,9 @@ class GroupDeclaration:
 
 @dataclass(frozen=True)
 class FigureDeclaration:
-    """The ``title`` of a figure, and ``notes`` on signals that are left out since a substituted FMU lacks them.
+    """The ``title`` of a figure, and ``notes`` on signals omitted because a substituted FMU lacks them.
 
-    ``group`` is None for those that stand under the system's name.
+    ``group`` is None for figures under the system's name.
     """
 
     title: str
@@ -87,14 +87,14 @@ class FigureDeclaration:
 
 @dataclass(frozen=True)
 class SampleRange:
-    """The samples in which a scalar is from ``low`` to ``high``, in its own unit; None for no limit."""
+    """The samples in which a scalar is between ``low`` and ``high`` (None: no limit) in its unit."""
 
     signal: Signal
     low: float | None
     high: float | None
 
     def select(self, flight: Flight) -> np.ndarray:
-        """Return True for each selected sample."""
+        """Return True for each selected sample, [samples]."""
         values = self.signal.values(flight)[0]
         low, high = (-np.inf if self.low is None else self.low), (np.inf if self.high is None else self.high)
         return (values >= low) & (values <= high)
@@ -102,9 +102,9 @@ class SampleRange:
 
 @dataclass(frozen=True)
 class UnavailableFigure(FigureDeclaration):
-    """A declared figure that cannot be plotted, since a substituted FMU lacks a signal of it.
+    """A declared figure that cannot be plotted because a substituted FMU lacks one of its signals.
 
-    ``has_limits`` is true of `LimitsFigure`, which are then not evaluated.
+    ``has_limits`` is True for a `LimitsFigure`, whose limits are then not evaluated.
     """
 
     has_limits: bool = False
@@ -112,11 +112,11 @@ class UnavailableFigure(FigureDeclaration):
 
 @dataclass(frozen=True)
 class BandFigure(FigureDeclaration):
-    """A signal with a tolerance band from ``low`` to ``high`` in its unit, None for no limit.
+    """A signal with a tolerance band from ``low`` to ``high`` (None: no limit) in its unit.
 
-    ``name`` describes a signal within the band: "settled". ``about`` are the constants that were subtracted, in the
-    signal's unit, if any; ``less`` is a signal that is subtracted. ``labels`` name the elements of a vector. Times
-    with ``shade`` below ``shade_below`` are shaded; the signal is also plotted against each of ``against``.
+    ``name`` describes a signal within the band: "settled". ``about`` are constants already subtracted, in the signal's
+    unit, if any; ``less`` is a signal to subtract. ``labels`` name the elements of a vector. Times at which ``shade``
+    is below ``shade_below`` are shaded; the signal is also plotted against each signal in ``against``.
     """
 
     signal: Signal
@@ -131,30 +131,30 @@ class BandFigure(FigureDeclaration):
     against: tuple[Signal, ...] = ()
 
     def values(self, flight: Flight) -> np.ndarray:
-        """Return values to be compared with the band, in the signal's unit, [elements, samples]."""
+        """Return the values to compare with the band, in the signal's unit, [elements, samples]."""
         values = self.signal.values(flight)
         return values if self.less is None else values - self.less.values(flight)
 
     @property
     def line_names(self) -> tuple[str, ...]:
-        """The names of the elements of what is plotted: a scalar is the signal unless something is subtracted."""
+        """The names of the plotted elements; a scalar has the signal's name unless something is subtracted."""
         if len(self.labels) > 1:
             return self.labels
         is_signal = self.less is None and not any(self.signal.offsets)
         return (self.signal.label if is_signal else f"{self.title} {self.labels[0]}".rstrip(),)
 
     def plot_values(self, flight: Flight) -> np.ndarray:
-        """Return the values to be plotted: angles in deg, nan where not finite."""
+        """Return the values to plot: angles in deg, NaN where not finite."""
         values = self.values(flight)
         return np.where(np.isfinite(values), values, np.nan) * display_factor(self.signal.unit_name)
 
 
 @dataclass(frozen=True)
 class PulsesFigure(FigureDeclaration):
-    """Pulses of jets: signed ``lengths`` (s), one for each axis, which start at a sample and act after it.
+    """Pulses of jets: signed ``lengths`` (s), one per axis; a pulse starts at its sample.
 
-    A change of ``count`` signals new pulses; None: every sample has new pulses. ``remainder`` (s, one for each axis) is
-    demanded and not fired, ``total`` the thruster on-time so far.
+    A change of ``count`` signals new pulses; if it is None, every sample has new ones. ``remainder`` (s, one per axis)
+    is the impulse demanded but not fired, ``total`` the thruster on-time so far.
     """
 
     lengths: Signal
@@ -166,9 +166,10 @@ class PulsesFigure(FigureDeclaration):
 
 @dataclass(frozen=True)
 class ErrorFigure(FigureDeclaration):
-    """An estimate less the truth, with the standard deviation that the estimator states, all in one unit.
+    """An estimate minus the truth, with the standard deviation that the estimator reports, all in one unit.
 
-    Where ``sigma`` is 0 it is not evaluated. Fractions of time within it count from ``after`` (s); None: the start.
+    The error is not evaluated where ``sigma`` is 0. Fractions of time within sigma count from ``after`` (s; None: the
+    start).
     """
 
     estimate: Signal
@@ -181,9 +182,9 @@ class ErrorFigure(FigureDeclaration):
 
 @dataclass(frozen=True)
 class CurveFigure(FigureDeclaration):
-    """Scalars of one unit over time, each in its own panel or all ``together``, with their ``labels``.
+    """Scalars of one unit over time with their ``labels``, each in a separate panel or all ``together``.
 
-    ``low`` and ``high`` in their unit are plotted as lines, None for none.
+    ``low`` and ``high`` (None: none) are drawn as lines.
     """
 
     signals: tuple[Signal, ...]
@@ -196,7 +197,7 @@ class CurveFigure(FigureDeclaration):
 
 @dataclass(frozen=True)
 class PathPoint:
-    """A position given by two scalars, in the units of the path."""
+    """A position of two scalars, in the units of the path."""
 
     x: Signal
     y: Signal
@@ -205,7 +206,7 @@ class PathPoint:
 
 @dataclass(frozen=True)
 class PathFigure(FigureDeclaration):
-    """A scalar over another one or an arc; ``equal``: with equal scales. ``points`` are further positions."""
+    """A scalar over another one or an arc, with ``equal`` to equal scales; ``points`` are further positions."""
 
     x: Signal | Arc
     y: Signal
@@ -224,10 +225,10 @@ MEASURES: Mapping[str, Callable[[np.ndarray], float]] = {
 
 @dataclass(frozen=True)
 class SequencerPhase:
-    """The name of a sequencer's ``value``.
+    """The name of a sequencer's phase with this ``value``.
 
-    Phases with the same value follow each other; each but the last ends at the first sample in which its ``until`` is
-    not 0.
+    Consecutive phases may have the same value; each but the last then ends at the first sample at which its ``until``
+    is not 0.
     """
 
     value: int
@@ -237,11 +238,11 @@ class SequencerPhase:
 
 @dataclass(frozen=True)
 class PhasesFigure(FigureDeclaration):
-    """The phases given by an Integer ``signal``.
+    """The phases identified by an Integer ``signal``.
 
-    The consumption of a phase is the decrease of ``spent`` over it. ``status`` is an Integer whose first rises are
-    marked; or the elements of ``status_times`` (s) are the times at which statuses 1, 2 ... first occurred, below 0 for
-    never. ``meanings`` are the texts of statuses.
+    The consumption of a phase is the decrease of ``spent`` during it. ``status`` is an Integer whose first occurrences
+    of higher values are marked; alternatively the elements of ``status_times`` (s) are the times at which statuses 1,
+    2, ... first occurred, negative for never. ``meanings`` are the texts of statuses.
     """
 
     signal: Signal
@@ -254,10 +255,10 @@ class PhasesFigure(FigureDeclaration):
 
 @dataclass(frozen=True)
 class Limit:
-    """The permitted range of a final value: from ``least`` to ``most`` in its unit, None for no limit.
+    """The permitted range of a final value: ``least`` to ``most`` (None: no limit) in its unit.
 
-    The value is the ``signal``, or the ``measure`` of a vector. ``less`` is a signal that is subtracted first, element
-    by element; constants that are subtracted are in the signal's offsets.
+    The value is the ``signal``, or the ``measure`` of a vector. ``less`` is a signal that is first subtracted element
+    by element; constants to subtract are in the signal's offsets.
     """
 
     signal: Signal
@@ -268,7 +269,7 @@ class Limit:
     measure: str | None = None
 
     def value(self, flight: Flight) -> float:
-        """Return the value at the last sample of a flight that has one."""
+        """Return the value at the last sample of a run with samples."""
         last = self.signal.values(flight)[:, -1]
         if self.less is not None:
             last = last - self.less.values(flight)[:, -1]
@@ -283,7 +284,7 @@ class LimitsFigure(FigureDeclaration):
     when: Signal | None = None
 
     def obstacle(self, flight: Flight) -> str:
-        """Return the reason why the limits of a flight cannot be evaluated; empty where they can."""
+        """Return the reason why the limits of a run cannot be evaluated; empty if they can."""
         if not flight.complete:
             return f"the flight did not reach its end: {flight.status}"
         if self.when is not None and not self.when.values(flight)[0, -1]:
@@ -294,9 +295,10 @@ class LimitsFigure(FigureDeclaration):
 
 @dataclass(frozen=True)
 class BoundValues:
-    """Lower bounds of propellant (kg) by ``names``: of single-burn braking and landing, `LANDING`, and of its parts.
+    """Lower bounds on propellant (kg) by ``names``: of single-burn braking and landing, `LANDING`, and of its
+    phases.
 
-    Where there are no ``values``, ``missing`` says why, and what to do.
+    Without ``values``, ``missing`` states the reason and a remedy.
     """
 
     names: tuple[str, ...]
@@ -306,7 +308,9 @@ class BoundValues:
 
 @dataclass(frozen=True)
 class BudgetItem:
-    """A row of a budget: the consumption of ``phases``, ``plus`` and ``minus`` values of the bound."""
+    """A row of a budget: the consumption of ``phases``, with the bound's values ``plus`` added and ``minus``
+    subtracted.
+    """
 
     name: str
     phases: tuple[str, ...]
@@ -316,7 +320,7 @@ class BudgetItem:
 
 @dataclass(frozen=True)
 class BudgetFigure(FigureDeclaration):
-    """Consumption item by item; ``of`` are the phases that the items name."""
+    """Consumption by item; ``of`` are the phases that the items refer to."""
 
     of: PhasesFigure
     items: tuple[BudgetItem, ...]

@@ -1,4 +1,4 @@
-"""Read figures of signals over time, or over one another, from elements of the annotation."""
+"""Readers of figures of signals over time, or over one another, from elements of the annotation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Read the figures that a system declares: the `org.perilune.report` annotation of its SSD."""
+"""Reader of the figures that a system declares in the `org.perilune.report` annotation of its SSD."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ READERS: Mapping[str, Callable[[SignalReader, etree._Element], FigureDeclaration
 def read_figures(prepared: PreparedSystem) -> list[FigureDeclaration]:
     """Read the figures of the SSD in their order. Raises InputError with the line.
 
-    Where an FMU substituted by ``use`` lacks a signal, its figure is an `UnavailableFigure`, or leaves out an optional
+    If an FMU substituted by ``use`` lacks a signal, its figure becomes an `UnavailableFigure`, or omits an optional
     signal.
     """
     annotation = prepared.network.description.annotations.get(ANNOTATION)
@@ -54,7 +54,7 @@ def read_figures(prepared: PreparedSystem) -> list[FigureDeclaration]:
 
 
 def _elements(reader: SignalReader, report: etree._Element) -> Iterator[tuple[etree._Element, GroupDeclaration | None]]:
-    """Yield the elements of figures in their order, each with its group."""
+    """Yield the elements of figures in order, each with its group."""
     reader.parts(report, (*READERS, BUDGET, GROUP))
     for element in report.iterchildren(etree.Element):
         if tag(element) != GROUP:

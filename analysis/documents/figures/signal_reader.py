@@ -1,4 +1,4 @@
-"""Read signals, units and names of a figure, checked against the prepared system."""
+"""Reader of a figure's signals, units and names, checked against the prepared system."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class MissingSignalError(Exception):
 
 
 class SignalReader(AnnotationReader):
-    """Common reader of the elements of all figures; ``notes`` belong to the figure being read."""
+    """Reader common to the elements of all figures; ``notes`` belong to the current figure."""
 
     def __init__(self, prepared: PreparedSystem) -> None:
         super().__init__(prepared.network.file)
@@ -41,18 +41,18 @@ class SignalReader(AnnotationReader):
         return element.get("title", "").strip() or otherwise
 
     def truth(self, element: etree._Element, attribute: str) -> bool:
-        """Read a Boolean attribute, false if it is missing."""
+        """Read a Boolean attribute; the default is false."""
         text = element.get(attribute, "false").strip()
         if text not in TRUTHS:
             raise self.refuse(element, f"{attribute} {text!r} is neither true nor false", "write one of them")
         return TRUTHS[text]
 
     def parameter(self, element: etree._Element, attribute: str) -> float:
-        """Return the value that the parameter of an attribute has in this system, in its FMU's unit."""
+        """Return the value of the parameter named by an attribute, in the unit of its FMU."""
         return self.parameter_value(element, attribute, element.get(attribute, "").strip())
 
     def parameter_value(self, element: etree._Element, attribute: str, name: str) -> float:
-        """Return the value of a parameter by its name, of one element where it is a vector's."""
+        """Return the value of a parameter, or of an element of a vector, by name."""
         component, variable = split_name(name, self.network.fmus)
         fmu = self.network.fmus.get(component)
         if fmu is None or variable not in fmu.variables or fmu.variables[variable].causality != "parameter":
@@ -70,7 +70,7 @@ class SignalReader(AnnotationReader):
         return int(value)
 
     def words(self, element: etree._Element, attribute: str) -> tuple[str, ...]:
-        """Read the names of an attribute, separated by commas, none of them empty or repeated."""
+        """Read the comma-separated names of an attribute; empty and repeated names are rejected."""
         names = (
             tuple(token.strip() for token in element.get(attribute, "").split(","))
             if attribute in element.attrib
@@ -83,14 +83,14 @@ class SignalReader(AnnotationReader):
         return names
 
     def limits(self, element: etree._Element, low: str, high: str) -> tuple[float | None, float | None]:
-        """Read two attributes that bound something, of which either may be missing."""
+        """Read two attributes that are optional limits."""
         minimum, maximum = self.number(element, low), self.number(element, high)
         if minimum is not None and maximum is not None and not minimum < maximum:
             raise self.refuse(element, f"{low} {minimum:g} is not below {high} {maximum:g}", "swap them")
         return minimum, maximum
 
     def rows(self, element: etree._Element) -> SampleRange | None:
-        """Read the samples of a figure, from the attributes `ROWS`; None for all."""
+        """Read the selection of a figure's samples from the attributes `ROWS`; None for all."""
         if "where" not in element.attrib:
             for name in ROWS[1:]:
                 if name in element.attrib:
@@ -104,7 +104,9 @@ class SignalReader(AnnotationReader):
         return SampleRange(self.scalar(element, "where"), low, high)
 
     def labels(self, element: etree._Element, signal: Signal) -> tuple[str, ...]:
-        """Return the names of a vector's elements: of the figure or its frame, else indices; empty for a scalar."""
+        """Return the labels of a vector's elements: names from the figure or its frame, else indices; empty for a
+        scalar.
+        """
         labels = tuple(element.get("labels", "").split())
         if not labels and self.displayed(signal.names[0]) == signal.label:
             return ("",)
@@ -115,17 +117,17 @@ class SignalReader(AnnotationReader):
         return labels
 
     def check_size(self, element: etree._Element, problem: str, size: int, signal: Signal) -> None:
-        """Raise an error unless ``size`` is the number of elements of a signal."""
+        """Check that a signal has ``size`` elements. Raises InputError."""
         if size != len(signal.names):
             problem = f"{problem}, {signal.label} has {len(signal.names)} elements"
             raise self.unfit(element, signal.label, problem, "give as many")
 
     def displayed(self, name: str) -> str:
-        """Return a signal's name as figures show it."""
+        """Return a signal's name as displayed in figures."""
         return displayed_name(name, self.network.axes)
 
     def optional(self, element: etree._Element, attribute: str, read: Callable[[str], Signal]) -> Signal | None:
-        """Read an optional signal; None with a note where a substituted FMU lacks it."""
+        """Read an optional signal; None, with a note, if a substituted FMU lacks it."""
         if attribute not in element.attrib:
             return None
         try:
@@ -135,7 +137,7 @@ class SignalReader(AnnotationReader):
             return None
 
     def find_signal(self, element: etree._Element, attribute: str, name: str) -> Signal:
-        """Find one scalar of several in an attribute."""
+        """Read one scalar among several named by an attribute."""
         if name not in self.types or self.types[name] not in NUMBERS:
             raise self.unfit(element, name, f"{attribute} {name}: no such scalar", suggestion(name, self.types))
         return Signal(self.displayed(name), (name,), self.network.unit_of(name), 1.0, (0.0,))
@@ -165,7 +167,7 @@ class SignalReader(AnnotationReader):
     ) -> Signal:
         """Read the recorded signal named by an attribute, in its own unit or in ``unit``.
 
-        With ``like`` it must have as many elements as that signal, and gets its unit.
+        With ``like`` it must have as many elements as that signal, and is converted to its unit.
         """
         name = element.get(attribute, "").strip()
         what = f"{attribute} {name}"
@@ -184,7 +186,7 @@ class SignalReader(AnnotationReader):
         return signal if unit is None and like is None else self.convert_limits(element, what, signal, unit)
 
     def about(self, element: etree._Element, signal: Signal) -> Signal:
-        """Return a signal minus the numbers of the attribute ``about``, which are in its own unit."""
+        """Return a signal minus the numbers of the attribute ``about``, which are in the signal's unit."""
         numbers = self.numbers(element, "about")
         if not numbers:
             return signal
@@ -192,7 +194,9 @@ class SignalReader(AnnotationReader):
         return replace(signal, offsets=tuple(-signal.factor * value for value in numbers))
 
     def less(self, element: etree._Element, signal: Signal) -> tuple[Signal, Signal | None]:
-        """Read the signal of the attribute ``less``; parameters go into the offsets of the first signal instead."""
+        """Read the signal of the attribute ``less``; a parameter is subtracted in the offsets of the first signal
+        instead.
+        """
         name = element.get("less", "").strip()
         component, variable = split_name(name, self.network.fmus)
         fmu = self.network.fmus.get(component)
@@ -220,14 +224,14 @@ class SignalReader(AnnotationReader):
         return Signal(signal.label, signal.names, unit, factor, (offset,) * len(signal.names))
 
     def unfit(self, element: etree._Element, name: str, problem: str, remedy: str) -> Exception:
-        """Return the error for a signal: an input error, unless its FMU was substituted."""
+        """Return the error for a signal: MissingSignalError if its FMU was substituted, else InputError."""
         component, _ = split_name(name, self.network.fmus)
         if component in self.substituted:
             return MissingSignalError(f"{problem}, with {self.network.fmus[component].name} as {component}")
         return self.refuse(element, problem, remedy)
 
     def unit(self, element: etree._Element, name: str, signal: str) -> Unit:
-        """Return a unit by its name, of the SSD or of the signal's FMU."""
+        """Return a unit by name, from the SSD or the signal's FMU."""
         component, _ = split_name(signal, self.network.fmus)
         known = self.network.fmus[component].units if component else {}
         known = known | self.network.description.units

@@ -1,4 +1,4 @@
-"""Read figures of a flight with phases, limits and budgets, from elements of the annotation."""
+"""Readers of figures of phases, limits and budgets, from elements of the annotation."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from .signal_reader import NUMBERS, MissingSignalError, SignalReader
 
 
 def bound_values(prepared: PreparedSystem) -> BoundValues | None:
-    """Return the stored bound of a system and its values, or None where its SSD declares none. Raises InputError."""
+    """Return the stored bound of a system and its values; None if its SSD declares none. Raises InputError."""
     inputs, bound = read_inputs(prepared), find_bound(prepared)
     if inputs is None or bound is None:
         return None
@@ -129,7 +129,7 @@ def _limit(reader: SignalReader, element: etree._Element) -> Limit:
 
 
 def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[FigureDeclaration]) -> BudgetFigure:
-    """Read a budget of the phases that are declared before it."""
+    """Read a budget of phases that are declared before it."""
     reader.attributes(element, (), ("title",))
     declared = [item for item in element.itersiblings(preceding=True) if tag(item) == "Phases"]
     if len(declared) != 1:

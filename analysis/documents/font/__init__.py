@@ -1,1 +1,1 @@
-"""The font of figures: how wide its text is."""
+"""Font metrics for the width of text in figures."""

@@ -1,4 +1,4 @@
-"""Width of text in DejaVu Sans by its metrics, as in the figures of a page."""
+"""Width of text in DejaVu Sans, the font of figures, from its metrics."""
 
 from __future__ import annotations
 
@@ -20,25 +20,27 @@ Advances = dict[str, list[int]]  # by the code of the first of consecutive chara
 
 @cache
 def _advances(weight: str) -> dict[int, int]:
-    """Return the widths of characters by their code, in units of the font."""
+    """Return the advance widths of characters by code, in font units."""
     table: dict[str, Advances] = json.loads(TABLE.read_text(encoding="utf-8"))
     return {int(first) + step: width for first, widths in table[weight].items() for step, width in enumerate(widths)}
 
 
 def _advance(character: str, is_bold: bool) -> int:
-    """Return the width of a character in units of the font; one that the table lacks is as wide as it is high."""
+    """Return the advance width of a character in font units; one missing from the table is as wide as the font is
+    high.
+    """
     if unicodedata.category(character) in ZERO_WIDTH:
         return 0
     return _advances("bold" if is_bold else "regular").get(ord(character), EM)
 
 
 def text_width(text: str, size: float, *, is_bold: bool = False) -> float:
-    """Return the width of a line in the unit of ``size``."""
+    """Return the width of a line of text in the unit of ``size``."""
     return sum(_advance(character, is_bold) for character in text) * size / EM
 
 
 def shorten(text: str, longest: int) -> str:
-    """Shorten a text to at most ``longest`` characters, with an ellipsis for those in the middle."""
+    """Shorten a text to at most ``longest`` characters by an ellipsis in the middle."""
     if len(text) <= longest:
         return text
     end = (longest - 1) // 2

@@ -1,1 +1,1 @@
-"""Contents of a page for its scripts: columns of numbers, charts of its figures, scripts and their policy."""
+"""Content of a page for its scripts: columns of numbers, charts of its figures, scripts and their policy."""

@@ -1,4 +1,4 @@
-"""The scripts of pages, as `build_web.py` bundles them, and the policy under which a browser runs them."""
+"""Scripts of pages, bundled by `build_web.py`, and the policy under which a browser runs them."""
 
 from __future__ import annotations
 
@@ -13,13 +13,15 @@ MISSING = "The scripts of pages are not built (npm was not available): run `make
 
 
 def read_bundle(name: str) -> str | None:
-    """Return the script ``name``, or None where none was built."""
+    """Return the text of the script ``name``, or None if it was not built."""
     path = BUNDLES / f"{name}.js"
     return path.read_text(encoding="utf-8").strip() if path.is_file() else None
 
 
 def policy(scripts: Iterable[str], *, requests: bool = False) -> str:
-    """Return a Content-Security-Policy: these scripts alone, no network; with ``requests`` the page's own server."""
+    """Return a Content-Security-Policy for only these scripts, without network, or with ``requests`` to the page's
+    server.
+    """
     hashes = [base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts]
     sources = " ".join(["'wasm-unsafe-eval'", *(f"'sha256-{each}'" for each in hashes)]) if hashes else "'none'"
     connect = "; connect-src 'self'" if requests else ""

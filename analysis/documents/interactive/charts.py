@@ -1,7 +1,7 @@
-"""A figure as numbers: the form of its axes, lines, areas and notes, from which the page's script draws them again.
+"""Charts as numbers: axes, lines, areas and notes, which the page's script redraws.
 
-Titles, labels of axes and legends are not in it: they remain where the figure's picture has them. Fields with an empty
-default are left out of a page where they are empty, those of `PICTURE` always.
+Titles, axis labels and legends remain in the page's SVG and are not included. A page omits fields that are empty by
+default and empty in a chart, and always those of `PICTURE`.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ PICTURE = {"picture": True}  # the metadata of a field that the picture alone is
 
 @dataclass(frozen=True, kw_only=True)
 class Axis:
-    """An axis: its ends as drawn, the first at the left or the bottom, and its ticks in between with their texts.
+    """An axis: its ends as drawn, the first at the left or bottom, and its ticks with their labels.
 
-    ``label`` is what figures that share an abscissa have in common; ``named`` where texts are no numbers, ``bare``
-    where ticks have none; ``size`` (pt) is that of the texts; ``grid`` and ``marked`` where ticks have lines, strokes;
-    ``few`` are the numbers of those ticks that a figure has up to the width ``narrow`` (px), where it has not all.
+    ``label`` identifies an abscissa shared by figures. ``named`` means that tick labels are not numbers, ``bare`` that
+    there are none; ``size`` (pt) is their text size. ``grid`` and ``marked`` mean that ticks have grid lines and tick
+    marks. ``few`` are the indices of the ticks that a figure shows up to the width ``narrow`` (px), if not all.
     """
 
     label: str = ""
@@ -42,9 +42,9 @@ class Axis:
 
 @dataclass(frozen=True, kw_only=True)
 class Marker:
-    """A mark at points of a line: a circle of diameter ``size`` (pt), or the strokes ``outline`` in units of it.
+    """A mark at points of a line: a circle of diameter ``size`` (pt), or the strokes ``outline`` in multiples of it.
 
-    A stroke is abscissas and ordinates in turn. ``fill`` and ``edge`` are colours, empty where nothing is drawn.
+    A stroke is a sequence x, y, x, y, ...; ``fill`` and ``edge`` are colours, empty for none.
     """
 
     size: float
@@ -56,10 +56,11 @@ class Marker:
 
 @dataclass(frozen=True, kw_only=True)
 class Curve:
-    """A line; ``signal`` where its ``name`` is not that of the signal; ``time`` (s) where its abscissa is another
-    quantity; ``reduced`` where it is the envelope of its rows;
-    ``metric`` where it is the distribution of that over the trials of a variant; ``beyond`` where marks reach beyond
-    the area of the axes.
+    """A line through ``x`` and ``factor`` * ``y``.
+
+    ``signal`` is stated if it differs from ``name``, ``time`` (s) if the abscissa is another quantity, ``metric`` if
+    the line is its distribution over the trials of a variant. ``reduced`` means that the line is an envelope,
+    ``beyond`` that marks are not clipped at the axes.
     """
 
     x: np.ndarray
@@ -89,7 +90,7 @@ class Curve:
 
 @dataclass(frozen=True, kw_only=True)
 class Dots:
-    """Marks of trials, `TrialDots`; ``cross`` or a filled circle."""
+    """Marks of the successful or the failed trials of a variant, as a ``cross`` or a filled circle."""
 
     variant: str
     names: tuple[str, str]
@@ -101,7 +102,7 @@ class Dots:
 
 @dataclass(frozen=True)
 class Area:
-    """A filled polygon, or strokes from each second point to the next; a coordinate is of the data or of the axes."""
+    """A filled polygon, or strokes between points 1 and 2, 3 and 4, ...; coordinates are of the data or of the axes."""
 
     x: np.ndarray
     y: np.ndarray
@@ -114,7 +115,7 @@ class Area:
 
 @dataclass(frozen=True, kw_only=True)
 class Rule:
-    """A straight line across the axes, at ``at`` of the abscissa (``upright``) or of the ordinate."""
+    """A straight line across the axes at ``at``, an abscissa if ``upright``, else an ordinate."""
 
     at: float
     upright: bool = False
@@ -125,7 +126,7 @@ class Rule:
 
 @dataclass(frozen=True)
 class Backing:
-    """The background of a text: a rectangle that is larger by ``margin`` (pt) on each side."""
+    """The background of a text: a rectangle that extends beyond it by ``margin`` (pt)."""
 
     colour: str
     opacity: float
@@ -134,7 +135,7 @@ class Backing:
 
 @dataclass(frozen=True)
 class ChartNote:
-    """A text at a point, each coordinate of the data or of the axes, ``offset`` (pt) from it to the right and up."""
+    """A text at a point with coordinates of the data or of the axes, ``offset`` (pt) to the right and up."""
 
     text: str
     at: tuple[float, float]
@@ -149,9 +150,10 @@ class ChartNote:
 
 @dataclass(frozen=True)
 class Fluid:
-    """A figure of any width: its axes keep their distances (px) from its left, top, right and bottom.
+    """Margins of a figure of variable width: distances (px) of its axes from its left, top, right and bottom.
 
-    ``point``: px of a pt. ``to_scale``: its height follows its width, so that the axes keep the ratio of their lengths.
+    ``point`` is the size of a pt in px. With ``to_scale`` the height follows the width, so the aspect ratio is
+    constant.
     """
 
     margins: tuple[float, float, float, float]
@@ -164,11 +166,11 @@ NO_BOX = (0.0, 0.0, 0.0, 0.0)  # of a chart that has not been laid out
 
 @dataclass(frozen=True)
 class Chart:
-    """A pair of axes; ``box`` is left, top, width and height of their area as fractions of the figure.
+    """A pair of axes with their content.
 
-    With ``fluid`` margins they are those of a figure as wide as on a wide screen. The ``title`` stands above the axes.
-
-    A ``picture`` is one of a figure that is not stated in full: the page's script marks the cursor in it.
+    ``box`` is the plotting area as left, top, width and height, in fractions of the figure; with ``fluid`` margins it
+    applies to a figure on a wide screen. ``title`` is above the axes. A chart that is a ``picture`` has no data for the
+    page's script, which only marks the cursor in it.
     """
 
     box: tuple[float, float, float, float] = field(metadata=PICTURE)
@@ -185,7 +187,7 @@ class Chart:
 
 
 class Drawing(NamedTuple):
-    """A figure as an <svg> element, and what it shows as data; ``below`` is one below it over the same abscissa."""
+    """A figure as an <svg> element and as data; ``below`` is a second figure over the same abscissa."""
 
     svg: Markup
     charts: list[Chart]

@@ -1,9 +1,9 @@
-"""Columns of numbers inside a page, small enough to be mailed.
+"""Columns of numbers inside a page, compact enough for e-mail.
 
-A column is float32; or, where a figure needs no more, 16 bits over its range: linear, or where that spans decades
-through asinh, which is linear below a knee and logarithmic above it. Rows of a simulation continue those
-before them, so second differences of the numbers, taken as integers in the order of their bits, are small, and their
-bytes, grouped by significance, deflate well. web/page/columns.ts is the inverse.
+A column is float32; or, for figures that need no more, 16 bits over its range: linear, or if it spans decades in asinh,
+which is linear below a knee and logarithmic above it. Because consecutive rows of a simulation are similar, second
+differences of the numbers, as integers in the order of their bits, are small; their bytes, grouped by significance,
+deflate well. web/page/columns.ts is the inverse.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ ROUNDING = 5e-4  # of an axis, by which float32 may move a point
 
 
 class Coarse(NamedTuple):
-    """Numbers, [rows], of which 16 bits are enough."""
+    """Numbers, [rows], for which 16 bits are sufficient."""
 
     numbers: np.ndarray
 
 
 class Scale(TypedDict, total=False):
-    """The range of a column in 16 bits; of asinh(x / knee) unless the knee is 0."""
+    """The range of a 16-bit column, in asinh(x / knee) unless the knee is 0."""
 
     low: float
     high: float
@@ -37,13 +37,13 @@ class Scale(TypedDict, total=False):
 
 
 class Encoded(Scale):
-    """A column; without a range its numbers are float32."""
+    """Description of a column; without a range its numbers are float32."""
 
     rows: int
 
 
 class Packed(TypedDict):
-    """The columns of a page; ``packed``: the bytes of exact ones, then of those in 16 bits, one after the other."""
+    """The columns of a page; ``packed`` are the bytes of the float32 columns, then of the 16-bit columns."""
 
     columns: list[Encoded]
     packed: tuple[str, str]
@@ -51,7 +51,7 @@ class Packed(TypedDict):
 
 @dataclass
 class Columns:
-    """The columns of one page, numbered in the order in which they were added."""
+    """The columns of one page, numbered in the order of addition."""
 
     encoded: list[Encoded] = field(default_factory=list)
     _numbers: dict[tuple[bytes, bool], int] = field(default_factory=dict)
@@ -60,7 +60,7 @@ class Columns:
     def add(self, numbers: np.ndarray, *, coarse: bool = False) -> int:
         """Add a column of these numbers, [rows], and return its index; equal columns share one.
 
-        They are rounded to float32, ``coarse``: to 16 bits over their range, where infinite ones become nan.
+        Numbers are rounded to float32, or if ``coarse`` to 16 bits over their range, where infinite ones become NaN.
         """
         with np.errstate(over="ignore"):  # beyond float32 is infinite, which no figure has
             column = np.ascontiguousarray(numbers, dtype="<f4")
@@ -72,26 +72,26 @@ class Columns:
         return index
 
     def document(self) -> Packed:
-        """Return what describes the columns, and these as base64 of their deflated bytes."""
+        """Return the descriptions of the columns, and their deflated bytes in base64."""
         exact, coarse = (base64.b64encode(zlib.compress(each, LEVEL)).decode("ascii") for each in self._bytes)
         return {"columns": self.encoded, "packed": (exact, coarse)}
 
 
 def has_enough_digits(ends: tuple[float, float], numbers: np.ndarray) -> bool:
-    """Return True if numbers between the ends of a linear axis keep their places once they are float32."""
+    """Return True if float32 resolves the numbers between the ends of a linear axis."""
     inside = numbers[(numbers >= min(ends)) & (numbers <= max(ends))]
     rounded = np.abs(inside - inside.astype(np.float32))
     return not np.any(rounded > ROUNDING * abs(ends[1] - ends[0]))
 
 
 def _ordered(column: np.ndarray) -> np.ndarray:
-    """Return float32 as uint32 of the same order, so that neighbours have neighbouring numbers."""
+    """Return float32 numbers as uint32 integers of the same order, so close numbers are close integers."""
     bits = column.view("<u4")
     return np.where(bits >> 31 == 1, ~bits, bits | np.uint32(1 << 31))
 
 
 def _coarse(column: np.ndarray) -> tuple[Scale, np.ndarray]:
-    """Return the range of a column, and its steps in it as integers."""
+    """Return the range of a column, and its numbers as integer steps within it."""
     finite = column[np.isfinite(column)].astype(float)
     knee = knee_of(finite, float(np.abs(finite).max(initial=0.0)))
     bent = np.arcsinh(finite / knee) if knee else finite
@@ -102,7 +102,7 @@ def _coarse(column: np.ndarray) -> tuple[Scale, np.ndarray]:
 
 
 def knee_of(finite: np.ndarray, greatest: float) -> float:
-    """Return the magnitude below which a range of such numbers is linear; 0 if it is up to the ``greatest``."""
+    """Return the magnitude below which the scale of these numbers is linear; 0 if it is linear up to ``greatest``."""
     sizes = np.abs(finite[finite != 0.0])
     rank = int(SMALL * sizes.size)
     small = float(np.partition(sizes, rank)[rank]) if sizes.size else greatest
@@ -110,7 +110,7 @@ def knee_of(finite: np.ndarray, greatest: float) -> float:
 
 
 def _planes(numbers: np.ndarray) -> bytes:
-    """Return the second differences of unsigned integers of one size, their bytes grouped by significance."""
+    """Return the second differences of unsigned integers of one size, with bytes grouped by significance."""
     differences = numbers
     for _ in range(2):
         differences = differences - np.concatenate([np.zeros(1, numbers.dtype), differences[:-1]])[: numbers.size]

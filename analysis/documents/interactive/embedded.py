@@ -1,4 +1,4 @@
-"""Data embedded in a page for its scripts: one JSON document."""
+"""Data embedded in a page for its scripts, as one JSON document."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .columns import Coarse, Columns
 
 
 class Embedded:
-    """Data for the scripts of one page: columns, the charts of its figures, further documents by name."""
+    """Data for the scripts of one page: columns, charts of its figures, further documents by name."""
 
     def __init__(self) -> None:
         self._columns = Columns()
@@ -26,9 +26,9 @@ class Embedded:
         self._requests = False
 
     def add_figure(self, charts: Sequence[Chart]) -> int | None:
-        """Return the number of a figure, by which its element names it.
+        """Add a figure and return its number, which its element refers to.
 
-        None where scripts are missing, or where marks of trials are in it without the document that has their places.
+        None if scripts are missing, or if it has marks of trials without a document of trials.
         """
         if not charts or not self.use("curves"):
             return None
@@ -38,20 +38,22 @@ class Embedded:
         return len(self._figures) - 1
 
     def add_document(self, name: str, bundle: str, document: Any) -> bool:
-        """Add a document that the script ``bundle`` reads; False, and nothing added, where that was not built."""
+        """Add a document that the script ``bundle`` reads; return False, and add nothing, if the script was not
+        built.
+        """
         if not self.use(bundle):
             return False
         self._documents[name] = self._plain(document)
         return True
 
     def use(self, bundle: str) -> bool:
-        """Add a script to the page; return False where it was not built."""
+        """Add a script to the page; return False if it was not built."""
         if bundle not in self._bundles and (text := read_bundle(bundle)) is not None:
             self._bundles[bundle] = text
         return bundle in self._bundles
 
     def allow_requests(self) -> None:
-        """Let the page's scripts ask the server that the page is from."""
+        """Permit requests from the page's scripts to its server."""
         self._requests = True
 
     def policy(self) -> str:
@@ -59,7 +61,7 @@ class Embedded:
         return policy(self._bundles.values(), requests=self._requests)
 
     def elements(self) -> Markup:
-        """Return the document and the scripts as elements for the end of a page, empty where it has none."""
+        """Return the document and the scripts as elements for the end of a page; empty without scripts."""
         if not self._bundles:
             return Markup("")
         document = {**self._columns.document(), "figures": self._figures, **self._documents}
@@ -70,7 +72,7 @@ class Embedded:
         return Markup(content + scripts)
 
     def _plain(self, node: Any) -> Any:
-        """Return a node as JSON: arrays become numbers of columns; empty fields that are `is_optional` are omitted."""
+        """Return a node as JSON: arrays become column numbers; empty fields that are `is_optional` are omitted."""
         if isinstance(node, np.ndarray):
             return self._columns.add(node)
         if isinstance(node, Coarse):
@@ -88,12 +90,12 @@ class Embedded:
 
 
 def page_fields(declared: type) -> list[Field[Any]]:
-    """Return the fields of a dataclass that pages have."""
+    """Return the fields of a dataclass that pages include."""
     return [each for each in fields(declared) if each.metadata != PICTURE]
 
 
 def is_optional(declared: Field[Any]) -> bool:
-    """Return True if a page omits a field of a dataclass where it is empty, as its default is."""
+    """Return True if a field is empty by default, and a page therefore omits it when empty."""
     return _is_empty(declared.default)
 
 

@@ -1,4 +1,4 @@
-"""The envelope of a line of many rows, in few numbers."""
+"""Envelope of a line of many rows."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ SPANS = 1000  # of rows, equally many in each but for one
 
 
 def envelope(x: np.ndarray, y: np.ndarray, spans: int = SPANS) -> tuple[np.ndarray, np.ndarray]:
-    """Return the first abscissa of each span, twice, and its minimum and maximum in turn; nan where none is finite.
+    """Return the envelope of a line: for each span its first abscissa, twice, with minimum and maximum.
 
-    A line of at most two rows a span is its own envelope.
+    The ordinates of a span without finite values are NaN. A line of at most two rows per span is its own envelope.
     """
     if y.size <= 2 * spans:
         return x, y

@@ -1,4 +1,4 @@
-"""Dashes, widths and sizes of text in figures, alike in charts and in what matplotlib draws."""
+"""Dashes, line widths and text sizes common to charts and matplotlib figures."""
 
 DASHES: tuple[tuple[float, ...], ...] = ((), (5.0, 1.6), (1.2, 1.2), (6.0, 1.6, 1.2, 1.6), (9.0, 2.0))  # line widths
 FAILED_DASHES = (4.0, 2.0)  # line widths; of simulations that failed, and of what is expected

@@ -1,1 +1,1 @@
-"""A scene of three dimensions that a system declares."""
+"""Three-dimensional scene that a system declares."""

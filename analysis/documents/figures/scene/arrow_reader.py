@@ -1,4 +1,4 @@
-"""Read an arrow of a scene: its origin, the signal that it follows, the axes of its components, length and colour."""
+"""Reader of a scene's arrow: origin, signal, axes of its components, length and colour."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ ARROW_OPTIONAL = ("frame", "length", "colour")
 def read_arrow(
     reader: SignalReader, element: etree._Element, bodies: Sequence[Body], starts: Mapping[str, bool]
 ) -> Arrow:
-    """Return the arrow; ``starts`` are the names of bodies and sites, true for those that are available.
+    """Return the arrow; ``starts`` maps the names of bodies and sites to True if they are available.
 
-    Raises InputError with the line, and MissingSignalError where a substituted FMU lacks the signal or the site.
+    Raises InputError with the line, and MissingSignalError if a substituted FMU lacks the signal or the site.
     """
     attributes = reader.attributes(element, ARROW_REQUIRED, ARROW_OPTIONAL)
     start, colour = attributes["from"], attributes.get("colour")

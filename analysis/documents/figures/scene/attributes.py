@@ -1,4 +1,4 @@
-"""Attributes of a scene's elements: vectors, signals of a size, and elements that may be left out."""
+"""Attributes of a scene's elements: vectors, signals of a certain size, and optional elements."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Value = TypeVar("Value")
 def read_available(
     reader: SignalReader, children: Sequence[etree._Element], read: Callable[[etree._Element], Value]
 ) -> list[Value]:
-    """Read the available elements of those that a scene can omit, with notes on the others."""
+    """Return the available elements among optional ones; add notes on the others."""
     readable = []
     for item in children:
         try:
@@ -33,7 +33,7 @@ def read_available(
 def read_signal(
     reader: SignalReader, element: etree._Element, attribute: str, size: int, unit: Unit | None = None
 ) -> Signal:
-    """Read the signal of an attribute, of this many elements, in ``unit`` if one is given."""
+    """Read the signal of an attribute with this number of elements, converted to ``unit`` if stated."""
     signal = reader.signal(element, attribute, unit=unit)
     check_length(reader, element, attribute, signal, size)
     return signal
@@ -48,7 +48,7 @@ def check_length(reader: SignalReader, element: etree._Element, attribute: str, 
 def read_vector(
     reader: SignalReader, element: etree._Element, attribute: str, default: Vector = (0.0, 0.0, 0.0)
 ) -> Vector:
-    """Read the three numbers of an attribute, the default where it is missing."""
+    """Read the three numbers of an attribute, or the default."""
     if attribute not in element.attrib:
         return default
     numbers = reader.numbers(element, attribute)
@@ -59,7 +59,7 @@ def read_vector(
 
 
 def read_direction(reader: SignalReader, element: etree._Element, attribute: str) -> Vector:
-    """Read a unit vector along the three numbers of an attribute, the z axis where it is missing."""
+    """Read a unit vector from the three numbers of an attribute; the default is the z axis."""
     vector = read_vector(reader, element, attribute, (0.0, 0.0, 1.0))
     length = math.hypot(*vector)
     if length == 0.0:

@@ -1,4 +1,4 @@
-"""Read a body of a scene: its position and attitude in one of their forms, its thrust and jets."""
+"""Reader of a scene's body: position and attitude in one of their forms, thrust and jets."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def read_body(reader: SignalReader, element: etree._Element, surface: Surface | 
 
 
 def _read_size(reader: SignalReader, element: etree._Element) -> Vector:
-    """Read the extents (m) of a body or a panel, all of them positive."""
+    """Read the positive extents (m) of a body or a panel."""
     size = read_vector(reader, element, "size")
     if not all(extent > 0.0 for extent in size):
         raise reader.refuse(element, f"size {element.get('size')} is not positive", "give three lengths in m")

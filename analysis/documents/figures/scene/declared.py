@@ -1,8 +1,8 @@
 """Elements of a three-dimensional scene: bodies with position and attitude, a ground, sites, jets, lines, arrows.
 
-The frame of a scene is right-handed and that of the signals; its positions are in m. Where positions are longitude,
-latitude and height it is east, north, up at the ground below the last sample. A sphere's centre is at
-(0, 0, -radius) unless declared, a plane is z = 0. An attitude turns body axes to axes of the scene.
+The frame of a scene is right-handed and that of the signals; positions are in m. If positions are longitude, latitude
+and height, the frame is east, north, up at the ground below the last sample. A sphere's centre is by default at (0, 0,
+-radius); a plane is z = 0. An attitude rotates body axes to axes of the scene.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ SHAPES = ("box", "capsule", "cylinder", "lander", "satellite")
 
 @dataclass(frozen=True)
 class Cartesian:
-    """A position by its three coordinates (m)."""
+    """A position by three coordinates (m)."""
 
     signal: Signal
 
 
 @dataclass(frozen=True)
 class Geographic:
-    """A position by longitude and latitude (rad) and its height (m) over the sphere of the scene."""
+    """A position by longitude and latitude (rad) and height (m) above the sphere of the scene."""
 
     longitude: Signal
     latitude: Signal
@@ -38,16 +38,16 @@ class Geographic:
 
 @dataclass(frozen=True)
 class Quaternion:
-    """An attitude by a quaternion from body to scene, scalar first, of any length."""
+    """An attitude by a quaternion from body to scene, scalar first, of any norm."""
 
     signal: Signal
 
 
 @dataclass(frozen=True)
 class Angles:
-    """An attitude by angles (rad): turns from the scene's axes, in this order, about the body's axes of ``sequence``.
+    """An attitude by angles (rad): successive rotations from the scene's axes about the body axes of ``sequence``.
 
-    Each turn is about the axis as the turns before have left it.
+    Each rotation is about the axis as rotated by the previous ones.
     """
 
     signals: tuple[Signal, ...]
@@ -56,7 +56,7 @@ class Angles:
 
 @dataclass(frozen=True)
 class ThrustAxis:
-    """The direction of the body's z axis, of any length; the roll about it is unknown."""
+    """The direction of the body's z axis, a vector of any length; the roll about it is unknown."""
 
     signal: Signal
 
@@ -65,8 +65,9 @@ class ThrustAxis:
 class WindAngles:
     """An attitude relative to the velocity over the ground, by angles (rad).
 
-    Velocity axes: x along the velocity, y upwards in the vertical plane through it, z = x x y. From there bank about
-    x, sideslip about y, angle of attack about z. The heading is from east, counter-clockwise from above.
+    Velocity axes: x along the velocity, y upwards in the vertical plane through it, z = x x y. They are rotated by bank
+    about x, sideslip about y, angle of attack about z. The heading is from east, counter-clockwise as viewed from
+    above.
     """
 
     bank: Signal
@@ -82,7 +83,7 @@ Attitude = Quaternion | Angles | ThrustAxis | WindAngles
 
 @dataclass(frozen=True)
 class Thrust:
-    """A force, ``signal``, ``along`` a unit vector of the body at the point ``at`` (m, body)."""
+    """A force of magnitude ``signal`` along the body's unit vector ``along`` at the point ``at`` (m, body axes)."""
 
     signal: Signal
     at: Vector
@@ -91,10 +92,11 @@ class Thrust:
 
 @dataclass(frozen=True)
 class Jets:
-    """Jets at points ``at`` (m, body) that push ``along`` unit vectors of the body, one for each element of ``signal``.
+    """Jets at points ``at`` (m, body axes), each with a force along a unit vector of ``along``, one per element of
+    ``signal``.
 
-    The signal is a force, or a signed pulse length (s) where ``pulses`` is true: a sample's pulse starts at it, unless
-    ``count`` is unchanged. Negative values push the other way. A ``couple`` is two jets, the second mirrored.
+    The signal is a force, or with ``pulses`` a signed pulse length (s): a pulse starts at its sample, unless ``count``
+    is unchanged. Negative values reverse the force. A ``couple`` is two jets, the second one mirrored.
     """
 
     signal: Signal
@@ -107,7 +109,7 @@ class Jets:
 
 @dataclass(frozen=True)
 class Panel:
-    """A plate of solar cells: its centre ``at`` and its ``size`` along the body's axes (m)."""
+    """A solar panel: its centre ``at`` and its ``size`` along the body's axes (m)."""
 
     at: Vector
     size: Vector
@@ -115,10 +117,10 @@ class Panel:
 
 @dataclass(frozen=True)
 class Body:
-    """A body of a ``shape`` and its ``size`` along the body's axes (m), whose centre is ``at`` (m, body).
+    """A body of a ``shape`` and ``size`` along its axes (m); its centre is ``at`` (m, body axes).
 
-    Of a lander this is the centre of its base. Without a position it is at the origin, without an attitude its axes are
-    those of the scene.
+    For a lander this is the centre of its base. Without a position it is at the origin, without an attitude it has the
+    axes of the scene.
     """
 
     name: str
@@ -134,7 +136,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Surface:
-    """The ground: a sphere of this ``radius`` around its ``centre`` (m), or the plane z = 0 where both are None."""
+    """The ground: a sphere of ``radius`` around ``centre`` (m), or the plane z = 0 if both are None."""
 
     name: str
     radius: float | None
@@ -143,7 +145,7 @@ class Surface:
 
 @dataclass(frozen=True)
 class Site:
-    """A named point (m), which may move: a signal, or constants."""
+    """A named point (m): a signal if it moves, or constants."""
 
     name: str
     position: Signal | Vector
@@ -151,7 +153,7 @@ class Site:
 
 @dataclass(frozen=True)
 class Line:
-    """A line between two bodies or sites, or to the `GROUND` below; shown while ``condition`` is not 0."""
+    """A line between two bodies or sites, or to the `GROUND` below; visible while ``condition`` is not 0."""
 
     name: str
     start: str
@@ -161,11 +163,10 @@ class Line:
 
 @dataclass(frozen=True)
 class Arrow:
-    """The direction of a ``signal`` of three elements, of any unit and length, from the body or site ``start``.
+    """The direction of a three-element ``signal``, of any unit and length, from the body or site ``start``.
 
-    Its components are along the axes of the body ``frame``, or those of the scene where that is None. The arrow's
-    ``length`` is in m; where that is None it is `ARROW` of the view's height at any distance. ``colour`` is a name of
-    `HUES`, or None for the next one.
+    Its components are along the axes of the body ``frame``, or of the scene (None). ``length`` is in m; None: `ARROW`
+    of the view's height at any distance. ``colour`` is a name of `HUES`; None: the next one.
     """
 
     name: str
@@ -178,7 +179,7 @@ class Arrow:
 
 @dataclass(frozen=True)
 class SceneFigure(FigureDeclaration):
-    """Bodies in a ``frame``, whose ``axes`` have names; ``up`` is one of them."""
+    """Bodies in a ``frame`` with named ``axes``; ``up`` is one of them."""
 
     frame: str
     axes: AxisNames

@@ -1,4 +1,4 @@
-"""Read the three-dimensional scene of a system from its element of the annotation."""
+"""Reader of a system's three-dimensional scene from its element of the annotation."""
 
 from __future__ import annotations
 
@@ -24,7 +24,9 @@ LOCAL_FRAME, LOCAL_AXES = "local, at the ground below the last sample", ("east",
 
 
 def read_scene(reader: SignalReader, element: etree._Element) -> SceneFigure:
-    """Read the scene. Raises InputError with the line, and MissingSignalError for a body whose FMU was substituted."""
+    """Read the scene. Raises InputError with the line, and MissingSignalError if a substituted FMU lacks a body's
+    signal.
+    """
     reader.attributes(element, (), SCENE)
     children = reader.parts(element, ("Surface", "Body", "Site", "Line", "Arrow"))
     if any(tag(item) == tag(element) for item in element.itersiblings(preceding=True)):
@@ -69,7 +71,7 @@ def read_scene(reader: SignalReader, element: etree._Element) -> SceneFigure:
 def _axes(
     reader: SignalReader, element: etree._Element, local: bool, surface: Surface | None
 ) -> tuple[AxisNames, AxisLetter]:
-    """Read the names of the axes, and the letter of the one that is up."""
+    """Read the names of the axes, and the letter of the upward axis."""
     frame, frames = element.get("frame", "").strip(), reader.network.frames
     axes, up = tuple(element.get("axes", "x y z").split()), element.get("up", "z").strip()
     for name in ("frame", "axes"):
