@@ -5,7 +5,7 @@
         burn_duration = Port(0.0, unit="s", description="how long to thrust")
 
     command = Outputs(ThrustCommand, direct=True)
-    braking = Inputs(ThrustCommand, prefix="braking_", about="of the braking guidance:")
+    braking = Inputs(ThrustCommand, prefix="braking_", about="command of the braking guidance:")
 
 Each member is a separate variable, as ``braking_burn_duration``, which kernels read and assign as
 ``self.braking.burn_duration``. ``self.command = self.braking`` assigns them all.

@@ -73,6 +73,7 @@ class Variable:
         self.start: Value = _flatten(declared) if is_several(declared) else declared
         self.unit = unit
         self.description = description
+        self.is_described = True  # by the declaration itself; false: by a record's class
         self.frame = frame
         self.minimum = minimum
         self.maximum = maximum
@@ -182,8 +183,14 @@ class Variable:
     def descriptions(self) -> list[str]:
         """Return the description of each element, with the frame of a vector's components."""
         if self.record is not None:
-            return [f"{self.description}: {_about(field)}" for _, field in flat_fields(self.record)]
+            return [self._describe(field) for _, field in flat_fields(self.record)]
         return [_about(self)] * self.size
+
+    def _describe(self, field: Field) -> str:
+        """Return the description of a record's field in this variable."""
+        if not field.description:
+            return self.description
+        return f"{self.description}: {_about(field)}" if self.is_described else _about(field)
 
     def with_start(self, start: Any) -> Any:
         """Return the same variable with another start value, for thin variants of a block."""
@@ -273,7 +280,8 @@ class State(Variable):
     """Internal, kept from step to step; readable from outside, never set.
 
     ``declared`` may be a record's class, with the starts of fields by name (others 0): ``State(Motion, speed=7620.0)``
-    has the FMI variables ``NAME.speed``, ``NAME.attitude[1]`` and so on, NAME the variable's.
+    has the FMI variables ``NAME.speed``, ``NAME.attitude[1]`` and so on, NAME the variable's, with the fields'
+    descriptions, after that of the state where it has one.
 
     ``frozen``: left as it is along the flight where a system is linearised: the memory of random number generators,
     and covariances, whose small changes act on estimates only through innovations.
@@ -282,11 +290,13 @@ class State(Variable):
     causality = "local"
 
     def __init__(self, declared: Any, /, *, frozen: bool = False, **declaration: Any) -> None:
+        is_described = "description" in declaration
         if isinstance(declared, type) and issubclass(declared, Record):
             starts = {name: declaration.pop(name) for name in declared.fields if name in declaration}
             declaration.setdefault("description", (declared.__doc__ or "").partition("\n")[0].rstrip("."))
             declared = replace(declared.of_elements([0.0] * count_numbers(declared)), **starts)
         super().__init__(declared, **declaration)
+        self.is_described = is_described
         self.frozen = frozen
 
     def frozen_elements(self) -> list[bool]:

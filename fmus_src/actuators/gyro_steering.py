@@ -42,24 +42,34 @@ class GyroSteering(Block, interface=True):
 
     rotor_momentum = robot.ROTOR_MOMENTUM.parameter()
     torque_lead = Parameter(
-        0.0, unit="s", minimum=0.0, description="lead time from the sample to the instant at which the torque is exact"
+        0.0,
+        unit="s",
+        minimum=0.0,
+        description="lead time from the sample to the instant at which the gyros give the commanded torque exactly",
     )
-    damping = Parameter(0.05, unit="1", minimum=1e-9, description="damping k of the pseudo-inverse in a singular state")
+    damping = Parameter(
+        0.05,
+        unit="1",
+        minimum=1e-9,
+        description="damping k of the pseudo-inverse in a singular state of the gyro cluster",
+    )
     damping_threshold = Parameter(
-        0.5, unit="1", minimum=0.0, description="singularity measure below which damping is added"
+        0.5, unit="1", minimum=0.0, description="singularity measure below which the pseudo-inverse is damped"
     )
     swing = Parameter(
         0.1,
         unit="1",
         minimum=0.0,
         maximum=0.45,
-        description="amplitude by which E (with a period of 4 s) and W differ from unit matrices",
+        description=(
+            "amplitude of the deviations of the weighting matrices E and W from unit matrices, with a period of 4 s"
+        ),
     )
     gimbal_rate_limit = Parameter(
-        1.0, unit="rad/s", minimum=0.0, description="largest gimbal rate in size; 0: no limit"
+        1.0, unit="rad/s", minimum=0.0, description="largest magnitude of a gimbal rate; 0: no limit"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(
-        0.25, "sample period of the steering; 0: every communication point"
+        0.25, "sample period of the steering; 0: a sample at every communication point"
     )
     torque_command = body.TORQUE.input("commanded torque of the gyro cluster on the body")
     gimbal_angles = robot.GIMBAL_ANGLES.input()
@@ -68,7 +78,9 @@ class GyroSteering(Block, interface=True):
         1.5396007178390021,
         unit="1",
         direct=True,
-        description="singularity measure, square root of det(A A^T) with A = dh/dbeta; 0 in a singular state",
+        description=(
+            "singularity measure of the gyro cluster, square root of det(A A^T) with A = dh/dbeta; 0: singular state"
+        ),
     )
     status = Output(GyroSteeringStatus, direct=True)
 

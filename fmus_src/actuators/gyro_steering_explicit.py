@@ -20,10 +20,14 @@ class GyroSteeringExplicit(GyroSteering):
     Source: Somov 2013. See docs/theory/rendezvous.md.
     """
 
-    rho = Parameter(ISOTROPIC_RHO, unit="1", minimum=0.0, maximum=0.999, description="bias rho of the distribution law")
-    law_gain = Parameter(0.2, unit="1/s", minimum=0.0, description="decay rate of the distribution law's residual")
+    rho = Parameter(
+        ISOTROPIC_RHO, unit="1", minimum=0.0, maximum=0.999, description="bias rho of the explicit distribution law"
+    )
+    law_gain = Parameter(
+        0.2, unit="1/s", minimum=0.0, description="decay rate of the residual of the explicit distribution law"
+    )
     least_divisor = Parameter(
-        0.02, unit="1", minimum=1e-6, description="least divisor with which the distribution law is used"
+        0.02, unit="1", minimum=1e-6, description="least divisor for which the explicit distribution law is used"
     )
 
     def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:

@@ -46,22 +46,26 @@ class JetAllocation(Block, interface=True):
     maximum_thrust = robot.MAXIMUM_THRUST.parameter()
     delay_fraction = robot.DELAY_FRACTION.parameter()
     force_command = inertial.FORCE.input()
-    torque_command = body.TORQUE.input("commanded torque of the jets")
+    torque_command = body.TORQUE.input("commanded torque of the jets on the body")
     quaternion = robot.QUATERNION.input()
-    command_count = robot.COMMAND_COUNT.input("number of commands so far; a change signals a new one")
-    translation_period = robot.TRANSLATION_PERIOD.input("duration for which the new command is held")
+    command_count = robot.COMMAND_COUNT.input("number of commands since the start; a change signals a new command")
+    translation_period = robot.TRANSLATION_PERIOD.input("duration for which the new command holds")
     jet_thrust = robot.JET_THRUST.output(direct=True)
-    allocated_force = body.FORCE.output("force of jet_thrust", direct=True)
-    allocated_torque = body.TORQUE.output("torque of jet_thrust", direct=True)
+    allocated_force = body.FORCE.output("force on the body that jet_thrust gives", direct=True)
+    allocated_torque = body.TORQUE.output("torque on the body that jet_thrust gives", direct=True)
     status = Output(JetAllocationStatus, direct=True)
     start_time = sampling.START_TIME.state()
     strength = State(JetStrength)
-    attitude = State([1.0, 0.0, 0.0, 0.0], unit="1", description="normalised attitude quaternion")
-    demand = State(Wrench)
-    new_thrust = State([0.0] * 8, unit="N", description="jet thrusts of the newest command")
-    waiting = State(False, description="true: new_thrust has not been applied yet")
-    due_time = State(0.0, unit="s", description="time at which new_thrust is applied")
-    counted = State(0, description="command_count of the newest command")
+    attitude = State(
+        [1.0, 0.0, 0.0, 0.0],
+        unit="1",
+        description="normalised attitude quaternion of the newest command, from body to inertial, scalar first",
+    )
+    demand = State(Wrench, description="commanded wrench")
+    new_thrust = State([0.0] * 8, unit="N", description="thrust of each jet for the newest command")
+    waiting = State(False, description="true: thrusts of the newest command not applied yet")
+    due_time = State(0.0, unit="s", description="time at which the thrusts of the newest command are applied")
+    counted = State(0, description="command_count at which the newest command was accepted")
 
     def allocate(self) -> None:
         """Set new_thrust (N) and status from ``demand``."""

@@ -24,12 +24,8 @@ class JetAllocationQuantised(JetAllocation):
     Derivation: docs/theory/rendezvous.md.
     """
 
-    thrust_quantum = Parameter(
-        0.05, unit="N", minimum=1e-6, description="smallest unit of which each thrust is a multiple"
-    )
-    owed_impulse = State(
-        [0.0, 0.0, 0.0], unit="N.s", frame="inertial", description="impulse commanded and not applied yet"
-    )
+    thrust_quantum = Parameter(0.05, unit="N", minimum=1e-6, description="step of the quantised thrust of each jet")
+    owed_impulse = State([0.0, 0.0, 0.0], unit="N.s", frame="inertial", description="commanded impulse not applied yet")
 
     def allocate(self) -> None:
         owed_body = to_body(self.attitude, self.owed_impulse)

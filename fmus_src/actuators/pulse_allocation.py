@@ -40,18 +40,34 @@ class PulseAllocation(Block):
     jet_torque = body.JET_TORQUE.parameter()
     shortest_pulse = body.SHORTEST_PULSE.parameter()
     rest_kept = Parameter(
-        1.0, unit="1", minimum=0.0, maximum=1.0, description="fraction of the remainder kept at a sample without demand"
+        1.0,
+        unit="1",
+        minimum=0.0,
+        maximum=1.0,
+        description="fraction of the unfired impulse kept at a sample without demand",
     )
-    mean = Parameter(False, description="true: mean torque in place of pulses")
+    mean = Parameter(False, description="true: mean torque over a sample period applied in place of pulses")
     sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period", minimum=1e-3)
-    torque_command = body.TORQUE.input("commanded torque, mean over the sample period")
+    torque_command = body.TORQUE.input("commanded torque of the jets, mean over the sample period")
     pulse_lengths = body.PULSES.output(direct=True)
     pulse_count = body.PULSE_COUNT.output()
     mean_torque = body.TORQUE.output("mean torque applied in place of pulses", direct=True)
-    remainder = body.PULSES.output("impulse demanded and not fired, as signed pulse lengths", direct=True)
+    remainder = body.PULSES.output(
+        "demanded and unfired impulse, as signed pulse lengths about x, y and z", direct=True
+    )
     status = Output(PulseStatus, direct=True)
-    lengths = State([0.0] * 3, vector=False, unit="s", description="signed pulse lengths of this sample")
-    rests = State([0.0] * 3, vector=False, unit="s", description="signed pulse lengths demanded and not fired")
+    lengths = State(
+        [0.0] * 3,
+        vector=False,
+        unit="s",
+        description="pulse lengths of the current sample about x, y and z, signed as the torque",
+    )
+    rests = State(
+        [0.0] * 3,
+        vector=False,
+        unit="s",
+        description="demanded and unfired pulse lengths about x, y and z, signed as the torque",
+    )
 
     def initialize(self) -> None:
         self.allocate()

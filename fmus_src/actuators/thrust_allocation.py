@@ -38,16 +38,23 @@ class ThrustAllocation(Allocation):
         0.0, unit="rad/s", minimum=0.0, description="largest angular rate of the thrust direction; 0: no limit"
     )
     thrust_error = Parameter(
-        0.0, unit="1", minimum=0.0, description="relative error of thrust, 1 sigma, constant over a flight"
+        0.0, unit="1", minimum=0.0, description="random relative error of thrust, 1 sigma, constant over a simulation"
     )
     thrust_offset = Parameter(
         0.0,
         unit="1",
         minimum=-1.0,
-        description="deterministic relative error of thrust, added to the random one",
+        description="deterministic relative error of thrust, added to the random error",
     )
-    thrust_lead = Parameter(0.0, unit="s", minimum=0.0, description="lead time by which a burn ends early")
-    direction_lead = Parameter(0.0, unit="s", minimum=0.0, description="lead time of the commanded direction")
+    thrust_lead = Parameter(
+        0.0, unit="s", minimum=0.0, description="time by which a burn is ended early to compensate for the engine's lag"
+    )
+    direction_lead = Parameter(
+        0.0,
+        unit="s",
+        minimum=0.0,
+        description="lead time of the commanded direction, to compensate for the lag of the attitude",
+    )
     dead_band_low = Parameter(
         0.0,
         unit="1",
@@ -64,9 +71,9 @@ class ThrustAllocation(Allocation):
     )
     seed, stream = sampling.random_stream()
     generator = sampling.GENERATOR.state()
-    thrust_factor = State(1.0, unit="1", description="ratio of actual to commanded thrust")
+    thrust_factor = State(1.0, unit="1", description="ratio of actual to commanded thrust of the engine")
     commanded_thrust = State(0.0, unit="N", description="thrust commanded at the last communication point")
-    full = State(False, description="true: full thrust, above the dead band")
+    full = State(False, description="true: engine at full thrust, above its dead band")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

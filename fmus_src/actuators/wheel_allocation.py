@@ -50,29 +50,38 @@ class WheelAllocation(Block, interface=True):
     wheel_axes = satellite.WHEEL_AXES.parameter()
     wheel_inertia = satellite.WHEEL_INERTIA.parameter()
     motor_torque_limit = satellite.MOTOR_TORQUE_LIMIT.parameter()
-    available = Parameter([True] * 4, description="true for each wheel that may be used")
-    null_gain = Parameter(0.02, unit="1/s", minimum=0.0, description="rate at which null motion approaches its target")
+    available = Parameter([True] * 4, description="true for each wheel available to the allocation")
+    null_gain = Parameter(
+        0.02, unit="1/s", minimum=0.0, description="rate at which null motion brings the wheel speeds to their target"
+    )
     null_speed = Parameter(
         100.0,
         unit="rad/s",
-        description="wheel speed approached by null motion without momentum; ignored by the minimax allocation",
+        description="wheel speed to which null motion leads without momentum; ignored by the minimax allocation",
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(
-        0.125, "sample period of the allocation; 0: every communication point"
+        0.125, "sample period of the allocation; 0: a sample at every communication point"
     )
     torque_command = body.TORQUE.input("commanded torque of the wheels on the body")
     wheel_speeds = satellite.WHEEL_SPEEDS.input()
     motor_torques = satellite.MOTOR_TORQUES.output(direct=True)
-    allocated_torque = body.TORQUE.output("torque of motor_torques on the body", direct=True)
+    allocated_torque = body.TORQUE.output("torque on the body that motor_torques give", direct=True)
     status = Output(WheelAllocationStatus, direct=True)
     axes = State(
-        zeros(3, WHEELS), unit="1", frame="body", description="unit spin axes of the available wheels, by column"
+        zeros(3, WHEELS),
+        unit="1",
+        frame="body",
+        description="unit spin axes of the available wheels, one per column; 0 for the others",
     )
-    inverse_axes = State(zeros(WHEELS, 3), unit="1", description="pseudo-inverse of the spin axes")
-    null = State([0.0] * 4, unit="1", description="unit vector of motor torques without torque on the body; 0: none")
-    wheel_torques = State([0.0] * 4, unit="N.m", description="motor torques without null motion")
-    speed_change = State([0.0] * 4, unit="rad/s", description="target change of the wheel speeds")
-    invertible = State(False, description="true: available wheels span three axes")
+    inverse_axes = State(zeros(WHEELS, 3), unit="1", description="pseudo-inverse of the matrix of spin axes")
+    null = State(
+        [0.0] * 4, unit="1", description="unit vector of motor torques without torque on the body; 0: no such torques"
+    )
+    wheel_torques = State(
+        [0.0] * 4, unit="N.m", description="motor torques for the commanded torque, without null motion"
+    )
+    speed_change = State([0.0] * 4, unit="rad/s", description="change of the wheel speeds to which null motion leads")
+    invertible = State(False, description="true: spin axes of the available wheels span three axes")
 
     def distribute(self) -> None:
         """Set wheel_torques (N m) for torque_command, and speed_change (rad/s)."""

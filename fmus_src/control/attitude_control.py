@@ -47,38 +47,51 @@ class AttitudeControl(Block):
 
     default_step = 0.125
 
-    law = Parameter(ControlLaw, start=ControlLaw.PROPORTIONAL_DERIVATIVE)
+    law = Parameter(
+        ControlLaw, start=ControlLaw.PROPORTIONAL_DERIVATIVE, description="control law of the attitude error"
+    )
     inertia = Parameter(
         [812.0, 587.0, 910.0],
         unit="kg.m2",
         minimum=1e-3,
-        description="principal moments of inertia of the robot, about x, y, z",
+        description="principal moments of inertia of the robot about x, y and z",
     )
     lead_gain = Parameter(0.16, minimum=0.0, description="static gain of the lead compensator, 1/s2")
-    lead_time = Parameter(5.0, unit="s", minimum=0.0, description="time constant of the lead")
-    lag_time = Parameter(0.417, unit="s", minimum=1e-6, description="time constant of the lag")
-    natural_frequency = Parameter(1.0, unit="rad/s", minimum=0.0, description="natural frequency of the PD law")
-    damping = Parameter(0.9, unit="1", minimum=0.0, description="damping ratio of the PD law")
+    lead_time = Parameter(5.0, unit="s", minimum=0.0, description="time constant of the lead compensator's zero")
+    lag_time = Parameter(0.417, unit="s", minimum=1e-6, description="time constant of the lead compensator's pole")
+    natural_frequency = Parameter(
+        1.0, unit="rad/s", minimum=0.0, description="natural frequency of the closed attitude loop with the PD law"
+    )
+    damping = Parameter(
+        0.9, unit="1", minimum=0.0, description="damping ratio of the closed attitude loop with the PD law"
+    )
     feed_forward = Parameter(True, description="true: jet_torque and disturbance compensated by feedforward")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "sample period; 0: every communication point")
-    attitude_error = body.ROTATION.input("attitude error from planned to true attitude: axis times sine of the angle")
-    rate_error = body.ANGULAR_VELOCITY.input("true angular velocity minus the planned one")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.25, "sample period of the control; 0: a sample at every communication point"
+    )
+    attitude_error = body.ROTATION.input(
+        "error of the attitude relative to the plan: rotation axis times sine of the angle"
+    )
+    rate_error = body.ANGULAR_VELOCITY.input("actual minus planned angular velocity")
     planned_angular_velocity = Input(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body of the plan", description="planned angular velocity at this instant"
+        [0.0, 0.0, 0.0],
+        unit="rad/s",
+        frame="planned body",
+        description="planned angular velocity relative to the inertial frame",
     )
     planned_angular_acceleration = Input(
         [0.0, 0.0, 0.0],
         unit="rad/s2",
-        frame="body of the plan",
+        frame="planned body",
         description="planned angular acceleration half a sample_period ahead",
     )
     gyro_momentum = body.ANGULAR_MOMENTUM.input("angular momentum of the gyro cluster")
-    jet_torque = body.TORQUE.input("torque of the jets from this instant on")
-    disturbance = body.ANGULAR_ACCELERATION.input("angular acceleration caused by neither gyros nor jet_torque")
-    torque_command = body.TORQUE.output("commanded torque of the gyros on the body", direct=True)
+    jet_torque = body.TORQUE.input("torque of the jets until the next sample")
+    disturbance = body.ANGULAR_ACCELERATION.input("angular acceleration that neither gyros nor jet_torque cause")
+    torque_command = body.TORQUE.output("commanded torque of the gyro cluster on the body", direct=True)
     status = Output(AttitudeControlStatus, direct=True)
-    period = State(0.0, unit="s", description="time to the next sample")
-    lead_state = body.ROTATION.state("state of the lead compensator")
+    period = State(0.0, unit="s", description="time to the next control sample")
+    lead_state = body.ROTATION.state("internal state of the lead compensator per axis")
 
     def initialize(self) -> None:
         self.period = self.sample_period

@@ -38,22 +38,24 @@ class EntryControl(Block, interface=True):
 
     default_step = 0.2
 
-    inertia = body.INERTIA.parameter(description="inertia matrix known on board")
+    inertia = body.INERTIA.parameter(description="inertia matrix of the capsule, as known on board")
     jet_torque = body.JET_TORQUE.parameter(
-        [100.0, 80.0, 80.0], "torque of a jet about x, y, z known on board, both signs"
+        [100.0, 80.0, 80.0], "torque of one jet about x, y and z, as known on board, equal for both signs"
     )
-    trim_attack = Parameter(deg(-20.0), unit="rad", description="trim angle of attack")
+    trim_attack = Parameter(deg(-20.0), unit="rad", description="trim angle of attack of the capsule")
     dead_zone = Parameter(
-        0.0, unit="1", minimum=0.0, description="dead zone of the demand, as a fraction of a jet's torque"
+        0.0, unit="1", minimum=0.0, description="torque demand that is ignored, as a fraction of a jet's torque"
     )
-    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period", minimum=1e-3)
-    measured_bank = entry.BANK.input()
-    measured_angular_velocity = body.ANGULAR_VELOCITY.input()
-    target_bank = entry.TARGET_BANK.input("target bank of the programme", start=0.0)
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period of the control", minimum=1e-3)
+    measured_bank = entry.BANK.input("measured bank angle of the capsule")
+    measured_angular_velocity = body.ANGULAR_VELOCITY.input(
+        "measured angular velocity of the capsule relative to the inertial frame"
+    )
+    target_bank = entry.TARGET_BANK.input("target bank angle of the programme", start=0.0)
     reference = Inputs(entry.BankReference, prefix="reference_", bank=0.0)
-    error_limit = entry.ERROR_LIMIT.input("largest bank error that is acted on")
-    dynamic_pressure = entry.DYNAMIC_PRESSURE.input("dynamic pressure for scheduled gains", start=1000.0)
-    torque_command = body.TORQUE.output("commanded torque, mean over the sample period", direct=True)
+    error_limit = entry.ERROR_LIMIT.input("magnitude to which the bank error is limited")
+    dynamic_pressure = entry.DYNAMIC_PRESSURE.input("dynamic pressure by which gains are scheduled", start=1000.0)
+    torque_command = body.TORQUE.output("commanded torque of the jets, mean over the sample period", direct=True)
     status = Output(EntryControlStatus, direct=True)
 
     def regulate(self) -> Vector3:

@@ -43,27 +43,40 @@ class MagneticControl(Block):
 
     default_step = 0.25
 
-    detumble_gain = Parameter(0.0132, unit="N.m.s", minimum=0.0, description="gain k of the detumbling law")
-    unload_gain = Parameter(0.002, unit="1/s", minimum=0.0, description="gain ku of the unloading law")
-    target_momentum = body.ANGULAR_MOMENTUM.parameter(description="target angular momentum of the wheels")
-    dipole_limit = Parameter(5.0, unit="A.m2", minimum=0.0, description="largest dipole about an axis")
+    detumble_gain = Parameter(0.0132, unit="N.m.s", minimum=0.0, description="gain k of the B-dot law for detumbling")
+    unload_gain = Parameter(
+        0.002, unit="1/s", minimum=0.0, description="gain ku of the cross-product law for wheel unloading"
+    )
+    target_momentum = body.ANGULAR_MOMENTUM.parameter(
+        description="target angular momentum of the wheels relative to the body"
+    )
+    dipole_limit = Parameter(
+        5.0,
+        unit="A.m2",
+        minimum=0.0,
+        description="largest magnitude of the commanded magnetic dipole about each body axis",
+    )
     field_period = Parameter(1.0, unit="s", minimum=1e-3, description="sample period T of the magnetometer")
     active_fraction = Parameter(
-        0.75, unit="1", minimum=0.0, maximum=1.0, description="fraction of T in which the dipole acts"
+        0.75, unit="1", minimum=0.0, maximum=1.0, description="fraction of the sample period T in which the dipole acts"
     )
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.25, "sample period of the control; 0: every communication point")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.25, "sample period of the control; 0: a sample at every communication point"
+    )
     mode = Input(MagneticMode)
     measured_field = space.MAGNETIC_FIELD.input("measured magnetic flux density")
-    field_count = Input(0, description="number of field samples so far; a change signals a new one")
+    field_count = Input(0, description="number of magnetometer samples since the start; a change signals a new sample")
     wheel_momentum = satellite.WHEEL_MOMENTUM.input("angular momentum of the wheels relative to the body")
-    dipole = space.DIPOLE.output("commanded magnetic dipole", direct=True)
-    feedforward_torque = body.TORQUE.output("torque that compensates the magnetic torque", direct=True)
+    dipole = space.DIPOLE.output("commanded magnetic dipole moment of the torquers", direct=True)
+    feedforward_torque = body.TORQUE.output(
+        "torque command for the wheels that compensates the magnetic torque", direct=True
+    )
     status = Output(MagneticControlStatus, direct=True)
-    counted = State(0, description="field_count of the last sample")
-    previous_field = space.MAGNETIC_FIELD.state("flux density of the last sample")
-    has_field = State(False, description="true: a field sample has been received")
-    planned_dipole = space.DIPOLE.state("magnetic dipole commanded at the last sample")
-    active_until = State(0.0, unit="s", description="time at which the dipole ends")
+    counted = State(0, description="field_count of the last magnetometer sample used")
+    previous_field = space.MAGNETIC_FIELD.state("magnetic flux density of the previous sample")
+    has_field = State(False, description="true: at least one magnetometer sample received")
+    planned_dipole = space.DIPOLE.state("magnetic dipole moment commanded at the last sample")
+    active_until = State(0.0, unit="s", description="time until which the commanded dipole acts")
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:

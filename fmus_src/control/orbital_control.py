@@ -33,35 +33,49 @@ class OrbitalControl(OrbitalBody, interface=True):
     to_write = ("regulate",)
 
     angle_poles = Parameter(
-        [0.10, 0.08, 0.10], unit="1/s", minimum=0.0, description="decay rates of roll, yaw and pitch"
+        [0.10, 0.08, 0.10], unit="1/s", minimum=0.0, description="decay rates of roll, yaw and pitch in the closed loop"
     )
     rate_poles = Parameter(
-        [0.15, 0.12, 0.15], unit="1/s", minimum=0.0, description="decay rates of the deviation from that decay"
+        [0.15, 0.12, 0.15],
+        unit="1/s",
+        minimum=0.0,
+        description="decay rates of the deviations from the decay of roll, yaw and pitch with angle_poles",
     )
-    arrival_time = Parameter(35.0, unit="s", minimum=0.0, description="arrival time of all angles, after the start")
-    least_time = Parameter(8.0, unit="s", minimum=1e-3, description="least time to arrive, also after arrival_time")
+    arrival_time = Parameter(
+        35.0, unit="s", minimum=0.0, description="time from the start at which all angles are to be 0"
+    )
+    least_time = Parameter(
+        8.0, unit="s", minimum=1e-3, description="least remaining time to arrival assumed, also after arrival_time"
+    )
     band = Parameter(
         [deg(0.15), deg(0.1), deg(0.15)],
         unit="rad",
         minimum=0.0,
-        description="dead bands of roll, yaw and pitch",
+        description="magnitudes of roll, yaw and pitch below which no correction is commanded",
     )
     turn_angle = Parameter(
-        0.0, unit="rad", description="yaw of an additional turn, which separates gyro biases from yaw"
+        0.0, unit="rad", description="yaw angle of an additional turn, which makes gyro biases and yaw distinguishable"
     )
-    turn_rate = Parameter(deg(0.8), unit="rad/s", minimum=1e-6, description="angular rate of the additional turn")
+    turn_rate = Parameter(deg(0.8), unit="rad/s", minimum=1e-6, description="angular rate of the additional yaw turn")
     turn_start = Parameter(
-        45.0, unit="s", minimum=0.0, description="start of the additional turn, after the start of the simulation"
+        45.0,
+        unit="s",
+        minimum=0.0,
+        description="time from the start of the simulation to the start of the additional yaw turn",
     )
-    turn_stay = Parameter(120.0, unit="s", minimum=0.0, description="duration for which the additional yaw is held")
+    turn_stay = Parameter(
+        120.0, unit="s", minimum=0.0, description="duration for which the yaw of the additional turn is held"
+    )
     shortest_pulse = body.SHORTEST_PULSE.parameter()
-    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period", minimum=1e-3)
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period of the control", minimum=1e-3)
     estimated_angles = body.ESTIMATED_ANGLES.input()
-    estimated_angular_velocity = body.ANGULAR_VELOCITY.input()
-    torque_command = body.TORQUE.output("commanded torque, mean over the sample period", direct=True)
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.input(
+        "estimated angular velocity of the body relative to the inertial frame"
+    )
+    torque_command = body.TORQUE.output("commanded torque of the jets, mean over the sample period", direct=True)
     status = Output(OrbitalControlStatus, direct=True)
     start_time = sampling.START_TIME.state()
-    usable = State(True, description="true: gains of the regulator computed")
+    usable = State(True, description="true: gains of the control law computed")
 
     def begin(self) -> None:
         """Make gains from the parameters."""

@@ -45,13 +45,21 @@ class OrbitalDerivativeControl(OrbitalControl):
     angle_poles = OrbitalControl.angle_poles.with_start([0.0015, 0.003, 0.0015])
     rate_poles = OrbitalControl.rate_poles.with_start([0.0015, 0.003, 0.0015])
     coupling = Parameter(
-        0.0026, unit="rad/s", description="coupling of roll into pitch, of the angles and of their deviation"
+        0.0026, unit="rad/s", description="coupling rate of roll into pitch, for the angles and for their deviations"
     )
-    angle_gain = State([0.0] * 9, columns=3, description="gain from rates of the angles to torque, N m s/rad, body")
-    rate_gain = State([0.0] * 9, columns=3, description="gain from angular acceleration to torque, N m s2, body")
-    torque_at_rest = body.TORQUE.state("torque that holds the body in the orbital frame")
-    last_angular_velocity = body.ANGULAR_VELOCITY.state("angular velocity of the previous sample")
-    last_time = State(0.0, unit="s", frozen=True, description="time of the previous sample, after the start")
+    angle_gain = State(
+        [0.0] * 9,
+        columns=3,
+        description="gain matrix from time derivatives of the angles to torque, N m s/rad (body frame)",
+    )
+    rate_gain = State(
+        [0.0] * 9, columns=3, description="gain matrix from angular acceleration to torque, N m s2 (body frame)"
+    )
+    torque_at_rest = body.TORQUE.state("torque that holds the body at rest in the orbital frame")
+    last_angular_velocity = body.ANGULAR_VELOCITY.state("angular velocity at the previous sample")
+    last_time = State(
+        0.0, unit="s", frozen=True, description="time from the start of the simulation to the previous sample"
+    )
 
     def decay(self, poles: Matrix) -> Matrix:
         """Return S of a level: minus the poles (1/s) on the diagonal, and the coupling."""

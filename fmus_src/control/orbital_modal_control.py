@@ -19,11 +19,11 @@ class OrbitalModalControl(OrbitalControl):
     Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """
 
-    angle_gain = State([0.0] * 9, columns=3, description="gain from angles to torque, N m/rad, body")
+    angle_gain = State([0.0] * 9, columns=3, description="gain matrix from angles to torque, N m/rad (body frame)")
     rate_gain = State(
         [0.0] * 9,
         columns=3,
-        description="gain from angular velocity relative to the orbital frame to torque, N m s, body",
+        description="gain matrix from angular velocity relative to the orbital frame to torque, N m s (body frame)",
     )
 
     def begin(self) -> None:

@@ -19,17 +19,20 @@ class OutputFeedback(EntryControl):
     """
 
     dead_zone = EntryControl.dead_zone.with_start(0.05)
-    pitch_damping = Parameter(1200.0, unit="N.m.s", minimum=0.0, description="gain from pitch rate to torque")
+    pitch_damping = Parameter(1200.0, unit="N.m.s", minimum=0.0, description="gain from pitch rate to pitch torque")
     pressures = Parameter(
         [1147.0, 1147.0, 1147.0],
         unit="Pa",
         minimum=1e-9,
-        description="dynamic pressures of the gains, ascending or all equal",
+        description="dynamic pressures at which gains are scheduled, ascending or all equal",
     )
     gains = Parameter(
         [-335.2711, -1260.9402, -890.1654, -113.8432, 382.3942, -1794.4671] * 3,
         columns=3,
-        description="gains from bank, wx, wy to torques x, y (SI), two rows for each pressure",
+        description=(
+            "gains from bank error, roll rate and yaw rate to torques about x and y, SI units, two rows per "
+            "dynamic pressure"
+        ),
     )
 
     def gain_row(self, i: int, fraction: float) -> Vector3:

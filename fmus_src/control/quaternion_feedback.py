@@ -47,27 +47,46 @@ class QuaternionFeedback(Block):
     inertia = satellite.INERTIA.parameter(
         description="inertia matrix of the satellite with its wheels, as known on board"
     )
-    natural_frequency = Parameter(0.3, unit="rad/s", minimum=0.0, description="natural frequency w0 of the closed loop")
-    damping = Parameter(0.9, unit="1", minimum=0.0, description="damping ratio z of the closed loop")
-    integral_time = Parameter(0.0, unit="s", minimum=0.0, description="time constant T of the integral; 0: no integral")
-    integral_band = Parameter(0.01, unit="rad", minimum=0.0, description="attitude error below which it is integrated")
-    error_limit = Parameter(2.0, unit="rad", minimum=0.0, description="bound of the attitude error 2 |q| in the torque")
-    delay = Parameter(0, minimum=0, maximum=LATEST, description="computing delay of a command, in samples")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "sample period; 0: every communication point")
+    natural_frequency = Parameter(
+        0.3, unit="rad/s", minimum=0.0, description="natural frequency w0 of the closed attitude loop"
+    )
+    damping = Parameter(0.9, unit="1", minimum=0.0, description="damping ratio z of the closed attitude loop")
+    integral_time = Parameter(
+        0.0, unit="s", minimum=0.0, description="time constant T of the integral term; 0: no integral term"
+    )
+    integral_band = Parameter(
+        0.01, unit="rad", minimum=0.0, description="magnitude of the attitude error below which it is integrated"
+    )
+    error_limit = Parameter(
+        2.0,
+        unit="rad",
+        minimum=0.0,
+        description="magnitude to which the attitude error 2 |q| is limited in the torque command",
+    )
+    delay = Parameter(0, minimum=0, maximum=LATEST, description="computing delay of a torque command, in samples")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.125, "sample period of the control; 0: a sample at every communication point"
+    )
     estimated_quaternion = robot.QUATERNION.input()
-    estimated_angular_velocity = body.ANGULAR_VELOCITY.input("estimated angular velocity")
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.input(
+        "estimated angular velocity of the body relative to the inertial frame"
+    )
     reference = Inputs(AttitudeReference)
     wheel_momentum = satellite.WHEEL_MOMENTUM.input("angular momentum of the wheels relative to the body")
-    feedforward_torque = body.TORQUE.input("additional torque on the body, such as against the torquers' torque")
+    feedforward_torque = body.TORQUE.input(
+        "additional torque on the body, such as the compensation of the magnetic torque"
+    )
     active = Input(True, description="true: control active; false: no torque and no integration")
     torque_command = body.TORQUE.output("commanded torque of the wheels on the body", direct=True)
     attitude_error = body.ROTATION.output(
-        "attitude error 2 q, from the reference to the estimated attitude", direct=True
+        "attitude error 2 q: twice the vector part of the quaternion from reference to estimated attitude", direct=True
     )
     status = Output(QuaternionFeedbackStatus, direct=True)
-    integral = body.ANGULAR_ACCELERATION.state("integral term i of the torque")
-    commands = State(zeros(LATEST + 1, 3), unit="N.m", frame="body", description="last commands, newest first")
-    period = State(0.0, unit="s", description="time to the next sample")
+    integral = body.ANGULAR_ACCELERATION.state("integral term of the commanded angular acceleration")
+    commands = State(
+        zeros(LATEST + 1, 3), unit="N.m", frame="body", description="last computed torque commands, newest first"
+    )
+    period = State(0.0, unit="s", description="time to the next control sample")
 
     def initialize(self) -> None:
         self.period = self.sample_period

@@ -26,12 +26,14 @@ class RobustControl(EntryControl):
     """
 
     dead_zone = EntryControl.dead_zone.with_start(0.02)
-    bank_stiffness = Parameter(0.25, minimum=0.0, description="bank stiffness k_g, 1/s2")
-    bank_damping = Parameter(1.0, unit="1/s", minimum=0.0, description="bank damping k_x")
-    sideslip_damping = Parameter(0.3, unit="1/s", minimum=0.0, description="sideslip damping k_b")
-    pitch_damping = Parameter(0.3, unit="1/s", minimum=0.0, description="pitch damping k_z")
+    bank_stiffness = Parameter(0.25, minimum=0.0, description="gain k_g from bank error to angular acceleration, 1/s2")
+    bank_damping = Parameter(
+        1.0, unit="1/s", minimum=0.0, description="gain k_x from bank rate error to angular acceleration"
+    )
+    sideslip_damping = Parameter(0.3, unit="1/s", minimum=0.0, description="gain k_b of the sideslip damping")
+    pitch_damping = Parameter(0.3, unit="1/s", minimum=0.0, description="gain k_z of the pitch damping")
     largest_acceleration = Parameter(
-        0.08, unit="rad/s2", minimum=0.0, description="largest angular acceleration about the velocity"
+        0.08, unit="rad/s2", minimum=0.0, description="largest angular acceleration commanded about the velocity"
     )
 
     def regulate(self) -> Vector3:

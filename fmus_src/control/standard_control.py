@@ -21,14 +21,26 @@ class StandardControl(EntryControl):
     Source: Lapin, thesis, chapter 3.2, which states an accuracy of 3 deg; thresholds: this repository.
     """
 
-    bank_limit = Parameter(deg(24.0), unit="rad", minimum=0.0, description="largest bank error that is acted on")
-    lead_time = Parameter(2.0, unit="s", minimum=0.0, description="lead time of the roll rate in the roll signal")
+    bank_limit = Parameter(
+        deg(24.0),
+        unit="rad",
+        minimum=0.0,
+        description="magnitude to which the bank error is limited in the roll signal",
+    )
+    lead_time = Parameter(
+        2.0, unit="s", minimum=0.0, description="weight of the roll rate in the roll signal, a lead time"
+    )
     thresholds = Parameter(
         [deg(2.0), deg(1.0), deg(1.0)],
         minimum=0.0,
-        description="relay thresholds of roll (rad), yaw and pitch (rad/s)",
+        description="relay thresholds of the roll signal (rad), yaw rate and pitch rate (rad/s)",
     )
-    signs = State([0.0, 0.0, 0.0], vector=False, unit="1", description="output signs of the relays; 0: open")
+    signs = State(
+        [0.0, 0.0, 0.0],
+        vector=False,
+        unit="1",
+        description="output signs of the relays for roll, yaw and pitch; 0: relay open",
+    )
 
     def relay(self, k: int, x: float) -> float:
         """Return demand (N m) of relay k for its signal."""

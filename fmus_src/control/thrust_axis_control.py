@@ -42,29 +42,38 @@ class ThrustAxisControl(Block):
     See docs/systems/hover_transfer.md.
     """
 
-    rate_gain = Parameter(1.5, unit="1/s", minimum=0.0, description="gain from rate error to angular acceleration")
+    rate_gain = Parameter(
+        1.5, unit="1/s", minimum=0.0, description="gain from angular rate error to angular acceleration"
+    )
     angle_gain = Parameter(0.8, unit="1/s", minimum=0.0, description="gain from angle error to angular rate")
     braking_acceleration = Parameter(
         deg(0.25),
         unit="rad/s2",
         minimum=0.0,
-        description="angular deceleration at the end of a large turn; 0.25 deg/s2",
+        description="angular deceleration assumed at the end of a large turn",
     )
-    maximum_rate = Parameter(deg(10.0), unit="rad/s", minimum=0.0, description="largest commanded angular rate")
+    maximum_rate = Parameter(
+        deg(10.0), unit="rad/s", minimum=0.0, description="largest commanded angular rate of the thrust axis"
+    )
     maximum_angular_acceleration = Parameter(
-        deg(1.0), unit="rad/s2", minimum=0.0, description="largest angular acceleration; 0: no limit"
+        deg(1.0),
+        unit="rad/s2",
+        minimum=0.0,
+        description="largest commanded angular acceleration of the thrust axis; 0: no limit",
     )
     thrust_direction = landing.DIRECTION.input("commanded thrust direction at command_time, unit vector")
     thrust_direction_rate = landing.DIRECTION_RATE.input()
-    command_time = landing.COMMAND_TIME.input("reference time of the thrust direction")
-    angular_acceleration_feed = landing.ANGULAR_ACCELERATION.input("angular acceleration feedforward of the command")
-    attitude = landing.DIRECTION.input("measured thrust axis, unit vector")
+    command_time = landing.COMMAND_TIME.input("reference time of the commanded thrust direction")
+    angular_acceleration_feed = landing.ANGULAR_ACCELERATION.input(
+        "feedforward of the planned angular acceleration of the thrust axis"
+    )
+    attitude = landing.DIRECTION.input("measured direction of the thrust axis, unit vector")
     angular_rate = landing.ANGULAR_RATE.input("measured angular rate of the thrust axis")
     angular_acceleration = landing.ANGULAR_ACCELERATION.output(
         "commanded angular acceleration of the thrust axis", direct=True
     )
     direction_error = Output(
-        0.0, unit="rad", direct=True, description="angle between the measured axis and the command"
+        0.0, unit="rad", direct=True, description="angle between measured and commanded thrust axis"
     )
     status = Output(ThrustAxisStatus, direct=True)
     start_time = sampling.START_TIME.state()

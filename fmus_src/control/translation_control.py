@@ -41,34 +41,51 @@ class TranslationControl(Block):
 
     default_step = 0.125
 
-    law = Parameter(ControlLaw, start=ControlLaw.PROPORTIONAL_DERIVATIVE)
+    law = Parameter(
+        ControlLaw, start=ControlLaw.PROPORTIONAL_DERIVATIVE, description="control law of the position error"
+    )
     mass = landing.MASS.parameter(1000.0, "mass of the robot", minimum=1e-3)
     design_period = Parameter(
-        [8.0, 4.0], unit="s", minimum=1e-3, description="translation_period of each of the two designs"
+        [8.0, 4.0],
+        unit="s",
+        minimum=1e-3,
+        description="translation_period for which each of the two control designs holds",
     )
     lead_gain = Parameter(
-        [1.5625e-4, 6.25e-4], minimum=0.0, description="static gain of the lead compensator, per design, 1/s2"
+        [1.5625e-4, 6.25e-4], minimum=0.0, description="static gain of the lead compensator in each design, 1/s2"
     )
-    lead_time = Parameter([160.0, 80.0], unit="s", minimum=0.0, description="time constant of the lead, per design")
-    lag_time = Parameter([13.3, 6.67], unit="s", minimum=0.0, description="time constant of the lag, per design")
+    lead_time = Parameter(
+        [160.0, 80.0], unit="s", minimum=0.0, description="time constant of the lead compensator's zero in each design"
+    )
+    lag_time = Parameter(
+        [13.3, 6.67], unit="s", minimum=0.0, description="time constant of the lead compensator's pole in each design"
+    )
     natural_frequency = Parameter(
-        [0.03, 0.05], unit="rad/s", minimum=0.0, description="natural frequency of the PD law, per design"
+        [0.03, 0.05],
+        unit="rad/s",
+        minimum=0.0,
+        description="natural frequency of the closed position loop with the PD law, in each design",
     )
-    damping = Parameter([0.9, 0.9], unit="1", minimum=0.0, description="damping ratio of the PD law, per design")
-    position_error = inertial.POSITION.input("position error of the robot against its plan")
-    velocity_error = inertial.VELOCITY.input("velocity error of the robot against its plan")
+    damping = Parameter(
+        [0.9, 0.9],
+        unit="1",
+        minimum=0.0,
+        description="damping ratio of the closed position loop with the PD law, in each design",
+    )
+    position_error = inertial.POSITION.input("error of the robot's position relative to its plan")
+    velocity_error = inertial.VELOCITY.input("error of the robot's velocity relative to its plan")
     planned_acceleration = inertial.ACCELERATION.input(
-        "planned acceleration, mean over the time in which the force acts"
+        "planned acceleration of the robot, mean over the time in which the force acts"
     )
     translation_period = robot.TRANSLATION_PERIOD.input()
     translation_count = robot.TRANSLATION_COUNT.input()
     force_command = inertial.FORCE.output(direct=True)
     command_count = robot.COMMAND_COUNT.output(direct=True)
     status = Output(TranslationControlStatus, direct=True)
-    ticks = State(0, description="translation_count of the last sample")
-    lead_state = inertial.POSITION.state("state of the lead compensator")
-    last_law = State(LeadLaw, description="lead time constant of the last sample")
-    started = State(False, description="true: last_law has been set")
+    ticks = State(0, description="translation_count of the last control sample")
+    lead_state = inertial.POSITION.state("internal state of the lead compensator per axis")
+    last_law = State(LeadLaw, description="lead compensator of the last control sample")
+    started = State(False, description="true: last_law computed")
 
     def initialize(self) -> None:
         self.ticks = self.translation_count

@@ -19,17 +19,26 @@ class AirDisturbance(Block):
 
     default_step = 0.2
 
-    wind = entry.WIND.parameter(description="steady wind velocity")
+    wind = entry.WIND.parameter(description="steady velocity of the air relative to the rotating Earth")
     gust = Parameter(
-        [0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="peak velocity of the gust, added to wind"
+        [0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="peak velocity of the gust, added to the steady wind"
     )
-    gust_time = Parameter(0.0, unit="s", description="start of the gust, after the start of the simulation")
+    gust_time = Parameter(0.0, unit="s", description="time from the start of the simulation to the start of the gust")
     gust_duration = Parameter(10.0, unit="s", minimum=1e-3, description="duration of the gust")
-    density = Parameter(1.0, unit="1", minimum=0.0, description="density factor before density_time")
-    density_time = Parameter(1e9, unit="s", description="time of the density change, after the start")
-    later_density = Parameter(1.0, unit="1", minimum=0.0, description="density factor from density_time on")
+    density = Parameter(
+        1.0, unit="1", minimum=0.0, description="ratio of actual to standard density before density_time"
+    )
+    density_time = Parameter(
+        1e9, unit="s", description="time from the start of the simulation to the change of density"
+    )
+    later_density = Parameter(
+        1.0, unit="1", minimum=0.0, description="ratio of actual to standard density after density_time"
+    )
     air_velocity = Output(
-        [0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="velocity of the air relative to the ground"
+        [0.0, 0.0, 0.0],
+        unit="m/s",
+        frame="velocity",
+        description="velocity of the air relative to the rotating Earth, wind and gust",
     )
     density_factor = entry.DENSITY_FACTOR.output()
     start_time = sampling.START_TIME.state()

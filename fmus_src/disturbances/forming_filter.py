@@ -25,12 +25,16 @@ class FormingFilter(Block):
     Source: G. P. Shibanov 2017 (disturbance, without figures); Bar-Shalom, Li and Kirubarajan 2001, section 4.3.
     """
 
-    damping = Parameter(0.5, unit="1", minimum=1e-3, description="damping ratio")
-    natural_frequency = Parameter(1.0, unit="rad/s", minimum=1e-4, description="undamped natural frequency")
-    intensity = Parameter(1.0, unit="s", minimum=0.0, description="two-sided spectral density of the white noise")
+    damping = Parameter(0.5, unit="1", minimum=1e-3, description="damping ratio of the forming filter")
+    natural_frequency = Parameter(
+        1.0, unit="rad/s", minimum=1e-4, description="undamped natural frequency of the forming filter"
+    )
+    intensity = Parameter(
+        1.0, unit="s", minimum=0.0, description="two-sided spectral density of the white noise that drives the filter"
+    )
     seed, stream = sampling.random_stream()
-    disturbance = Output(0.0, unit="1", description="filtered noise")
-    disturbance_rate = Output(0.0, unit="1/s", description="time derivative of the filtered noise")
+    disturbance = Output(0.0, unit="1", description="disturbance: output of the forming filter")
+    disturbance_rate = Output(0.0, unit="1/s", description="time derivative of the disturbance")
     generator = sampling.GENERATOR.state()
 
     def initialize(self) -> None:

@@ -13,9 +13,12 @@ class JetHealth(Block):
     default_step = 0.2
 
     factors = Parameter(
-        [1.0] * 6, unit="1", minimum=0.0, description="factors on the torque of the jets +x, -x, +y, -y, +z, -z"
+        [1.0] * 6,
+        unit="1",
+        minimum=0.0,
+        description="ratio of actual to nominal torque of the jets +x, -x, +y, -y, +z, -z",
     )
-    jet_factor = entry.JET_FACTOR.output("factors on the torque of the jets +x, -x, +y, -y, +z, -z")
+    jet_factor = entry.JET_FACTOR.output("ratio of actual to nominal torque of the jets +x, -x, +y, -y, +z, -z")
 
     def initialize(self) -> None:
         for k in range(6):

@@ -36,7 +36,10 @@ class SpaceEnvironment(SpaceModel):
 
     default_step = 0.25
 
-    position = inertial.POSITION.input("position of the centre of mass", start=[6878137.0, 0.0, 0.0])
+    position = inertial.POSITION.input(
+        "position of the spacecraft's centre of mass relative to the centre of the central body",
+        start=[6878137.0, 0.0, 0.0],
+    )
     quaternion = robot.QUATERNION.input("attitude quaternion from body to inertial, scalar first")
     environment = Outputs(space.SpaceEnvironment, direct=True)
     status = Output(EnvironmentStatus, direct=True)

@@ -21,17 +21,23 @@ class ApolloGuidance(PolynomialGuidance):
     thrust acceleration of 5 m/s2.
     """
 
-    final_deceleration = Parameter(5.0, unit="m/s2", description="final thrust acceleration against the forward axis")
-    final_lift = Parameter(2.2, unit="m/s2", description="final thrust acceleration along z")
-    target_jerk = Parameter(0.029, unit="m/s3", description="final jerk along the forward axis")
-    freeze_time = Parameter(10.0, unit="s", minimum=0.0, description="time to go below which it is only counted down")
-    lead_time = Parameter(0.0, unit="s", minimum=0.0, description="lead time of the commanded thrust")
+    final_deceleration = Parameter(
+        5.0, unit="m/s2", description="thrust acceleration at the target opposite to the forward axis"
+    )
+    final_lift = Parameter(2.2, unit="m/s2", description="thrust acceleration at the target along z")
+    target_jerk = Parameter(0.029, unit="m/s3", description="jerk at the target along the forward axis")
+    freeze_time = Parameter(
+        10.0, unit="s", minimum=0.0, description="time to go below which it is no longer computed but counted down"
+    )
+    lead_time = Parameter(
+        0.0, unit="s", minimum=0.0, description="lead time of the commanded thrust, compensating for delays"
+    )
     flown_kr = PolynomialGuidance.flown_kr.with_start(12.0)
     forward = State(
         [1.0, 0.0, 0.0],
         unit="1",
         frame="landing site",
-        description="forward axis, horizontal towards the target at the start",
+        description="forward axis, horizontal direction towards the target at the start, unit vector",
     )
 
     def final_thrust(self) -> Vector3:

@@ -19,7 +19,9 @@ class AstarGuidance(AstarProgramme):
     Source: Fomichev and Li 2017, method A* (the equation for T is not printed there).
     """
 
-    last_root = State(0.0, unit="s", description="initial value of Newton's method for the time to go; 0: 2 R/V")
+    last_root = State(
+        0.0, unit="s", description="initial value of Newton's method for the time to go; 0: initial value 2 R/V"
+    )
 
     def forget(self) -> None:
         self.last_root = 0.0

@@ -24,7 +24,7 @@ class AstarProgramme(TerminalGuidance, interface=True):
     """
 
     clamp_count = Output(
-        0, direct=True, description="number of arcsine arguments clamped so far, repeated solves included"
+        0, direct=True, description="number of arcsine arguments clamped since the start, repeated solutions included"
     )
 
     def angle(self, sine: float) -> float:

@@ -41,24 +41,34 @@ class BankProgramme(Block):
     default_step = 0.2
 
     first_target = Parameter(
-        deg(60.0), unit="rad", description="target bank at the start, whose sign changes at each reversal"
+        deg(60.0), unit="rad", description="target bank angle at the start; its sign changes at each reversal"
     )
     reversal_times = Parameter(
-        [NEVER, NEVER], unit="s", minimum=0.0, description="times of the bank reversals after the start, ascending"
+        [NEVER, NEVER], unit="s", minimum=0.0, description="times from the start to the bank reversals, ascending"
     )
-    method = Parameter(BankMethod, start=BankMethod.TIME_OPTIMAL)
+    method = Parameter(
+        BankMethod,
+        start=BankMethod.TIME_OPTIMAL,
+        description="method by which the reference follows the target bank angle",
+    )
     bank_rate = Parameter(
         deg(12.0), unit="rad/s", minimum=1e-6, description="largest bank rate of the time-optimal reference"
     )
     bank_acceleration = Parameter(
         0.06, unit="rad/s2", minimum=1e-6, description="bank acceleration of the time-optimal reference"
     )
-    largest_error = Parameter(deg(48.0), unit="rad", minimum=0.0, description="bank error limit of the limited method")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period; 0: every communication point")
+    largest_error = Parameter(
+        deg(48.0), unit="rad", minimum=0.0, description="magnitude to which the limited method limits the bank error"
+    )
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        description="sample period of the programme; 0: a sample at every communication point"
+    )
     target_bank = entry.TARGET_BANK.output()
     reference = Outputs(entry.BankReference, prefix="reference_")
     error_limit = entry.ERROR_LIMIT.output()
-    time_since_reversal = Output(NEVER, unit="s", description="time since the last commanded reversal; 1e9: none yet")
+    time_since_reversal = Output(
+        NEVER, unit="s", description="time since the last commanded bank reversal; 1e9: no reversal yet"
+    )
     start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def initialize(self) -> None:

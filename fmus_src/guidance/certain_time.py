@@ -31,8 +31,8 @@ class CertainTime(TerminalGuidance, interface=True):
     Source: D'Souza 1997, "An optimal guidance law for planetary landing"; choice between the times: this repository.
     """
 
-    braking = State(False, description="true: time to go from |A| T = 2 |B|")
-    least_effort = State(False, description="true: time to go of least effort at the last command")
+    braking = State(False, description="true: time to go computed from |A| T = 2 |B|")
+    least_effort = State(False, description="true: time to go of the last command minimises the control effort")
 
     def forget(self) -> None:
         self.braking = False

@@ -41,19 +41,21 @@ class ConvexGuidance(ZemZevGuidance):
     recursion); time of flight and tracking: this repository. Problem and solver: docs/theory/convex_guidance.md.
     """
 
-    end_time = Parameter(8.0, unit="s", minimum=0.0, description="time to go below which ZEM/ZEV guides")
-    solver_iterations = Output(0, direct=True, description="interior-point iterations for the last plan")
+    end_time = Parameter(
+        8.0, unit="s", minimum=0.0, description="time to go below which ZEM/ZEV guidance replaces the plan"
+    )
+    solver_iterations = Output(0, direct=True, description="number of interior-point iterations for the last plan")
     plan = State(
         [0.0] * PLAN,
         frozen=True,
-        description="thrust acceleration, position and velocity with gravity, and log mass at the plan's nodes",
+        description="plan at its nodes: thrust acceleration, position and velocity under gravity, logarithm of mass",
     )
     plan_time = State(0.0, unit="s", frozen=True, description="duration of the plan")
-    since_plan = State(0.0, unit="s", frozen=True, description="time since the last planning attempt")
+    since_plan = State(0.0, unit="s", frozen=True, description="time since the last attempt to compute a plan")
     planned_margin = State(
-        1.0, unit="1", frozen=True, description="largest thrust of the next plan, as a fraction of maximum_thrust"
+        1.0, unit="1", frozen=True, description="largest thrust in the next plan, as a fraction of maximum_thrust"
     )
-    handed_over = State(False, description="true: ZEM/ZEV guides")
+    handed_over = State(False, description="true: ZEM/ZEV guidance has replaced the plan")
 
     def forget(self) -> None:
         self.chosen = False

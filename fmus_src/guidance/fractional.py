@@ -13,7 +13,7 @@ SEARCH_SHORTEST, SEARCH_SPACING = 0.5, 0.0625  # of the first time
 class GainChoice(Enumeration):
     """Origin of the exponents."""
 
-    FIXED = member("gamma and kr as given")
+    FIXED = member("gamma and kr from the parameters")
     SEARCHED = member("gamma 1, kr searched for the constraints")
 
 
@@ -33,9 +33,9 @@ class FractionalGuidance(PolynomialGuidance):
 
     last_burn = PolynomialGuidance.last_burn.with_start(2.0)  # with gamma < 1 the direction's rate ends infinite
     final_thrust_acceleration = Parameter(
-        [0.0, 0.0, 2.0], unit="m/s2", frame="landing site", description="final thrust acceleration"
+        [0.0, 0.0, 2.0], unit="m/s2", frame="landing site", description="thrust acceleration at the target"
     )
-    gain_choice = Parameter(GainChoice, description="choice of the exponents")
+    gain_choice = Parameter(GainChoice, description="choice of the exponents gamma and kr")
     gamma = Parameter(1.0, unit="1", minimum=0.0, description="first exponent of the time to go")
     kr = Parameter(12.0, unit="1", minimum=0.0, description="gain kr of the position error")
 

@@ -29,7 +29,9 @@ class GravityTurnGuidance(InformedGuidance):
         unit="1",
         minimum=0.0,
         maximum=1.0,
-        description="demanded thrust at ignition, as a fraction of maximum_thrust; 0: immediate ignition",
+        description=(
+            "demanded thrust at which the engine is ignited, as a fraction of maximum_thrust; 0: immediate ignition"
+        ),
     )
     burning = State(False, description="true: engine ignited")
 

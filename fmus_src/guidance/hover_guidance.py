@@ -44,60 +44,86 @@ class HoverGuidance(HoverPlan):
 
     engine_lag = Parameter(0.1, unit="s", minimum=0.0, description="time constant of the engine's thrust")
     coasting_frequency = Parameter(
-        0.06, unit="rad/s", minimum=0.0, description="natural frequency of the loop in a programme"
+        0.06,
+        unit="rad/s",
+        minimum=0.0,
+        description="natural frequency of the position loop in a programme before its last burn",
     )
     braking_frequency = Parameter(
-        0.15, unit="rad/s", minimum=0.0, description="natural frequency of the loop in the programme's last burn"
+        0.15,
+        unit="rad/s",
+        minimum=0.0,
+        description="natural frequency of the position loop in the last burn of a programme",
     )
     holding_frequency = Parameter(
-        0.12, unit="rad/s", minimum=0.0, description="natural frequency of the loop in holds and polynomials"
+        0.12, unit="rad/s", minimum=0.0, description="natural frequency of the position loop in holds and polynomials"
     )
-    damping = Parameter(0.9, unit="1", minimum=0.0, description="damping ratio of the loop")
+    damping = Parameter(0.9, unit="1", minimum=0.0, description="damping ratio of the position loop")
     tilt_filter = Parameter(
-        0.7, unit="s", minimum=0.0, description="time constant of the lateral demand's filter; 0: none"
+        0.7, unit="s", minimum=0.0, description="time constant of the filter of the lateral thrust demand; 0: no filter"
     )
-    largest_error = Parameter(40.0, unit="m", minimum=0.0, description="bound of the position error acted on")
+    largest_error = Parameter(
+        40.0, unit="m", minimum=0.0, description="distance to which the position error is limited in the control law"
+    )
     largest_tilt = Parameter(
         deg(12.0),
         unit="rad",
         minimum=0.0,
         maximum=1.5,
-        description="largest angle of thrust from the plan's direction; 12 deg",
+        description="largest angle between commanded and planned thrust direction",
     )
-    estimate_thrust = Parameter(True, description="true: thrust_factor estimated; false: thrust_factor 1")
+    estimate_thrust = Parameter(True, description="true: thrust_factor estimated; false: thrust_factor fixed at 1")
     descent_acceleration = Parameter(
-        0.3, unit="m/s2", minimum=1e-3, description="acceleration at the start of a descent"
+        0.3, unit="m/s2", minimum=1e-3, description="downward acceleration at the start of a descent"
     )
-    descent_speed = Parameter(1.0, unit="m/s", minimum=1e-3, description="speed of a descent")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.1, "sample period of the guidance; 0: every communication point")
+    descent_speed = Parameter(1.0, unit="m/s", minimum=1e-3, description="constant speed of a descent")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.1, "sample period of the guidance; 0: a sample at every communication point"
+    )
     active = landing.ACTIVE.input()
-    mode = Input(HoverMode, start=HoverMode.PROGRAMME, description="mode of the guidance; a change starts a plan")
+    mode = Input(
+        HoverMode, start=HoverMode.PROGRAMME, description="requested mode of the guidance; a change starts a plan"
+    )
     plan_number = landing.PLAN_NUMBER.input()
     command = Outputs(ThrustCommand, direct=True, thrust_direction=[0.0, 0.0, 1.0], burn_duration=UNLIMITED)
-    time_to_go = landing.TIME_TO_GO.output("time left to the end of the plan", direct=True)
+    time_to_go = landing.TIME_TO_GO.output("remaining time of the plan", direct=True)
     finished = landing.FINISHED.output("true: plan completed", direct=True)
     angular_acceleration_feed = landing.ANGULAR_ACCELERATION.output(
-        "angular acceleration feedforward of the plan's direction, mean over the next sample period", direct=True
+        ("feedforward of the planned angular acceleration of the thrust axis, mean over the next sample period"),
+        direct=True,
     )
     answered_plan = Output(
-        0, direct=True, description="plan_number of the plan that the outputs follow; in idle mode the last one"
+        0, direct=True, description="plan_number that the outputs follow; in idle mode that of the last plan"
     )
     plan_time = Output(0.0, unit="s", direct=True, description="time since the start of the plan")
     thrust_factor = Output(1.0, unit="1", direct=True, description="estimated ratio of actual to commanded thrust")
-    reference_position = landing.POSITION.output("reference position of the plan", direct=True)
-    reference_velocity = landing.VELOCITY.output("reference velocity of the plan", direct=True)
-    saturated = Output(
-        False, direct=True, description="true: demand beyond the engine's limits, or position error bounded"
+    reference_position = landing.POSITION.output(
+        "reference position on the plan relative to the landing site", direct=True
     )
-    cycle = State(0.1, unit="s", description="time to the next sample")
-    tilt = State([0.0, 0.0, 0.0], unit="1", frame="landing site", description="filtered lateral demand")
-    elapsed = State(0.1, unit="s", description="time since the last sample, the span of velocity_increment")
-    sample_time = State(0.0, unit="s", description="time of the last sample")
+    reference_velocity = landing.VELOCITY.output(
+        "reference velocity on the plan relative to the landing site", direct=True
+    )
+    saturated = Output(
+        False, direct=True, description="true: thrust demand beyond the engine's limits, or position error limited"
+    )
+    cycle = State(0.1, unit="s", description="time to the next guidance sample")
+    tilt = State(
+        [0.0, 0.0, 0.0],
+        unit="1",
+        frame="landing site",
+        description=(
+            "filtered lateral component of the commanded thrust, relative to the component along the plan's thrust"
+        ),
+    )
+    elapsed = State(
+        0.1, unit="s", description="time between the last two guidance samples, covered by velocity_increment"
+    )
+    sample_time = State(0.0, unit="s", description="time of the last guidance sample")
     plan_start = State(0.0, frozen=True, unit="s", description="start time of the plan")
-    in_charge = State(False, description="active at the last sample")
-    flown_mode = State(HoverMode, description="mode of the last plan")
-    engine_thrust = State(0.0, unit="N", description="expected thrust of the engine")
-    commanded_thrust = State(0.0, unit="N", description="thrust command within the engine's limits; 0: none")
+    in_charge = State(False, description="true: guidance was active at the last sample")
+    flown_mode = State(HoverMode, description="mode in which the last plan was requested")
+    engine_thrust = State(0.0, unit="N", description="thrust expected from the engine by a model of its lag")
+    commanded_thrust = State(0.0, unit="N", description="last thrust command within the engine's limits; 0: no command")
     start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def initialize(self) -> None:

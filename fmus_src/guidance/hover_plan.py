@@ -49,53 +49,72 @@ class HoverPlan(Block, interface=True):
 
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter(300.0)
     maximum_thrust = landing.MAXIMUM_THRUST.parameter(4707.192, "largest thrust of the engine", minimum=1e-3)
-    minimum_thrust = landing.MINIMUM_THRUST.parameter(313.8128, "least thrust of the engine while burning")
+    minimum_thrust = landing.MINIMUM_THRUST.parameter(313.8128, "least thrust of the burning engine")
     planned_maximum = Parameter(
-        0.9, unit="1", minimum=1e-3, maximum=1.0, description="largest thrust of plans, as a fraction of maximum_thrust"
+        0.9, unit="1", minimum=1e-3, maximum=1.0, description="largest thrust in plans, as a fraction of maximum_thrust"
     )
     planned_minimum = Parameter(
-        0.1, unit="1", minimum=1e-3, maximum=1.0, description="least thrust of plans, as a fraction of maximum_thrust"
+        0.1, unit="1", minimum=1e-3, maximum=1.0, description="least thrust in plans, as a fraction of maximum_thrust"
     )
     planned_angular_acceleration = Parameter(
         deg(0.7),
         unit="rad/s2",
         minimum=1e-5,
         maximum=1.0,
-        description="largest angular acceleration of plans; 0.70 deg/s2",
+        description="largest angular acceleration of the thrust axis in plans",
     )
-    slow_speed = Parameter(4.0, unit="m/s", minimum=1e-3, description="largest speed of a slow transfer")
-    slow_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="largest acceleration of a slow transfer")
+    slow_speed = Parameter(4.0, unit="m/s", minimum=1e-3, description="largest speed in a slow transfer")
+    slow_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="largest acceleration in a slow transfer")
     uniform_gravity = landing.UNIFORM_GRAVITY.parameter()
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter()
-    moon_radius = landing.MOON_RADIUS.parameter(description="distance from the Moon's centre to the site")
-    target_position = landing.POSITION.input("target position of the hover")
-    position = landing.POSITION.input("estimated position")
-    velocity = landing.VELOCITY.input("estimated velocity")
-    mass = landing.MASS.input("estimated mass")
-    attitude = landing.DIRECTION.input("measured thrust axis, unit vector")
+    moon_radius = landing.MOON_RADIUS.parameter(description="distance of the landing site from the Moon's centre")
+    target_position = landing.POSITION.input("target position of the next hover, relative to the landing site")
+    position = landing.POSITION.input("estimated position of the lander relative to the landing site")
+    velocity = landing.VELOCITY.input("estimated velocity of the lander relative to the landing site")
+    mass = landing.MASS.input("estimated mass of the lander")
+    attitude = landing.DIRECTION.input("measured direction of the thrust axis, unit vector")
     angular_rate = landing.ANGULAR_RATE.input("measured angular rate of the thrust axis")
     velocity_increment = landing.VELOCITY.input("measured integral of specific force over the last sample period")
     status = Output(HoverStatus, direct=True)
-    plan_kind = Output(PlanKind, direct=True)
+    plan_kind = Output(PlanKind, direct=True, description="kind of the current plan")
     predicted_propellant = landing.PREDICTED_PROPELLANT.output(direct=True)
     programme = Output(
-        [0.0] * 5, unit="s", direct=True, description="times t2, t5, w, tp, t7 of the programme; 0: none"
+        [0.0] * 5,
+        unit="s",
+        direct=True,
+        description="times t2, t5, w, tp and t7 of the programme since the plan's start; 0: no programme",
     )
     origin = State(
-        [0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="start position of the plan"
+        [0.0, 0.0, 0.0],
+        frozen=True,
+        unit="m",
+        frame="landing site",
+        description="start position of the plan relative to the landing site",
     )
-    goal = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="end position of the plan")
+    goal = State(
+        [0.0, 0.0, 0.0],
+        frozen=True,
+        unit="m",
+        frame="landing site",
+        description="end position of the plan relative to the landing site",
+    )
     up = State(
-        [0.0, 0.0, 1.0], frozen=True, unit="1", frame="landing site", description="vertical of the plan, unit vector"
+        [0.0, 0.0, 1.0],
+        frozen=True,
+        unit="1",
+        frame="landing site",
+        description="local vertical of the plan, upwards, unit vector",
     )
     along = State(
         [1.0, 0.0, 0.0],
         frozen=True,
         unit="1",
         frame="landing site",
-        description="horizontal direction towards the target, unit vector",
+        description="horizontal direction from start to end of the plan, unit vector",
     )
-    plan_gravity = State(0.0, frozen=True, unit="m/s2", description="uniform gravity of the plan")
+    plan_gravity = State(
+        0.0, frozen=True, unit="m/s2", description="uniform gravitational acceleration assumed by the plan"
+    )
     duration = State(0.0, frozen=True, unit="s", description="duration of the plan")
     vehicle = State(HoverVehicle)
     shape = State(HoverShape)

@@ -32,32 +32,40 @@ class InformedGuidance(TerminalGuidance, interface=True):
     """
 
     terminal_step = TerminalGuidance.terminal_step.with_start(1)
-    maximum_thrust = landing.MAXIMUM_THRUST.parameter(minimum=1e-3)
-    minimum_thrust = landing.MINIMUM_THRUST.parameter(510.0, "least thrust while burning; 0: unknown")
+    maximum_thrust = landing.MAXIMUM_THRUST.parameter(minimum=1e-3, description="largest thrust of the engine")
+    minimum_thrust = landing.MINIMUM_THRUST.parameter(510.0, "least thrust of the burning engine; 0: unknown")
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter()
     thrust_margin = Parameter(
-        0.92, unit="1", minimum=0.1, maximum=1.0, description="largest thrust of plans, as a fraction of maximum_thrust"
+        0.92, unit="1", minimum=0.1, maximum=1.0, description="largest thrust in plans, as a fraction of maximum_thrust"
     )
     glide_slope = Parameter(
         0.0,
         unit="rad",
         minimum=0.0,
         maximum=deg(85.0),
-        description="glide slope: least elevation seen from the target; 0: none",
+        description="least elevation of the vehicle as seen from the target; 0: no constraint",
     )
-    glide_offset = Parameter(5.0, unit="m", minimum=0.0, description="depth of the glide cone's apex below the target")
+    glide_offset = Parameter(
+        5.0, unit="m", minimum=0.0, description="depth of the glide-slope cone's apex below the target"
+    )
     largest_tilt = Parameter(
         deg(180.0),
         unit="rad",
         minimum=0.0,
         maximum=deg(180.0),
-        description="largest angle of thrust from z; 180 deg: none",
+        description="largest angle between thrust and local vertical; 180 deg: no constraint",
     )
     limit = Output(
-        0, direct=True, description="limits violated by the plan: sum of 1 thrust, 2 glide slope, 4 tilt, 8 place"
+        0,
+        direct=True,
+        description=(
+            "constraints that the plan violates, as a sum: 1 thrust, 2 glide slope, 4 tilt, 8 target not reached"
+        ),
     )
-    glide_margin = Output(0.0, unit="m", direct=True, description="height above the glide cone")
-    choices = Output(0, direct=True, description="number of plans or choices of time for this target")
+    glide_margin = Output(0.0, unit="m", direct=True, description="height of the vehicle above the glide-slope cone")
+    choices = Output(
+        0, direct=True, description="number of plans, or of choices of the time to go, for the current target"
+    )
     predicted_propellant = landing.PREDICTED_PROPELLANT.output(direct=True)
     predicted_miss = Output(
         0.0, unit="m", direct=True, description="predicted distance from the target at the end of the plan"

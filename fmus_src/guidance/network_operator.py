@@ -30,15 +30,20 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     """
 
     target_position = TerminalGuidance.target_position.with_start([0.0, 0.0, 1500.0])
-    specific_impulse = landing.SPECIFIC_IMPULSE.parameter(description="specific impulse of the engine, for time_to_go")
+    specific_impulse = landing.SPECIFIC_IMPULSE.parameter(
+        description="specific impulse of the engine, used for time_to_go"
+    )
     # 6 m/s is what a hand-over is judged by; navigation does not know the speed better than 0.1 m/s
     handover_speed = landing.HANDOVER_SPEED.parameter()
     handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter()
     handover_altitude_high = landing.HANDOVER_ALTITUDE_HIGH.parameter()
-    final_altitude = State(0.0, unit="m", description="target altitude hf")
+    final_altitude = State(0.0, unit="m", description="altitude of the target above the sphere of moon_radius")
     altitude = State(0.0, unit="m", description="altitude")
     forward = State(
-        [1.0, 0.0, 0.0], unit="1", frame="landing site", description="horizontal direction of flight, unit vector"
+        [1.0, 0.0, 0.0],
+        unit="1",
+        frame="landing site",
+        description="horizontal direction of flight at the start, unit vector",
     )
 
     def begin(self, time: float) -> None:

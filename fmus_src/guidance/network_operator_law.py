@@ -52,25 +52,27 @@ class NetworkOperatorLaw(Block, interface=True):
         minimum=0,
         maximum=23,
         fixed="its edges are decoded once",
-        description="network operator matrix: unary operations above the diagonal, binary ones on it",
+        description="network operator matrix by rows: unary operations above the diagonal, binary operations on it",
     )
-    q = Parameter([1.50049, 13.54590, 12.96753], unit="1", description="parameters q of the law")
+    q = Parameter([1.50049, 13.54590, 12.96753], unit="1", description="parameters q of the control law")
     exp_saturation = Parameter(
         1,
         minimum=0,
         maximum=1,
-        description="argument from which exp saturates: 1e8; 1: ln 1e8, the slip that the published law needs",
+        description="value of exp for arguments above ln 1e8: 0 for 1e8, 1 for ln 1e8, which the published law needs",
     )
     reference_altitude = Parameter(
-        18148.0, unit="m", minimum=1.0, description="reference altitude h0, by which altitudes are scaled"
+        18148.0, unit="m", minimum=1.0, description="reference altitude h0 by which altitudes are scaled"
     )
-    nominal_thrust = Parameter(4314.926, unit="N", minimum=0.0, description="thrust at z16 = 0 (440 kgf)")
+    nominal_thrust = Parameter(
+        4314.926, unit="N", minimum=0.0, description="thrust commanded for output z16 = 0 of the law"
+    )
     thrust_variation = Parameter(
-        784.532, unit="N", minimum=0.0, description="largest deviation from nominal_thrust (80 kgf)"
+        784.532, unit="N", minimum=0.0, description="largest deviation of the commanded thrust from nominal_thrust"
     )
-    nodes = State([0.0] * SIZE, description="values of the network's nodes")
-    edges = State([0] * MAXIMUM_EDGES, description="positions of the edges in the matrix, in row order")
-    edge_count = State(0, description="number of edges; -1: not a network operator")
+    nodes = State([0.0] * SIZE, description="values of the network operator's nodes")
+    edges = State([0] * MAXIMUM_EDGES, description="positions of the network operator's edges in the matrix, by rows")
+    edge_count = State(0, description="number of the network operator's edges; -1: matrix is not a network operator")
 
     def decode_law(self) -> None:
         """Find the edges, once."""

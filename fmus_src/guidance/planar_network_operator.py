@@ -23,10 +23,12 @@ class PlanarNetworkOperator(NetworkOperatorLaw):
     Source: Diveev, Pupkov and Sofronova 2013. See docs/systems/lunar_descent_2d.md.
     """
 
-    final_altitude = Parameter(1500.0, unit="m", description="final altitude hf")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.0, "sample period of the guidance; 0: every communication point")
+    final_altitude = Parameter(1500.0, unit="m", description="target altitude of the descent")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.0, "sample period of the guidance; 0: a sample at every communication point"
+    )
     measured_path_angle = landing.MEASURED_PATH_ANGLE.input()
-    measured_altitude = landing.MEASURED_ALTITUDE.input("measured altitude", start=18148.0)
+    measured_altitude = landing.MEASURED_ALTITUDE.input("measured altitude of the lander", start=18148.0)
     thrust_angle = landing.THRUST_ANGLE.output(direct=True)
     thrust = landing.THRUST.output(direct=True)
     status = Output(LawStatus, direct=True)

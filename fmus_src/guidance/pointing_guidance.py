@@ -48,40 +48,50 @@ class PointingGuidance(Block):
     gravitational_parameter = Parameter(
         3.986004415e14, unit="m3/s2", minimum=1.0, description="gravitational parameter of the central body"
     )
-    oblateness = Parameter(1.0826356e-3, unit="1", description="oblateness J2 of the central body")
-    radius = Parameter(6378136.3, unit="m", minimum=1.0, description="equatorial radius of the central body, for J2")
+    oblateness = Parameter(1.0826356e-3, unit="1", description="oblateness coefficient J2 of the central body")
+    radius = Parameter(
+        6378136.3, unit="m", minimum=1.0, description="equatorial radius of the central body, used with oblateness"
+    )
     offset = Parameter(
         [1.0, 0.0, 0.0, 0.0],
         unit="1",
-        description="attitude quaternion of the body relative to the local axes in NADIR, scalar first",
+        description="attitude quaternion of the body relative to the local orbital axes in mode 0, scalar first",
     )
     panel_normal = Parameter(
-        [0.0, -1.0, 0.0], unit="1", frame="body", description="axis pointed to the Sun in SUN, body"
+        [0.0, -1.0, 0.0], unit="1", frame="body", description="body axis that points to the Sun in mode 1"
     )
     secondary = Parameter(
-        [0.0, 0.0, 1.0], unit="1", frame="body", description="axis pointed near the orbit normal in SUN, body"
+        [0.0, 0.0, 1.0], unit="1", frame="body", description="body axis that points close to the orbit normal in mode 1"
     )
     inertial_quaternion = Parameter(
         [1.0, 0.0, 0.0, 0.0],
         unit="1",
-        description="target attitude in INERTIAL, quaternion from body to inertial, scalar first",
+        description="fixed attitude quaternion in mode 2, from body to inertial, scalar first",
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(
-        0.25, "sample period of the guidance; 0: every communication point"
+        0.25, "sample period of the guidance; 0: a sample at every communication point"
     )
     mode = Input(PointingMode)
-    estimated_position = inertial.POSITION.input("position of the last sample", start=[6878137.0, 0.0, 0.0])
-    estimated_velocity = inertial.VELOCITY.input("velocity of the last sample", start=[0.0, -980.47, 7549.2])
-    sample_time = Input(0.0, unit="s", description="time of the last sample of the orbit")
-    orbit_count = Input(0, description="number of orbit samples so far; a change signals a new one")
+    estimated_position = inertial.POSITION.input(
+        "position at the last orbit sample relative to the centre of the central body", start=[6878137.0, 0.0, 0.0]
+    )
+    estimated_velocity = inertial.VELOCITY.input(
+        "velocity at the last orbit sample relative to the centre of the central body", start=[0.0, -980.47, 7549.2]
+    )
+    sample_time = Input(0.0, unit="s", description="time of measurement of the last orbit sample")
+    orbit_count = Input(0, description="number of orbit samples since the start; a change signals a new sample")
     sun_direction = SpaceEnvironment.sun_direction.input()
     reference = Outputs(AttitudeReference, direct=True)
     status = Output(PointingStatus, direct=True)
-    counted = State(0, description="orbit_count of the last sample")
-    position = inertial.POSITION.state("estimated position propagated to this instant")
-    velocity = inertial.VELOCITY.state("estimated velocity propagated to this instant")
-    sampled_at = State(0.0, unit="s", description="time of the last orbit sample")
-    last_time = State(0.0, unit="s", description="time of the last evaluation")
+    counted = State(0, description="orbit_count of the last orbit sample used")
+    position = inertial.POSITION.state(
+        "estimated position propagated to the current time, relative to the centre of the central body"
+    )
+    velocity = inertial.VELOCITY.state(
+        "estimated velocity propagated to the current time, relative to the centre of the central body"
+    )
+    sampled_at = State(0.0, unit="s", description="time of measurement of the last orbit sample used")
+    last_time = State(0.0, unit="s", description="time of the last guidance sample")
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:

@@ -57,12 +57,12 @@ class PolynomialGuidance(InformedGuidance, interface=True):
     Source: Lu 2019 and 2020; choice of time: this repository.
     """
 
-    time_choice = Parameter(TimeChoice, description="objective of the time to go")
+    time_choice = Parameter(TimeChoice, description="objective by which the time to go is chosen")
     time_weight = Parameter(
-        0.0, unit="m2/s4", minimum=0.0, description="weight of the time in the least-effort objective"
+        0.0, unit="m2/s4", minimum=0.0, description="weight of the time to go in the least-effort objective"
     )
-    chosen = State(False, description="true: time to go chosen")
-    checked_time = State(0.0, unit="s", description="time to go at the last check of thrust")
+    chosen = State(False, description="true: time to go chosen for the current target")
+    checked_time = State(0.0, unit="s", description="time to go at the last check of the thrust constraints")
     flown_kr = State(6.0, unit="1", description="gain kr of the position error in use")
 
     def shape(self, kr: float) -> DescentShape:

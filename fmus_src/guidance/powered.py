@@ -33,9 +33,14 @@ class PoweredGuidance(ZemZevGuidance):
     Source: Jaggers 1977; McHenry et al. 1979; thrust as an unknown: this repository.
     """
 
-    end_time = Parameter(40.0, unit="s", minimum=0.0, description="time to go below which ZEM/ZEV guides")
+    end_time = Parameter(
+        40.0,
+        unit="s",
+        minimum=0.0,
+        description="time to go below which ZEM/ZEV guidance replaces linear-tangent steering",
+    )
     steering = State(SteeringState)
-    handed_over = State(False, description="true: ZEM/ZEV guides")
+    handed_over = State(False, description="true: ZEM/ZEV guidance has replaced linear-tangent steering")
 
     def forget(self) -> None:
         self.chosen = False

@@ -57,66 +57,86 @@ class RendezvousGuidance(Block):
     default_step = 0.125
 
     target_position = inertial.POSITION.parameter(
-        [469.8463103929542, 171.01007166283436, 0.0], "known position of the object's centre at the start"
+        [469.8463103929542, 171.01007166283436, 0.0], "position of the object's centre at the start, as known on board"
     )
-    target_velocity = inertial.VELOCITY.parameter([-0.05, 0.05, 0.075], "known velocity of the object")
+    target_velocity = inertial.VELOCITY.parameter(
+        [-0.05, 0.05, 0.075], "constant velocity of the object, as known on board"
+    )
     spin_axis = robot.SPIN_AXIS.parameter()
-    turn_start = Parameter(1420.0, unit="s", minimum=0.0, description="end of the acceleration, start of the turn")
-    turn_end = Parameter(1520.0, unit="s", minimum=0.0, description="end of the turn, start of the spline")
-    arrival_time = Parameter(4250.0, unit="s", minimum=0.0, description="end of the spline")
+    turn_start = Parameter(
+        1420.0,
+        unit="s",
+        minimum=0.0,
+        description="time from the start of the simulation to the end of acceleration and start of the turn",
+    )
+    turn_end = Parameter(
+        1520.0,
+        unit="s",
+        minimum=0.0,
+        description="time from the start of the simulation to the end of the turn and start of the spline",
+    )
+    arrival_time = Parameter(
+        4250.0, unit="s", minimum=0.0, description="time from the start of the simulation to the end of the spline"
+    )
     final_distance = Parameter(
-        30.0, unit="m", minimum=0.0, description="final distance from the object's centre, against spin_axis"
+        30.0, unit="m", minimum=0.0, description="final distance from the object's centre, opposite to spin_axis"
     )
-    spline_degree = Parameter(
-        5, minimum=5, maximum=6, description="degree of the spline; 6: also without jerk at the end"
-    )
+    spline_degree = Parameter(5, minimum=5, maximum=6, description="degree of the spline; 6: jerk 0 at the end")
     slow_period = Parameter(
-        8.0, unit="s", minimum=1e-3, description="sample period of translation control until turn_end"
+        8.0, unit="s", minimum=1e-3, description="sample period of translation control before turn_end"
     )
     fast_period = Parameter(
-        4.0, unit="s", minimum=1e-3, description="sample period of translation control from turn_end on"
+        4.0, unit="s", minimum=1e-3, description="sample period of translation control after turn_end"
     )
     delay_fraction = robot.DELAY_FRACTION.parameter()
     attitude_period = Parameter(0.25, unit="s", minimum=0.0, description="sample period of attitude control")
-    planned_position = inertial.POSITION.output("planned position of the robot")
-    planned_velocity = inertial.VELOCITY.output("planned velocity of the robot")
+    planned_position = inertial.POSITION.output("planned position of the robot's centre of mass")
+    planned_velocity = inertial.VELOCITY.output("planned velocity of the robot's centre of mass")
     planned_acceleration = inertial.ACCELERATION.output(
-        "planned acceleration, mean over the time in which the last sample's force acts"
+        "planned acceleration of the robot, mean over the time in which the force of the last sample acts"
     )
-    planned_relative_position = inertial.POSITION.output("planned vector from the robot to the object's centre")
+    planned_relative_position = inertial.POSITION.output(
+        "planned position of the object's centre relative to the robot"
+    )
     planned_quaternion = robot.PLANNED_QUATERNION.output(
         "planned attitude quaternion from body to inertial, scalar first"
     )
-    planned_angular_velocity = body.ANGULAR_VELOCITY.output("planned angular velocity")
+    planned_angular_velocity = body.ANGULAR_VELOCITY.output(
+        "planned angular velocity of the robot relative to the inertial frame"
+    )
     planned_angular_acceleration = body.ANGULAR_ACCELERATION.output(
-        "planned angular acceleration half an attitude_period ahead"
+        "planned angular acceleration of the robot, half an attitude_period ahead"
     )
     phase = Output(RendezvousPhase)
-    translation_period = Output(
-        8.0, unit="s", description="sample period of translation control from the last sample on"
-    )
+    translation_period = Output(8.0, unit="s", description="time from the last to the next translation control sample")
     translation_count = robot.TRANSLATION_COUNT.output(
-        "number of translation control samples so far; a change signals a new one"
+        "number of translation control samples since the start; a change signals a new sample"
     )
     status = Output(RendezvousStatus)
     start_time = State(0.0, unit="s", description="start time of the simulation")
-    acceleration = State([0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="acceleration of the first phase")
+    acceleration = State(
+        [0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="constant planned acceleration in the first phase"
+    )
     splines = State(
         [0.0] * 21,
         columns=7,
         unit="m",
         frame="inertial",
-        description="spline coefficients of the third phase, one axis per row",
+        description="spline coefficients of the planned position in the approach, one axis per row",
     )
-    turn_axis = State([0.0, 0.0, 0.0], unit="1", description="axis of the turn, equal in inertial and body axes")
-    turn_polynomial = State([0.0] * 7, unit="rad", description="coefficients of the turn's angle")
-    place = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="planned position at arrival_time")
-    next_tick = State(0, description="next sample of translation control, in fast periods")
+    turn_axis = State(
+        [0.0, 0.0, 0.0], unit="1", description="rotation axis of the turn, equal in inertial and body axes, unit vector"
+    )
+    turn_polynomial = State([0.0] * 7, unit="rad", description="polynomial coefficients of the turn's rotation angle")
+    place = State(
+        [0.0, 0.0, 0.0], unit="m", frame="inertial", description="planned position of the robot at arrival_time"
+    )
+    next_tick = State(0, description="number of the next translation control sample, counted in fast periods")
     granted_velocity = State(
         [0.0, 0.0, 0.0],
         unit="m/s",
         frame="inertial",
-        description="planned velocity at the end of the last sample's force",
+        description="planned velocity at the end of the time in which the last sample's force acts",
     )
 
     def initialize(self) -> None:

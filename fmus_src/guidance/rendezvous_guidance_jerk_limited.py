@@ -15,13 +15,17 @@ class RendezvousGuidanceJerkLimited(RendezvousGuidance):
     Source: Biagiotti and Melchiorri 2008, section 3.4. See docs/systems/satellite_pointing.md.
     """
 
-    turn_rate_limit = Parameter(0.03, unit="rad/s", minimum=1e-9, description="largest angular rate of the turn")
-    turn_acceleration_limit = Parameter(
-        1.8e-3, unit="rad/s2", minimum=1e-12, description="largest angular acceleration of the turn"
+    turn_rate_limit = Parameter(
+        0.03, unit="rad/s", minimum=1e-9, description="largest angular rate of the robot's turn"
     )
-    turn_jerk_limit = Parameter(2.6e-4, unit="rad/s3", minimum=1e-15, description="largest angular jerk of the turn")
-    turn_duration = Output(0.0, unit="s", description="duration of the turn")
-    turn_profile = State(RateProfile)
+    turn_acceleration_limit = Parameter(
+        1.8e-3, unit="rad/s2", minimum=1e-12, description="largest angular acceleration of the robot's turn"
+    )
+    turn_jerk_limit = Parameter(
+        2.6e-4, unit="rad/s3", minimum=1e-15, description="largest angular jerk of the robot's turn"
+    )
+    turn_duration = Output(0.0, unit="s", description="duration of the robot's turn")
+    turn_profile = State(RateProfile, description="rate profile of the turn")
 
     def plan_turn(self, angle: float) -> None:
         limits = JerkLimits(

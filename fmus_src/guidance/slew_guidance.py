@@ -28,8 +28,8 @@ class SlewPhase(Enumeration):
 class SlewProgress(Record):
     """Progress of a slew."""
 
-    angle = Field(unit="rad", description="angle turned so far")
-    rate = Field(unit="rad/s", description="rate of the angle")
+    angle = Field(unit="rad", description="angle turned since the start of the slew")
+    rate = Field(unit="rad/s", description="angular rate of the slew")
 
 
 class SlewGuidance(Block, interface=True):
@@ -59,23 +59,27 @@ class SlewGuidance(Block, interface=True):
         [1.0, 0.0, 0.0, 0.0], unit="1", description="target attitude quaternion from body to inertial, scalar first"
     )
     slew_start = Parameter(
-        20.0, unit="s", minimum=0.0, description="start of the turn, after the start of the simulation"
+        20.0, unit="s", minimum=0.0, description="time from the start of the simulation to the start of the slew"
     )
-    rate_limit = Parameter(0.02, unit="rad/s", minimum=1e-9, description="largest angular rate of the turn")
+    rate_limit = Parameter(0.02, unit="rad/s", minimum=1e-9, description="largest angular rate of the slew")
     acceleration_limit = Parameter(
-        1e-3, unit="rad/s2", minimum=1e-12, description="largest angular acceleration of the turn"
+        1e-3, unit="rad/s2", minimum=1e-12, description="largest angular acceleration of the slew"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(
-        0.125, "sample period of the guidance; 0: every communication point"
+        0.125, "sample period of the guidance; 0: a sample at every communication point"
     )
     estimated_quaternion = robot.QUATERNION.input()
     reference = Outputs(AttitudeReference, direct=True)
-    slew_angle = Output(0.0, unit="rad", direct=True, description="angle of the turn")
-    duration = Output(0.0, unit="s", direct=True, description="duration of the turn")
+    slew_angle = Output(0.0, unit="rad", direct=True, description="rotation angle of the slew")
+    duration = Output(0.0, unit="s", direct=True, description="duration of the slew")
     phase = Output(SlewPhase, direct=True)
     start_time = sampling.START_TIME.state()
-    start_quaternion = robot.QUATERNION.state("normalised attitude quaternion at the start of the turn")
-    eigenaxis = State([0.0, 0.0, 0.0], unit="1", frame="body", description="eigenaxis of the turn; 0: none")
+    start_quaternion = robot.QUATERNION.state(
+        "reference attitude quaternion at the start of the slew, from body to inertial, scalar first"
+    )
+    eigenaxis = State(
+        [0.0, 0.0, 0.0], unit="1", frame="body", description="eigenaxis of the slew, unit vector; 0: no rotation"
+    )
     progress = State(SlewProgress)
 
     def plan(self) -> None:

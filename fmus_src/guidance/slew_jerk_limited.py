@@ -23,10 +23,12 @@ class SlewLeg(Record):
     """Rotation about a body-fixed axis."""
 
     quaternion = Field(
-        Vector4, unit="1", description="attitude quaternion at the start, from body to inertial, scalar first"
+        Vector4,
+        unit="1",
+        description="attitude quaternion at the start of the rotation, from body to inertial, scalar first",
     )
-    axis = Field(Vector3, unit="1", frame="body", description="rotation axis, unit vector; 0: none")
-    profile = Field(RateProfile, description="profile of the angle over time")
+    axis = Field(Vector3, unit="1", frame="body", description="rotation axis, unit vector; 0: no rotation")
+    profile = Field(RateProfile, description="profile of the rotation angle")
 
 
 class SlewJerkLimited(SlewGuidance):
@@ -47,25 +49,35 @@ class SlewJerkLimited(SlewGuidance):
     Source: Biagiotti and Melchiorri 2008, section 3.4; elementary rotations after Somov, Butyrin and Somova 2016.
     """
 
-    jerk_limit = Parameter(1e-4, unit="rad/s3", minimum=1e-15, description="largest angular jerk")
+    jerk_limit = Parameter(1e-4, unit="rad/s3", minimum=1e-15, description="largest angular jerk of the slew")
     start_angular_velocity = Parameter(
         [0.0, 0.0, 0.0],
         unit="rad/s",
         frame="body",
-        description="angular velocity of the reference until the turn begins",
+        description="angular velocity of the reference attitude before the slew",
     )
     end_angular_velocity = Parameter(
         [0.0, 0.0, 0.0],
         unit="rad/s",
         frame="body",
-        description="angular velocity of the reference from the end of the turn on",
+        description="angular velocity of the reference attitude after the slew",
     )
     status = Output(SlewStatus, direct=True)
-    first_quaternion = State([1.0, 0.0, 0.0, 0.0], unit="1", description="normalised attitude quaternion at the start")
-    last_quaternion = State([1.0, 0.0, 0.0, 0.0], unit="1", description="attitude quaternion at the end of the turn")
-    stop = State(SlewLeg)
-    turn = State(SlewLeg)
-    spin = State(SlewLeg)
+    first_quaternion = State(
+        [1.0, 0.0, 0.0, 0.0],
+        unit="1",
+        description=(
+            "reference attitude quaternion at the start of the simulation, from body to inertial, scalar first"
+        ),
+    )
+    last_quaternion = State(
+        [1.0, 0.0, 0.0, 0.0],
+        unit="1",
+        description="reference attitude quaternion at the end of the slew, from body to inertial, scalar first",
+    )
+    stop = State(SlewLeg, description="rotation that brings the start angular velocity to rest")
+    turn = State(SlewLeg, description="rotation from rest to rest")
+    spin = State(SlewLeg, description="rotation from rest to the end angular velocity")
 
     def plan(self) -> None:
         self.first_quaternion = self.start_quaternion

@@ -16,7 +16,7 @@ SETTLED = 1e-10
 
 
 class TerminalStep(Enumeration):
-    """Ending of a terminal guidance."""
+    """End of a terminal guidance."""
 
     STOP = member("stop: finished when time_to_go < sample_period")
     EXACT = member("exact: last command burnt to the end of time_to_go")
@@ -47,53 +47,57 @@ class TerminalGuidance(Block, interface=True):
 
     to_write = ("solve",)
 
-    target_position = landing.POSITION.parameter([0.0, 0.0, 2000.0], "target position")
-    target_velocity = landing.VELOCITY.parameter(description="target velocity")
+    target_position = landing.POSITION.parameter([0.0, 0.0, 2000.0], "target position relative to the landing site")
+    target_velocity = landing.VELOCITY.parameter(description="target velocity relative to the landing site")
     gravity = landing.GRAVITY.parameter()
     gravity_correction = Parameter(
-        False, description="true: central gravity, linear in time between here and the target; false: constant gravity"
+        False, description="true: gravity linear in time between vehicle and target; false: constant gravity"
     )
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter(
-        description="gravitational parameter of the Moon, for gravity_correction"
+        description="gravitational parameter of the Moon, used with gravity_correction"
     )
-    moon_radius = landing.MOON_RADIUS.parameter(
-        description="distance from the Moon's centre, straight below, to the site"
+    moon_radius = landing.MOON_RADIUS.parameter(description="distance of the landing site from the Moon's centre")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.0, "sample period of the guidance; 0: a sample at every communication point"
     )
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.0, "sample period of the guidance; 0: every communication point")
     terminal_step = Parameter(TerminalStep)
     last_burn = Parameter(
         0.0,
         unit="s",
         minimum=0.0,
-        description="duration for which the last command is held with terminal_step exact, against noise of navigation",
+        description="duration for which the last command is held with terminal_step exact",
     )
     frozen_time_to_go = Parameter(
         0.0,
         unit="s",
         minimum=0.0,
-        description="time to go of every command, for linear stability; 0: time to go computed at each sample",
+        description=(
+            "constant time to go of every command, for stability studies; 0: time to go computed at each sample"
+        ),
     )
-    position = landing.POSITION.input("estimated position")
-    velocity = landing.VELOCITY.input("estimated velocity")
-    mass = landing.MASS.input("estimated mass")
-    active = landing.ACTIVE.input("true: guidance active; the first active sample is a start")
-    divert_count = Input(0, description="number of diverts so far; a change makes divert_position the target")
-    divert_position = landing.POSITION.input("target position after a divert")
+    position = landing.POSITION.input("estimated position of the lander relative to the landing site")
+    velocity = landing.VELOCITY.input("estimated velocity of the lander relative to the landing site")
+    mass = landing.MASS.input("estimated mass of the lander")
+    active = landing.ACTIVE.input("true: guidance active; a change to true restarts the guidance")
+    divert_count = Input(0, description="number of diverts since the start; a change makes divert_position the target")
+    divert_position = landing.POSITION.input("target position after a divert, relative to the landing site")
     command = Outputs(ThrustCommand, direct=True, thrust_direction=[0.0, 0.0, 1.0], burn_duration=UNLIMITED)
     time_to_go = landing.TIME_TO_GO.output(direct=True)
     status = Output(TerminalStatus, direct=True)
-    finished = landing.FINISHED.output(direct=True)
-    cycle = State(0.0, unit="s", description="time to the next sample; 0 until the first step")
-    under_way = State(False, description="active at the last sample")
-    started = State(False, description="true: a command with time left has been issued")
+    finished = landing.FINISHED.output("true: target reached, guidance finished", direct=True)
+    cycle = State(0.0, unit="s", description="time to the next guidance sample; 0 until the first step")
+    under_way = State(False, description="true: guidance was active at the last sample")
+    started = State(False, description="true: a command with positive time to go issued for the current target")
     start_time = sampling.START_TIME.state()
     expected_time = State(
-        0.0, unit="s", description="time_to_go of the previous sample minus the sample period; 0 or less: unknown"
+        0.0, unit="s", description="time to go expected at the current sample from the previous one; 0 or less: unknown"
     )
-    aim_position = landing.POSITION.state("target position in force: target_position, or that of the last divert")
-    flown_divert = State(0, description="divert_count of aim_position")
+    aim_position = landing.POSITION.state(
+        "current target position: target_position, or divert_position of the last divert"
+    )
+    flown_divert = State(0, description="divert_count of the current target")
     commanding = State(
-        False, description="true: a command with time left has been issued, for this target or an earlier one"
+        False, description="true: a command with positive time to go issued for the current or an earlier target"
     )
 
     def solve(self) -> None:

@@ -19,15 +19,23 @@ class Allocation(Block, interface=True):
     Frame: landing site. Directions are unit vectors at command_time with their rates.
     """
 
-    thrust_acceleration = landing.THRUST_ACCELERATION.input("commanded thrust over mass")
-    demanded_direction = landing.DIRECTION.input("commanded thrust direction at demand_time, unit vector")
-    demanded_direction_rate = landing.DIRECTION_RATE.input()
-    demand_time = Input(0.0, unit="s", description="reference time of the command")
-    demanded_duration = Input(0.0, unit="s", description="commanded burn duration from demand_time on")
+    thrust_acceleration = landing.THRUST_ACCELERATION.input("thrust over mass commanded by the guidance")
+    demanded_direction = landing.DIRECTION.input(
+        "commanded thrust direction of the guidance at demand_time, unit vector"
+    )
+    demanded_direction_rate = landing.DIRECTION_RATE.input(
+        "time derivative of the thrust direction commanded by the guidance"
+    )
+    demand_time = Input(0.0, unit="s", description="reference time of the command of the guidance")
+    demanded_duration = Input(0.0, unit="s", description="burn duration commanded by the guidance, from demand_time on")
     mass = landing.MASS.input("mass of the vehicle")
-    thrust = landing.THRUST.output("thrust of the engine", direct=True)
-    thrust_direction = landing.DIRECTION.output(direct=True)
-    thrust_direction_rate = landing.DIRECTION_RATE.output(direct=True)
+    thrust = landing.THRUST.output("thrust of the engine after allocation", direct=True)
+    thrust_direction = landing.DIRECTION.output(
+        "thrust direction at command_time after allocation, unit vector", direct=True
+    )
+    thrust_direction_rate = landing.DIRECTION_RATE.output(
+        "time derivative of the thrust direction after allocation", direct=True
+    )
     command_time = landing.COMMAND_TIME.output(direct=True)
-    burn_duration = landing.BURN_DURATION.output(direct=True)
+    burn_duration = landing.BURN_DURATION.output("burn duration after allocation, from command_time on", direct=True)
     status = Output(AllocationStatus, direct=True)

@@ -44,8 +44,8 @@ def count_steps(h: float, longest: float) -> int:
 class Translation(Record):
     """Motion of a point."""
 
-    position = Field(Vector3, unit="m", description="position")
-    velocity = Field(Vector3, unit="m/s", description="velocity")
+    position = Field(Vector3, unit="m", description="position of the point")
+    velocity = Field(Vector3, unit="m/s", description="velocity of the point")
 
 
 def simpson(acceleration: Derivatives, t: float, s: Translation, h: float) -> Translation:
@@ -62,9 +62,9 @@ def simpson(acceleration: Derivatives, t: float, s: Translation, h: float) -> Tr
 class Forcing(Record):
     """An acceleration over a step that does not depend on the motion."""
 
-    start = Field(Vector3, unit="m/s2", description="at the start of the step")
-    middle = Field(Vector3, unit="m/s2", description="in its middle")
-    end = Field(Vector3, unit="m/s2", description="at its end")
+    start = Field(Vector3, unit="m/s2", description="acceleration at the start of the step")
+    middle = Field(Vector3, unit="m/s2", description="acceleration in the middle of the step")
+    end = Field(Vector3, unit="m/s2", description="acceleration at the end of the step")
 
 
 def runge_kutta_nystrom(field: Derivatives, s: Translation, forcing: Forcing, h: float) -> Translation:

@@ -17,29 +17,29 @@ HALVINGS = 200  # more than a double needs
 class JerkLimits(Record):
     """Limits of a rotation."""
 
-    rate = Field(unit="rad/s", description="largest rate, above 0")
-    acceleration = Field(unit="rad/s2", description="largest angular acceleration, above 0")
-    jerk = Field(unit="rad/s3", description="largest derivative of the angular acceleration, above 0")
+    rate = Field(unit="rad/s", description="largest angular rate, positive")
+    acceleration = Field(unit="rad/s2", description="largest angular acceleration, positive")
+    jerk = Field(unit="rad/s3", description="largest angular jerk, positive")
 
 
 class AxisMotion(Record):
     """Motion about an axis."""
 
-    angle = Field(unit="rad", description="since the start")
-    rate = Field(unit="rad/s", description="its derivative")
-    acceleration = Field(unit="rad/s2", description="that of the rate")
+    angle = Field(unit="rad", description="rotation angle since the start")
+    rate = Field(unit="rad/s", description="angular rate")
+    acceleration = Field(unit="rad/s2", description="angular acceleration")
 
 
 class RateProfile(Record):
     """Two ramps of the rate with a coast between them."""
 
-    angle = Field(unit="rad", description="of the whole")
-    first_rate = Field(unit="rad/s", description="at the start")
-    peak_rate = Field(unit="rad/s", description="of the coast")
-    last_rate = Field(unit="rad/s", description="at the end")
-    duration = Field(unit="s", description="of the whole")
-    acceleration = Field(unit="rad/s2", description="limit of the angular acceleration")
-    jerk = Field(unit="rad/s3", description="limit of its derivative")
+    angle = Field(unit="rad", description="angle covered by the whole profile")
+    first_rate = Field(unit="rad/s", description="angular rate at the start of the profile")
+    peak_rate = Field(unit="rad/s", description="angular rate of the coast")
+    last_rate = Field(unit="rad/s", description="angular rate at the end of the profile")
+    duration = Field(unit="s", description="duration of the whole profile")
+    acceleration = Field(unit="rad/s2", description="largest angular acceleration of the profile")
+    jerk = Field(unit="rad/s3", description="largest angular jerk of the profile")
 
 
 def ramp_time(change: float, acceleration: float, jerk: float) -> float:

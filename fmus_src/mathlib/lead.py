@@ -17,9 +17,9 @@ NO_STATE = 1e-12  # of the gain of the input: a gain of the state below it canno
 class LeadLaw(Record):
     """A lead compensator in discrete time."""
 
-    decay = Field(unit="1", description="of the state, per tick")
-    state_gain = Field(description="of the state in the output")
-    input_gain = Field(description="of the input in the output")
+    decay = Field(unit="1", description="factor of the state from one sample to the next")
+    state_gain = Field(description="gain from the state to the output")
+    input_gain = Field(description="gain from the input to the output")
 
 
 def tustin_lead(gain: float, lead: float, lag: float, period: float) -> LeadLaw:

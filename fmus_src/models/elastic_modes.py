@@ -43,29 +43,33 @@ class ElasticModes(Block, interface=True):
         [0.0] * MODES,
         unit="rad/s",
         minimum=0.0,
-        description="natural frequencies of the modes on a fixed base; 0: no mode",
+        description="natural frequencies of the modes with the body fixed; 0: no mode",
     )
     mode_damping = Parameter(
-        [0.005] * MODES, unit="1", minimum=0.0, description="damping ratios of the modes on a fixed base"
+        [0.005] * MODES, unit="1", minimum=0.0, description="damping ratios of the modes with the body fixed"
     )
     mode_translation = Parameter(
         [0.0] * (3 * MODES),
         frame="body",
         columns=3,
-        description="participation of each mode in translation, square root of kg",
+        description="participation of each mode in translation, one mode per row, square root of kg",
     )
     mode_rotation = Parameter(
         [0.0] * (3 * MODES),
         frame="body",
         columns=3,
-        description="participation of each mode in rotation, square root of kg times m",
+        description="participation of each mode in rotation, one mode per row, m times square root of kg",
     )
     mode_displacements = Output([0.0] * MODES, description="modal displacements, m times square root of kg")
     modal_momenta = State([0.0] * MODES, description="modal momenta, m/s times square root of kg")
-    translation = State(zeros(3, MODES), description="participation L in translation, one mode per column")
-    rotation = State(zeros(3, MODES), description="participation D in rotation, one mode per column")
+    translation = State(
+        zeros(3, MODES), description="participation matrix L of the modes in translation, one mode per column"
+    )
+    rotation = State(
+        zeros(3, MODES), description="participation matrix D of the modes in rotation, one mode per column"
+    )
     inverse_modal_mass = State(zeros(MODES, MODES), description="inverse of the modal mass matrix")
-    modal_coupling = State(zeros(3, MODES), description="coupling of the modes to rotation")
+    modal_coupling = State(zeros(3, MODES), description="coupling matrix of the modes with the rotation of the body")
 
     def start_modes(self, mass: float) -> bool:
         """Set the constant matrices for a mass (kg) of the whole; False where the modes hold more than that."""

@@ -41,21 +41,28 @@ class ExposedSurfaces(SpaceModel, interface=True):
         [0.0] * (PLATES * COLUMNS),
         frame="body",
         columns=COLUMNS,
-        description="flat plates by row, SI: area (0: none), normal, centre, drag, specular, diffuse coefficient",
+        description=(
+            "flat plates, one per row, in SI units: area (0: none), normal, centre, coefficients of drag, "
+            "specular and diffuse reflection"
+        ),
     )
-    sphere_area = Parameter(0.0, unit="m2", minimum=0.0, description="cross-sectional area of a sphere; 0: none")
+    sphere_area = Parameter(
+        0.0, unit="m2", minimum=0.0, description="cross-sectional area of the additional sphere; 0: no sphere"
+    )
     sphere_drag = Parameter(2.2, unit="1", minimum=0.0, description="drag coefficient of the sphere")
     sphere_reflectivity = Parameter(
         1.3,
         unit="1",
         minimum=0.0,
-        description="radiation pressure coefficient of the sphere; 1 absorbs, 2 reflects all",
+        description="radiation pressure coefficient of the sphere: 1 for full absorption, 2 for full reflection",
     )
     surfaces = State(
-        zeros(PLATES, COLUMNS), frozen=True, description="plates with unit normals; area 0 without a normal"
+        zeros(PLATES, COLUMNS),
+        frozen=True,
+        description="flat plates with normalised normals, one per row; area 0 for a plate without a normal",
     )
-    has_surfaces = State(False, description="true: a plate or the sphere has an area")
-    lacks_normal = State(False, description="true: a plate with an area has no normal and is omitted")
+    has_surfaces = State(False, description="true: at least one plate, or the sphere, has an area")
+    lacks_normal = State(False, description="true: a plate with an area has no normal and is ignored")
 
     def start_surfaces(self) -> None:
         """Set surfaces, with unit normals."""

@@ -23,11 +23,13 @@ class GravityField(SpaceModel, interface=True):
     """
 
     gravity_degree = Parameter(
-        13, minimum=0, maximum=13, description="highest degree of the gravity field; 8 at most for the Moon"
+        13, minimum=0, maximum=13, description="highest degree of the gravity field model; at most 8 for the Moon"
     )
-    third_bodies = Parameter(True, description="true: gravity of Sun and Moon, or of Sun and Earth, included")
+    third_bodies = Parameter(
+        True, description="true: gravity of the Sun and of the Moon (of the Earth for an orbit about the Moon) included"
+    )
     gravity_coefficients = State(
-        zeros(SIZE, SIZE), frozen=True, description="unnormalised coefficients of the gravity field"
+        zeros(SIZE, SIZE), frozen=True, description="unnormalised coefficients of the gravity field model"
     )
 
     def fill_gravity(self) -> None:

@@ -35,8 +35,13 @@ class OrbitalBody(Block, interface=True):
 
     inertia = body.INERTIA.parameter([6500.0, -150.0, -100.0, -150.0, 30000.0, -200.0, -100.0, -200.0, 29000.0])
     jet_torque = body.JET_TORQUE.parameter()
-    orbital_rate = Parameter(0.0011, unit="rad/s", minimum=1e-9, description="angular rate of the orbital frame")
-    inverse_inertia = State([0.0] * 9, columns=3, description="inverse inertia matrix, 1/(kg m2)")
+    orbital_rate = Parameter(
+        0.0011,
+        unit="rad/s",
+        minimum=1e-9,
+        description="angular rate of the orbital frame relative to the inertial frame",
+    )
+    inverse_inertia = State([0.0] * 9, columns=3, description="inverse of the body's inertia matrix, 1/(kg m2)")
 
     def weigh(self) -> bool:
         """Set inverse_inertia; whether the matrix of inertia has one."""

@@ -58,29 +58,35 @@ class SpaceModel(Block, interface=True):
     tt_minus_ut1 = space.TT_MINUS_UT1.parameter()
     atmosphere = Parameter(Atmosphere, start=Atmosphere.HARRIS_PRIESTER, description="model of the air density")
     density_factor = Parameter(
-        1.0, unit="1", minimum=0.0, description="factor on the model's air density; 0.1 to 4 over a solar cycle"
+        1.0, unit="1", minimum=0.0, description="ratio of actual to modelled air density; 0.1 to 4 over a solar cycle"
     )
     bulge_exponent = Parameter(
-        4.0, unit="1", minimum=2.0, maximum=6.0, description="exponent of the density bulge: 2 low inclination, 6 polar"
+        4.0,
+        unit="1",
+        minimum=2.0,
+        maximum=6.0,
+        description="exponent of the diurnal density bulge: 2 for low inclination, 6 for polar orbits",
     )
-    magnetic_degree = Parameter(8, minimum=1, maximum=13, description="highest degree of the magnetic field; 1: dipole")
+    magnetic_degree = Parameter(
+        8, minimum=1, maximum=13, description="highest degree of the geomagnetic field model; 1: dipole"
+    )
     pole_axes = State(PlanetAxes, frozen=True)
     sun = State(
         [1.5e11, 0.0, 0.0],
         unit="m",
         frame="inertial",
         frozen=True,
-        description="position of the Sun relative to the body's centre",
+        description="position of the Sun relative to the centre of the central body",
     )
     third_body = State(
         [4e8, 0.0, 0.0],
         unit="m",
         frame="inertial",
         frozen=True,
-        description="position of the Moon, or of the Earth, relative to the body's centre",
+        description="position of the Moon, or of the Earth, relative to the centre of the central body",
     )
     field_coefficients = State(
-        zeros(SIZE, SIZE), frozen=True, description="coefficients of the magnetic field at the epoch, nT"
+        zeros(SIZE, SIZE), frozen=True, description="coefficients of the geomagnetic field model at the epoch, nT"
     )
 
     def fill(self) -> None:

@@ -26,25 +26,38 @@ class SpinningWheels(Block, interface=True):
     wheel_inertia = satellite.WHEEL_INERTIA.parameter()
     motor_torque_limit = satellite.MOTOR_TORQUE_LIMIT.parameter()
     torque_factor = Parameter(
-        [1.0] * 4, unit="1", minimum=0.0, description="ratio of actual to commanded motor torque, per wheel; 0: failed"
+        [1.0] * 4,
+        unit="1",
+        minimum=0.0,
+        description="ratio of actual to commanded torque of each motor; 0: failed motor",
     )
     speed_limit = Parameter(
-        418.87902047863906, unit="rad/s", minimum=0.0, description="largest wheel speed, 4000 rpm; 0: no limit"
+        418.87902047863906, unit="rad/s", minimum=0.0, description="largest magnitude of a wheel's speed; 0: no limit"
     )
-    viscous_friction = Parameter(1e-5, unit="N.m.s", minimum=0.0, description="viscous friction coefficient of a wheel")
+    viscous_friction = Parameter(
+        1e-5, unit="N.m.s", minimum=0.0, description="viscous friction coefficient of each wheel"
+    )
     coulomb_friction = Parameter(
-        5e-4, unit="N.m", minimum=0.0, description="Coulomb friction torque of a wheel beyond coulomb_band"
+        5e-4, unit="N.m", minimum=0.0, description="Coulomb friction torque of each wheel above coulomb_band"
     )
     coulomb_band = Parameter(
-        0.1, unit="rad/s", minimum=1e-6, description="speed below which Coulomb friction falls linearly to 0"
+        0.1, unit="rad/s", minimum=1e-6, description="wheel speed below which Coulomb friction falls linearly to 0"
     )
-    initial_wheel_speeds = satellite.WHEEL_SPEEDS.parameter(description="initial wheel speeds relative to the body")
+    initial_wheel_speeds = satellite.WHEEL_SPEEDS.parameter(
+        description="initial angular rates of the wheels relative to the body"
+    )
     motor_torques = satellite.MOTOR_TORQUES.input("commanded torque of each motor on its wheel")
     wheel_speeds = satellite.WHEEL_SPEEDS.output()
     wheel_momentum = satellite.WHEEL_MOMENTUM.output("angular momentum of the wheels relative to the body")
-    applied_torques = satellite.MOTOR_TORQUES.output("motor torques over the last integration step")
-    spin = State([0.0] * 4, unit="N.m.s", description="absolute angular momentum h of each wheel about its spin axis")
-    axes = State(zeros(3, WHEELS), unit="1", frame="body", description="unit spin axes of the wheels, by column")
+    applied_torques = satellite.MOTOR_TORQUES.output(
+        "torque of each motor on its wheel, over the last integration step"
+    )
+    spin = State(
+        [0.0] * 4,
+        unit="N.m.s",
+        description="angular momentum of each wheel about its spin axis, relative to the inertial frame",
+    )
+    axes = State(zeros(3, WHEELS), unit="1", frame="body", description="unit spin axes of the wheels, one per column")
 
     def start_wheels(self, w: Vector3) -> None:
         """Set the wheels as they are at the start on a body with the angular velocity w (rad/s)."""

@@ -52,49 +52,60 @@ class AttitudeFilter(Block):
 
     default_step = 0.125
 
-    method = Parameter(FilterMethod, start=FilterMethod.KALMAN)
+    method = Parameter(
+        FilterMethod, start=FilterMethod.KALMAN, description="estimation method of the attitude and rate errors"
+    )
     mean_samples = Parameter(
-        2, minimum=1, description="number of samples per mean, those of one attitude control period"
+        2, minimum=1, description="number of sensor samples per mean: those of one attitude control period"
     )
     inertia = Parameter(
         [812.0, 587.0, 910.0],
         unit="kg.m2",
         minimum=1e-3,
-        description="principal moments of inertia of the robot, about x, y, z",
+        description="principal moments of inertia of the robot about x, y and z",
     )
     attitude_sigma = Parameter(
-        4.84813681109536e-6, unit="rad", minimum=1e-12, description="error of an attitude sample, 1 sigma per axis"
+        4.84813681109536e-6, unit="rad", minimum=1e-12, description="error of a measured attitude, 1 sigma per axis"
     )
     first_rate_sigma = Parameter(
-        1e-4, unit="rad/s", minimum=0.0, description="initial error of the planned angular rate, 1 sigma per axis"
+        1e-4,
+        unit="rad/s",
+        minimum=0.0,
+        description="initial error of the angular velocity relative to the plan, 1 sigma per axis",
     )
     process_noise = Parameter(
         1e-16, minimum=0.0, description="spectral density of the angular acceleration noise, rad2/s3"
     )
     first_disturbance_sigma = Parameter(
-        0.0, unit="rad/s2", minimum=0.0, description="initial disturbance, 1 sigma per axis"
+        0.0, unit="rad/s2", minimum=0.0, description="initial angular acceleration of the disturbance, 1 sigma per axis"
     )
     disturbance_noise = Parameter(
-        1e-18, minimum=0.0, description="spectral density of the noise in the disturbance's derivative, rad2/s5"
+        1e-18, minimum=0.0, description="spectral density of the noise in the disturbance's time derivative, rad2/s5"
     )
     jet_torque_error = Parameter(
         1e-4, unit="m", minimum=0.0, description="error of jet_torque per change of jet_force, 1 sigma per axis"
     )
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "sample period of the filter; 0: every communication point")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.125, "sample period of the filter; 0: a sample at every communication point"
+    )
     measured_quaternion = robot.MEASURED_QUATERNION.input()
-    sample_count = sampling.SAMPLE_COUNT.input("number of sensor samples so far; a change signals a new one")
+    sample_count = sampling.SAMPLE_COUNT.input(
+        "number of sensor samples since the start; a change signals a new sample"
+    )
     planned_quaternion = robot.PLANNED_QUATERNION.input()
-    planned_angular_velocity = body.ANGULAR_VELOCITY.input("planned angular velocity")
-    gyro_momentum = body.ANGULAR_MOMENTUM.input("angular momentum of the gyro cluster, from its gimbal angles")
+    planned_angular_velocity = body.ANGULAR_VELOCITY.input(
+        "planned angular velocity of the robot relative to the inertial frame"
+    )
+    gyro_momentum = body.ANGULAR_MOMENTUM.input("angular momentum of the gyro cluster, computed from its gimbal angles")
     jet_torque = body.TORQUE.input("torque of the jets since the last communication point")
     jet_force = body.FORCE.input("force of the jets since the last communication point")
     attitude_error = body.ROTATION.output(
-        "attitude error from planned to estimated attitude: axis times sine of the angle", direct=AT_ONCE
+        "error of the estimated attitude relative to the plan: rotation axis times sine of the angle", direct=AT_ONCE
     )
-    rate_error = body.ANGULAR_VELOCITY.output("estimated angular velocity minus the planned one", direct=AT_ONCE)
+    rate_error = body.ANGULAR_VELOCITY.output("estimated minus planned angular velocity", direct=AT_ONCE)
     quaternion = robot.QUATERNION.output(direct=AT_ONCE)
     disturbance = body.ANGULAR_ACCELERATION.output(
-        "estimated angular acceleration caused by neither gyros nor commanded jets", direct=AT_ONCE
+        "estimated angular acceleration that neither gyros nor commanded jets cause", direct=AT_ONCE
     )
     attitude_error_sigma = Output(
         0.0, unit="rad", direct=AT_ONCE, description="standard deviation of attitude_error per axis; 0: unknown"
@@ -105,19 +116,23 @@ class AttitudeFilter(Block):
     innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
     samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
     status = Output(SampleStatus, direct=AT_ONCE)
-    angular_velocity = body.ANGULAR_VELOCITY.state("estimated angular velocity of the Kalman filter")
-    covariance = State(
-        zeros(3, 3), frozen=True, description="covariance of attitude, rate and disturbance, in row order, SI"
+    angular_velocity = body.ANGULAR_VELOCITY.state(
+        "angular velocity relative to the inertial frame estimated by the Kalman filter"
     )
-    last_time = State(0.0, unit="s", description="time of the last step")
+    covariance = State(
+        zeros(3, 3),
+        frozen=True,
+        description="covariance matrix of attitude, angular rate and disturbance of one axis, SI units",
+    )
+    last_time = State(0.0, unit="s", description="time of the last filter step")
     start_time = sampling.START_TIME.state()
-    last_momentum = body.ANGULAR_MOMENTUM.state("gyro_momentum at the last step")
-    last_force = body.FORCE.state("jet_force at the last step")
-    counted = State(0, description="sample_count of the last sample")
-    mean_time = State(0.0, unit="s", description="time of the last mean")
-    total = body.ROTATION.state("sum of the errors since the last mean")
-    summed = State(0, description="number of samples in the sum")
-    means = State(0, description="number of means computed")
+    last_momentum = body.ANGULAR_MOMENTUM.state("angular momentum of the gyro cluster at the last filter step")
+    last_force = body.FORCE.state("force of the jets at the last filter step")
+    counted = State(0, description="sample_count of the last sample used")
+    mean_time = State(0.0, unit="s", description="time of the last computed mean")
+    total = body.ROTATION.state("sum of the measured attitude errors since the last mean")
+    summed = State(0, description="number of samples in the sum of attitude errors")
+    means = State(0, description="number of means computed since the start")
 
     def initialize(self) -> None:
         self.last_time = self.start_time

@@ -47,20 +47,23 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
     Crassidis 2014, sections 5.1 and 6.2.
     """
 
-    rejected = Output(0, direct=True, description="number of samples beyond the gate so far")
-    star_counted = State(0, description="star_count of the last sample")
-    sun_counted = State(0, description="sun_count of the last sample")
-    field_counted = State(0, description="field_count of the last sample")
-    rejected_in_row = State([0] * 3, description="consecutive samples beyond the gate: star, Sun, field")
-    last_star = State(0.0, unit="s", description="time of the last accepted star sample")
+    rejected = Output(0, direct=True, description="number of samples rejected by the gate since the start")
+    star_counted = State(0, description="star_count of the last star tracker sample used")
+    sun_counted = State(0, description="sun_count of the last Sun sensor sample used")
+    field_counted = State(0, description="field_count of the last magnetometer sample used")
+    rejected_in_row = State(
+        [0] * 3,
+        description="numbers of consecutive samples rejected by the gate: star tracker, Sun sensors, magnetometer",
+    )
+    last_star = State(0.0, unit="s", description="time of the last accepted star tracker sample")
     turns = State(
         zeros(TURNS, 3),
         unit="rad",
         frame="body",
-        description="rotations of the last sample periods by the gyros, newest first",
+        description="rotation vectors over the last sample periods, integrated from the gyros, newest first",
     )
-    turn_starts = State([0.0] * TURNS, unit="s", description="start times of these rotations")
-    turn_ends = State([0.0] * TURNS, unit="s", description="end times of these rotations")
+    turn_starts = State([0.0] * TURNS, unit="s", description="start times of the stored rotations, newest first")
+    turn_ends = State([0.0] * TURNS, unit="s", description="end times of the stored rotations, newest first")
 
     def initialize(self) -> None:
         self.star_counted = 0  # a count of 0 is no sample, any other one is new

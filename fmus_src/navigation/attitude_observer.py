@@ -42,59 +42,74 @@ class AttitudeObserver(OrbitalBody, interface=True):
     Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """
 
-    yaw_pole = Parameter(0.1, unit="1/s", minimum=1e-6, description="decay rate of a full observer's yaw error")
+    yaw_pole = Parameter(
+        0.1, unit="1/s", minimum=1e-6, description="decay rate of the yaw error of a full-order observer"
+    )
     measured_pole = Parameter(
-        1.0, unit="1/s", minimum=1e-6, description="decay rate of a full observer's errors of measured quantities"
+        1.0,
+        unit="1/s",
+        minimum=1e-6,
+        description="decay rate of the errors of measured quantities of a full-order observer",
     )
     reduced_yaw_pole = Parameter(
-        0.1, unit="1/s", minimum=1e-6, description="decay rate of a reduced observer's yaw error"
+        0.1, unit="1/s", minimum=1e-6, description="decay rate of the yaw error of a reduced-order observer"
     )
     largest_yaw = Parameter(
-        0.9, unit="rad", minimum=0.0, description="bound of the estimated yaw, except of the Kalman filter"
+        0.9, unit="rad", minimum=0.0, description="largest magnitude of the estimated yaw; ignored by the Kalman filter"
     )
     vertical_sigma = Parameter(
         deg(0.001),
         unit="rad",
         minimum=1e-12,
-        description="error of measured roll and pitch, 1 sigma, for the Kalman filter",
+        description="error of measured roll and pitch assumed by the Kalman filter, 1 sigma",
     )
     gyro_sigma = Parameter(
         1.7453292519943296e-06,
         unit="rad/s",
         minimum=1e-12,
-        description="error of a measured angular rate, 1 sigma, for the Kalman filter",
+        description="error of measured angular velocity assumed by the Kalman filter, 1 sigma per axis",
     )
     gyro_bias_sigma = Parameter(
         4.84813681109536e-09,
         unit="rad/s",
         minimum=1e-12,
-        description="gyro bias, 1 sigma per axis, for the Kalman filter",
+        description="gyro bias assumed by the Kalman filter, 1 sigma per axis",
     )
-    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period", minimum=1e-3)
+    sample_period = sampling.SAMPLE_PERIOD.parameter(description="sample period of the observer", minimum=1e-3)
     measured_roll = body.MEASURED_ROLL.input()
     measured_pitch = body.MEASURED_PITCH.input()
-    vertical_count = Input(0, description="number of roll and pitch samples so far; a change signals a new one")
-    measured_angular_velocity = body.ANGULAR_VELOCITY.input()
-    gyro_count = Input(0, description="number of gyro samples so far; a change signals a new one")
-    fired_pulses = body.PULSES.input("signed pulse lengths of the previous sample period")
-    held_torque = body.TORQUE.input("torque in addition to the pulses over the previous sample period")
-    true_angles = Input([0.0, 0.0, 0.0], unit="rad", description="true roll, yaw and pitch, for the ideal observer")
+    vertical_count = Input(
+        0, description="number of roll and pitch samples since the start; a change signals a new sample"
+    )
+    measured_angular_velocity = body.ANGULAR_VELOCITY.input(
+        "measured angular velocity of the body relative to the inertial frame"
+    )
+    gyro_count = Input(0, description="number of gyro samples since the start; a change signals a new sample")
+    fired_pulses = body.PULSES.input("pulse lengths of the jets in the previous sample period, signed as the torque")
+    held_torque = body.TORQUE.input("torque in addition to the pulses, over the previous sample period")
+    true_angles = Input(
+        [0.0, 0.0, 0.0],
+        unit="rad",
+        description="true roll, yaw and pitch relative to the orbital frame, used by the ideal observer only",
+    )
     true_angular_velocity = body.ANGULAR_VELOCITY.input(
-        "true angular velocity relative to the inertial frame, for the ideal observer"
+        "true angular velocity relative to the inertial frame, used by the ideal observer only"
     )
     estimated_angles = body.ESTIMATED_ANGLES.output(direct=True)
-    estimated_angular_velocity = body.ANGULAR_VELOCITY.output(direct=True)
-    estimated_gyro_bias = body.ANGULAR_VELOCITY.output("estimated gyro bias; 0: not estimated", direct=True)
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.output(
+        "estimated angular velocity of the body relative to the inertial frame", direct=True
+    )
+    estimated_gyro_bias = body.ANGULAR_VELOCITY.output("estimated bias of the gyros; 0: not estimated", direct=True)
     yaw_sigma = Output(0.0, unit="rad", direct=True, description="standard deviation of the estimated yaw; 0: unknown")
     status = Output(ObserverStatus, direct=True)
-    estimate = State(AttitudeState, description="current estimate")
+    estimate = State(AttitudeState, description="estimate at the last sample")
     last_roll = State(0.0, unit="rad", description="roll measured at the previous sample")
     last_pitch = State(0.0, unit="rad", description="pitch measured at the previous sample")
     last_rates = body.ANGULAR_VELOCITY.state("angular velocity measured at the previous sample")
-    vertical_counted = State(0, description="vertical_count of the last sample")
-    gyro_counted = State(0, description="gyro_count of the last sample")
+    vertical_counted = State(0, description="vertical_count of the last sample used")
+    gyro_counted = State(0, description="gyro_count of the last sample used")
     ticks = State(0, description="number of samples since the start")
-    usable = State(True, description="true: gain computed")
+    usable = State(True, description="true: observer gains computed")
 
     def begin(self) -> bool:
         """Make what the observer needs from the parameters; whether that could be done."""

@@ -26,14 +26,25 @@ class ColouredNavigation(Navigation):
     Source: Gillespie 1996 (exact updating formula of the Ornstein-Uhlenbeck process).
     """
 
-    position_sigma = landing.POSITION_SIGMA.parameter(description="Gauss-Markov position error, 1 sigma per axis")
-    velocity_sigma = landing.VELOCITY_SIGMA.parameter(0.1, "Gauss-Markov velocity error, 1 sigma per axis")
-    correlation_time = Parameter(10.0, unit="s", minimum=1e-3, description="correlation time of the errors")
-    white_share = Parameter(0.3, unit="1", minimum=0.0, description="ratio of white error to sigma")
+    position_sigma = landing.POSITION_SIGMA.parameter(
+        description="Gauss-Markov error of the estimated position, 1 sigma per axis"
+    )
+    velocity_sigma = landing.VELOCITY_SIGMA.parameter(
+        0.1, "Gauss-Markov error of the estimated velocity, 1 sigma per axis"
+    )
+    correlation_time = Parameter(
+        10.0, unit="s", minimum=1e-3, description="correlation time of the Gauss-Markov errors"
+    )
+    white_share = Parameter(
+        0.3,
+        unit="1",
+        minimum=0.0,
+        description="standard deviation of the white errors over that of the Gauss-Markov errors",
+    )
     seed, stream = sampling.random_stream()
     generator = sampling.GENERATOR.state()
     wandering = State(
-        [0.0] * 6, frozen=True, description="Gauss-Markov errors of position and velocity, normalised by their sigmas"
+        [0.0] * 6, frozen=True, description="Gauss-Markov errors of position and velocity, in units of their sigmas"
     )
 
     def initialize(self) -> None:

@@ -20,24 +20,30 @@ class EstimateMonitor(Block):
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 5.4.2.
     """
 
-    position = landing.POSITION.input("true position")
-    velocity = landing.VELOCITY.input("true velocity")
-    estimated_position = landing.POSITION.input("estimated position")
-    estimated_velocity = landing.VELOCITY.input("estimated velocity")
+    position = landing.POSITION.input("true position of the lander relative to the landing site")
+    velocity = landing.VELOCITY.input("true velocity of the lander relative to the landing site")
+    estimated_position = landing.POSITION.input("estimated position of the lander relative to the landing site")
+    estimated_velocity = landing.VELOCITY.input("estimated velocity of the lander relative to the landing site")
     estimate_covariance = landing.ESTIMATE_COVARIANCE.input(
-        "covariance of the position and velocity errors, SI, rows of the upper triangle"
+        "covariance of the errors of estimated position and velocity, SI units, upper triangle by rows"
     )
     normalised_error_square = Output(
         0.0,
         unit="1",
         direct=True,
-        description="normalised estimation error squared (NEES) of the six states; 0: covariance not positive definite",
+        description=(
+            "normalised estimation error squared (NEES) of position and velocity; 0: covariance not positive definite"
+        ),
     )
     position_error_ratio = landing.DIRECTION.output(
-        "position error over its standard deviation per axis; 0: deviation 0", start=[0.0, 0.0, 0.0], direct=True
+        "position error over its standard deviation per axis; 0: standard deviation 0",
+        start=[0.0, 0.0, 0.0],
+        direct=True,
     )
     velocity_error_ratio = landing.DIRECTION.output(
-        "velocity error over its standard deviation per axis; 0: deviation 0", start=[0.0, 0.0, 0.0], direct=True
+        "velocity error over its standard deviation per axis; 0: standard deviation 0",
+        start=[0.0, 0.0, 0.0],
+        direct=True,
     )
 
     def initialize(self) -> None:

@@ -58,58 +58,82 @@ class FilteredNavigation(InertialNavigation, interface=True):
         deg(0.02),
         unit="rad",
         minimum=0.0,
-        description="attitude error of the inertial sensor, 1 sigma per axis, constant",
+        description="constant attitude error of the accelerometer triad, 1 sigma per axis",
     )
     velocity_random_walk = landing.VELOCITY_RANDOM_WALK.parameter()
     bias_random_walk = Parameter(
-        0.0, minimum=0.0, description="bias random walk of the inertial sensor, m/s2 per square root of s"
+        0.0, minimum=0.0, description="random walk of the accelerometer bias, m/s2 per square root of s"
     )
     altitude_relative_sigma = Parameter(
-        0.005, unit="1", minimum=0.0, description="altitude measurement error proportional to altitude, 1 sigma"
+        0.005,
+        unit="1",
+        minimum=0.0,
+        description="altitude measurement error proportional to altitude, as a fraction of it, 1 sigma",
     )
     altitude_sigma = Parameter(
         1.0, unit="m", minimum=0.0, description="constant part of the altitude measurement error, 1 sigma"
     )
     velocity_relative_sigma = Parameter(
-        0.001, unit="1", minimum=0.0, description="velocity measurement error proportional to speed, 1 sigma per axis"
+        0.001,
+        unit="1",
+        minimum=0.0,
+        description="velocity measurement error proportional to speed, as a fraction of it, 1 sigma per axis",
     )
     velocity_sigma = landing.VELOCITY_SIGMA.parameter()
     position_relative_sigma = Parameter(
         0.0015,
         unit="1",
         minimum=0.0,
-        description="position measurement error proportional to altitude, 1 sigma per axis",
+        description="position measurement error proportional to altitude, as a fraction of it, 1 sigma per axis",
     )
     position_sigma = landing.POSITION_SIGMA.parameter()
     gravity_gradient = Parameter(False, description="true: gravity gradient included in the covariance propagation")
     innovation_gate = Parameter(
-        5.0, unit="1", minimum=0.0, description="largest innovation of an accepted scalar, in sigmas; 0: no gate"
+        5.0,
+        unit="1",
+        minimum=0.0,
+        description="largest innovation of an accepted scalar measurement, in standard deviations; 0: all accepted",
     )
-    rejection_limit = Parameter(5, minimum=1, description="consecutive rejected samples of a sensor that set status 2")
+    rejection_limit = Parameter(
+        5, minimum=1, description="number of consecutive rejected samples of a sensor at which status becomes 2"
+    )
     reacquire = Parameter(
-        False, description="true: covariance increased to accept a sensor rejected rejection_limit times"
+        False, description="true: covariance increased until a sensor rejected rejection_limit times is accepted"
     )
-    estimated_bias = landing.ACCELERATION.output("estimated bias of the inertial sensor's specific force", direct=True)
+    estimated_bias = landing.ACCELERATION.output("estimated bias of the measured specific force", direct=True)
     innovation_square = sampling.INNOVATION_SQUARE.output(
-        "normalised innovation squared of the last scalar, accepted or rejected", direct=True
+        "normalised innovation squared of the last scalar measurement, accepted or rejected", direct=True
     )
     altitude_innovation_square = Output(
-        0.0, unit="1", direct=True, description="normalised innovation squared of the last altitude, one component"
+        0.0, unit="1", direct=True, description="normalised innovation squared of the last altitude sample"
     )
     velocity_innovation_square = Output(
-        0.0, unit="1", direct=True, description="normalised innovation squared of the last velocity, three components"
+        0.0,
+        unit="1",
+        direct=True,
+        description="normalised innovation squared of the last velocity sample, sum over three components",
     )
     position_innovation_square = Output(
-        0.0, unit="1", direct=True, description="normalised innovation squared of the last position, three components"
+        0.0,
+        unit="1",
+        direct=True,
+        description="normalised innovation squared of the last position sample, sum over three components",
     )
-    rejected_count = Output(0, direct=True, description="number of scalars rejected by the gate")
+    rejected_count = Output(
+        0, direct=True, description="number of scalar measurements rejected by the gate since the start"
+    )
     status = Output(FilterStatus, direct=True)
     sensor_errors = State(
-        zeros(9, 1), description="estimated bias (m/s2), scale factor and misalignment (rad) per axis"
+        zeros(9, 1),
+        description=(
+            "estimated errors of the inertial sensor, three axes each: bias (m/s2), scale factor, misalignment (rad)"
+        ),
     )
-    covariance = State(zeros(15, 15), frozen=True, description="covariance of the fifteen states, in row order, SI")
+    covariance = State(
+        zeros(15, 15), frozen=True, description="covariance matrix of the fifteen filter states, SI units"
+    )
     rejected_in_a_row = State(
-        [0] * 3, description="consecutive samples with a rejected scalar: altitude, velocity, position"
+        [0] * 3, description="numbers of consecutive samples with a rejected component: altitude, velocity, position"
     )
 
     def predict(self, h: float) -> None:

@@ -17,7 +17,11 @@ class FullAttitudeObserver(AttitudeObserver, interface=True):
     where the matrix M sets the dynamics of the measured errors, and the row l drives yaw by roll.
     """
 
-    gain = State([0.0] * 30, columns=5, description="gain from measured roll, pitch and rates to angles and rates (SI)")
+    gain = State(
+        [0.0] * 30,
+        columns=5,
+        description="observer gain from measured roll, pitch and angular rates to angles and angular rates, SI units",
+    )
 
     def compose(self, m: Matrix, row: list) -> None:
         """Set gain = m (C' + e row): m 6 x 6, row of five."""

@@ -29,18 +29,30 @@ class InertialNavigation(Navigation, interface=True):
     """
 
     seed, stream = sampling.random_stream()
-    force = State([0.0] * 3, unit="m/s2", description="mean specific force assumed over the last step")
-    force_before = State([0.0] * 3, unit="m/s2", description="mean specific force assumed over the step before")
-    under_way = State(False, description="true: at least one step taken")
-    last_force = State([0.0] * 3, unit="m/s2", description="last measured specific force, for steps without a sample")
+    force = State(
+        [0.0] * 3, unit="m/s2", description="mean specific force assumed over the last step (landing site frame)"
+    )
+    force_before = State(
+        [0.0] * 3,
+        unit="m/s2",
+        description="mean specific force assumed over the step before the last one (landing site frame)",
+    )
+    under_way = State(False, description="true: estimate propagated at least once")
+    last_force = State(
+        [0.0] * 3,
+        unit="m/s2",
+        description="last measured specific force, assumed until the next sample (landing site frame)",
+    )
     assumed_increment = State(
-        [0.0] * 3, unit="m/s", description="velocity increment assumed since the last inertial sample"
+        [0.0] * 3,
+        unit="m/s",
+        description="velocity increment assumed since the last inertial sample (landing site frame)",
     )
     since_sample = State(0.0, unit="s", description="time since the last inertial sample")
-    inertial_taken = State(0, description="inertial_count of the last sample taken")
-    altitude_taken = State(0, description="altitude_count of the last sample taken")
-    velocity_taken = State(0, description="velocity_count of the last sample taken")
-    position_taken = State(0, description="position_count of the last sample taken")
+    inertial_taken = State(0, description="inertial_count of the last inertial sample used")
+    altitude_taken = State(0, description="altitude_count of the last altitude sample used")
+    velocity_taken = State(0, description="velocity_count of the last velocity sample used")
+    position_taken = State(0, description="position_count of the last position sample used")
 
     def know(self) -> None:
         """Initialise the estimate: truth plus initial errors."""

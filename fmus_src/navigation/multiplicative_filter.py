@@ -21,13 +21,15 @@ class MultiplicativeFilter(AttitudeNavigation, interface=True):
     Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2.
     """
 
-    rate = body.ANGULAR_VELOCITY.state("last finite gyro sample")
-    covariance = State(zeros(6, 6), frozen=True, description="covariance of the attitude and bias errors, SI")
+    rate = body.ANGULAR_VELOCITY.state("last finite angular velocity measured by the gyros")
+    covariance = State(
+        zeros(6, 6), frozen=True, description="covariance matrix of attitude error and gyro bias error, SI units"
+    )
     start_time = sampling.START_TIME.state()
-    last_time = State(0.0, unit="s", description="time of the last update")
-    gyro_counted = State(0, description="gyro_count of the last sample")
-    begun = State(False, description="true: attitude measured at least once")
-    turn = body.ROTATION.state("rotation since the last update, by the gyros")
+    last_time = State(0.0, unit="s", description="time of the last filter update")
+    gyro_counted = State(0, description="gyro_count of the last gyro sample used")
+    begun = State(False, description="true: filter initialised with a first attitude measurement")
+    turn = body.ROTATION.state("rotation vector since the last update, integrated from the gyros")
 
     def begin(self) -> None:
         """Set the filter as it is before the first attitude."""

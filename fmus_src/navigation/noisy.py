@@ -35,30 +35,36 @@ class NoisyNavigation(Navigation):
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2 (discretised white acceleration noise).
     """
 
-    gravity = landing.GRAVITY.parameter(description="constant gravity along -z in the filter's model")
-    position_period = Parameter(1.0, unit="s", minimum=1e-3, description="time between position fixes")
-    position_sigma = landing.POSITION_SIGMA.parameter(
-        0.0, "error of a position fix, 1 sigma per axis; 0: no position fixes"
+    gravity = landing.GRAVITY.parameter(
+        description="constant gravitational acceleration along -z in the filter's model"
     )
-    velocity_period = Parameter(0.2, unit="s", minimum=1e-3, description="time between velocity fixes")
+    position_period = Parameter(1.0, unit="s", minimum=1e-3, description="time between two position fixes")
+    position_sigma = landing.POSITION_SIGMA.parameter(
+        0.0, "white error of a position fix, 1 sigma per axis; 0: no position fixes"
+    )
+    velocity_period = Parameter(0.2, unit="s", minimum=1e-3, description="time between two velocity fixes")
     velocity_sigma = landing.VELOCITY_SIGMA.parameter(
-        0.0, "error of a velocity fix, 1 sigma per axis; 0: no velocity fixes"
+        0.0, "white error of a velocity fix, 1 sigma per axis; 0: no velocity fixes"
     )
     first_position_sigma = Navigation.first_position_sigma.with_start(0.0)
     first_velocity_sigma = Navigation.first_velocity_sigma.with_start(0.0)
     process_noise = Parameter(
-        1e-6, unit="m2/s3", minimum=0.0, description="spectral density of the white acceleration noise"
+        1e-6, unit="m2/s3", minimum=0.0, description="spectral density of the filter's white acceleration noise"
     )
     seed, stream = sampling.random_stream()
     innovation_square = sampling.INNOVATION_SQUARE.output(
-        "normalised innovation squared of the last scalar fix", direct=True
+        "normalised innovation squared of the last component of a fix", direct=True
     )
     generator = sampling.GENERATOR.state()
-    estimate = State(zeros(6, 1), description="estimated position (m) and velocity (m/s), landing-site frame")
-    covariance = State(zeros(6, 6), frozen=True, description="covariance of the estimate, in row order, m and m/s")
+    estimate = State(
+        zeros(6, 1), description="estimated position (m) and velocity (m/s) of the lander (landing site frame)"
+    )
+    covariance = State(
+        zeros(6, 6), frozen=True, description="covariance matrix of estimated position and velocity, SI units"
+    )
     start_time = sampling.START_TIME.state()
-    position_fixes = State(0, description="number of position fixes")
-    velocity_fixes = State(0, description="number of velocity fixes")
+    position_fixes = State(0, description="number of position fixes since the start")
+    velocity_fixes = State(0, description="number of velocity fixes since the start")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

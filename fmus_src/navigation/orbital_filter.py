@@ -30,12 +30,20 @@ class OrbitalFilter(AttitudeObserver):
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 10.3. See docs/systems/orbital_attitude.md.
     """
 
-    first_yaw_sigma = Parameter(deg(10.0), unit="rad", minimum=0.0, description="initial yaw error, 1 sigma")
-    rate_gain = Parameter(
-        0.15, unit="1", minimum=0.0, maximum=1.0, description="weight of a gyro sample in the estimated rates"
+    first_yaw_sigma = Parameter(
+        deg(10.0), unit="rad", minimum=0.0, description="initial error of the estimated yaw, 1 sigma"
     )
-    bias = body.ANGULAR_VELOCITY.state("estimated gyro bias")
-    covariance = State([0.0] * 36, columns=6, frozen=True, description="covariance of angles and biases, SI")
+    rate_gain = Parameter(
+        0.15,
+        unit="1",
+        minimum=0.0,
+        maximum=1.0,
+        description="weight of a gyro sample in the estimated angular velocity",
+    )
+    bias = body.ANGULAR_VELOCITY.state("estimated bias of the gyros")
+    covariance = State(
+        [0.0] * 36, columns=6, frozen=True, description="covariance matrix of attitude angles and gyro biases, SI units"
+    )
 
     def begin(self) -> bool:
         self.covariance[ANGLES, ANGLES] = self.vertical_sigma * self.vertical_sigma * identity(3)

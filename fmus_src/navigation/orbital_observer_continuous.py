@@ -20,7 +20,12 @@ class OrbitalObserverContinuous(FullAttitudeObserver):
     Source: Lapin, thesis, chapter 3.1. Gain: docs/systems/orbital_attitude.md.
     """
 
-    split = Parameter(False, description="true: motion integrated pulse by pulse; false: under their mean torque")
+    split = Parameter(
+        False,
+        description=(
+            "true: motion integrated pulse by pulse; false: motion integrated with the mean torque of the pulses"
+        ),
+    )
 
     def begin(self) -> bool:
         a = linear_model(self.inertia, self.inverse_inertia, self.orbital_rate)

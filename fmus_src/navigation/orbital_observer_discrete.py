@@ -21,7 +21,12 @@ class OrbitalObserverDiscrete(FullAttitudeObserver):
     Source: Lapin, thesis, chapter 3.1. Gain: docs/systems/orbital_attitude.md.
     """
 
-    split = Parameter(False, description="true: motion integrated pulse by pulse; false: under their mean torque")
+    split = Parameter(
+        False,
+        description=(
+            "true: motion integrated pulse by pulse; false: motion integrated with the mean torque of the pulses"
+        ),
+    )
 
     def begin(self) -> bool:
         period = self.sample_period

@@ -18,7 +18,12 @@ class OrbitalObserverDiscreteReduced(AttitudeObserver):
     Source: Lapin, thesis, chapter 3.1. See docs/systems/orbital_attitude.md.
     """
 
-    split = Parameter(False, description="true: motion integrated pulse by pulse; false: under their mean torque")
+    split = Parameter(
+        False,
+        description=(
+            "true: motion integrated pulse by pulse; false: motion integrated with the mean torque of the pulses"
+        ),
+    )
 
     def observe(self) -> None:
         carried = self.carry(self.split)

@@ -27,12 +27,16 @@ class OrbitalSequence(AttitudeObserver):
     It is the baseline of the observers. See docs/systems/orbital_attitude.md.
     """
 
-    levelling_end = Parameter(90.0, unit="s", minimum=0.0, description="end of levelling, after the start")
-    averaging_end = Parameter(270.0, unit="s", minimum=0.0, description="end of averaging, after the start")
+    levelling_end = Parameter(
+        90.0, unit="s", minimum=0.0, description="time from the start of the simulation to the end of levelling"
+    )
+    averaging_end = Parameter(
+        270.0, unit="s", minimum=0.0, description="time from the start of the simulation to the end of averaging"
+    )
     stage = State(Stage)
-    since = State(0, description="sample number at which averaging began")
-    last_tick = State(0, description="number of the last sample")
-    first_roll = State(0.0, unit="rad", description="roll at the start of averaging")
+    since = State(0, description="number of the sample at which averaging began")
+    last_tick = State(0, description="number of the last sample used")
+    first_roll = State(0.0, unit="rad", description="measured roll at the start of averaging")
     turned = State(0.0, unit="rad", description="integral of the measured roll rate since the start of averaging")
 
     def due(self, time: float) -> bool:

@@ -28,35 +28,50 @@ class PointingMonitor(Block):
         [1.0, 0.0, 0.0, 0.0], unit="1", description="target attitude quaternion from body to inertial, scalar first"
     )
     angle_limit = Parameter(
-        4.84813681109536e-5, unit="rad", minimum=0.0, description="largest pointing error; 10 arcsec"
+        4.84813681109536e-5,
+        unit="rad",
+        minimum=0.0,
+        description="largest pointing error for which the attitude counts as pointing",
     )
-    rate_limit = Parameter(1e-5, unit="rad/s", minimum=0.0, description="largest angular rate while pointing")
-    hold_time = Parameter(60.0, unit="s", minimum=0.0, description="duration of pointing that ends the simulation")
-    boresight = Parameter([0.0, 0.0, 1.0], unit="1", frame="body", description="boresight for half_cone, of any length")
+    rate_limit = Parameter(
+        1e-5, unit="rad/s", minimum=0.0, description="largest angular rate for which the attitude counts as pointing"
+    )
+    hold_time = Parameter(
+        60.0, unit="s", minimum=0.0, description="duration of uninterrupted pointing after which the simulation ends"
+    )
+    boresight = Parameter(
+        [0.0, 0.0, 1.0],
+        unit="1",
+        frame="body",
+        description="boresight of which half_cone is computed, normalised by the block",
+    )
     quaternion = robot.QUATERNION.input("true attitude quaternion from body to inertial, scalar first")
-    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity")
+    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity of the body relative to the inertial frame")
     reference_quaternion = robot.PLANNED_QUATERNION.input(
         "reference attitude quaternion from body to inertial, scalar first"
     )
     estimated_quaternion = robot.QUATERNION.input()
     attitude_error = body.ROTATION.output("rotation vector from the reference to the true attitude", direct=True)
     pointing_error = Output(
-        0.0, unit="rad", direct=True, description="angle between the target attitude and the true attitude"
+        0.0, unit="rad", direct=True, description="rotation angle from the target to the true attitude"
     )
     half_cone = Output(
-        0.0, unit="rad", direct=True, description="angle between the true boresight and that of the reference"
+        0.0,
+        unit="rad",
+        direct=True,
+        description="angle between the boresight in the true and in the reference attitude",
     )
     knowledge_error = body.ROTATION.output("rotation vector from the true to the estimated attitude", direct=True)
-    rate = Output(0.0, unit="rad/s", direct=True, description="magnitude of the angular velocity")
+    rate = Output(0.0, unit="rad/s", direct=True, description="magnitude of the true angular velocity")
     settling_time = Output(
         0.0,
         unit="s",
         direct=True,
-        description="start of the present pointing interval, after the start of the simulation",
+        description="time from the start of the simulation to the start of the current pointing interval",
     )
     finished = landing.FINISHED.output(direct=True)
     start_time = sampling.START_TIME.state()
-    pointing = State(False, description="true: pointing error and rate within their limits")
+    pointing = State(False, description="true: pointing error and angular rate within their limits")
 
     def initialize(self) -> None:
         self.compare(self.start_time)

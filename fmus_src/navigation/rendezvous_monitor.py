@@ -10,7 +10,7 @@ from ..units import deg
 
 
 class ClosingStart(Enumeration):
-    """Position of the robot relative to the cone at the start of the closing."""
+    """Position of the robot relative to the approach cone at the start of closing."""
 
     AWAITED = member("not within closing_range yet")
     WITHIN_CONE = member("began within the cone")
@@ -33,17 +33,23 @@ class RendezvousMonitor(Block):
     default_step = 0.125
 
     cone_half_angle = Parameter(
-        deg(60.0), unit="rad", minimum=0.0, maximum=deg(180.0), description="half-angle of the approach cone"
+        deg(60.0),
+        unit="rad",
+        minimum=0.0,
+        maximum=deg(180.0),
+        description="half-angle of the approach cone at the object's centre",
     )
-    closing_range = Parameter(501.0, unit="m", minimum=0.0, description="range at which the closing begins")
-    robot_position = inertial.POSITION.input("true position of the robot")
-    target_position = inertial.POSITION.input("true position of the object")
-    target_velocity = inertial.VELOCITY.input("true velocity of the object")
+    closing_range = Parameter(
+        501.0, unit="m", minimum=0.0, description="distance from the robot to the object at which closing begins"
+    )
+    robot_position = inertial.POSITION.input("true position of the robot's centre of mass")
+    target_position = inertial.POSITION.input("true position of the object's centre of mass")
+    target_velocity = inertial.VELOCITY.input("true velocity of the object's centre of mass")
     quaternion = robot.QUATERNION.input("true attitude quaternion from body to inertial, scalar first")
-    planned_relative_position = inertial.POSITION.input("planned vector from the robot to the object")
+    planned_relative_position = inertial.POSITION.input("planned position of the object relative to the robot")
     planned_quaternion = robot.PLANNED_QUATERNION.input()
     position_error = inertial.POSITION.output(
-        "planned minus true relative position",
+        "planned minus true position of the object relative to the robot",
         direct=("robot_position", "target_position", "planned_relative_position"),
     )
     range = robot.RANGE.output(direct=("robot_position", "target_position"))
@@ -51,26 +57,32 @@ class RendezvousMonitor(Block):
         0.0,
         unit="m",
         direct=("robot_position", "target_position", "planned_relative_position"),
-        description="range minus the planned range",
+        description="true minus planned distance from the robot to the object's centre",
     )
     attitude_error = body.ROTATION.output(
-        "rotation vector from the planned to the true attitude", direct=("quaternion", "planned_quaternion")
+        "rotation vector from the planned to the true attitude of the robot",
+        direct=("quaternion", "planned_quaternion"),
     )
     attitude_error_angle = Output(
-        0.0, unit="rad", direct=("quaternion", "planned_quaternion"), description="magnitude of attitude_error"
+        0.0,
+        unit="rad",
+        direct=("quaternion", "planned_quaternion"),
+        description="rotation angle from the planned to the true attitude of the robot",
     )
     rodrigues = Output(
         [0.0, 0.0, 0.0],
         unit="1",
         direct=("quaternion",),
-        description="modified Rodrigues parameters of the attitude: axis times tan(angle/4)",
+        description="modified Rodrigues parameters of the attitude: rotation axis times tan(angle/4)",
     )
 
     cone_angle = Output(
         0.0,
         unit="rad",
         direct=("robot_position", "target_position", "target_velocity"),
-        description="angle at the object's centre from its reversed velocity to the robot; 0: undefined",
+        description=(
+            "angle at the object's centre between its reversed velocity and the direction to the robot; 0: undefined"
+        ),
     )
     closing_start = Output(ClosingStart, direct=("robot_position", "target_position", "target_velocity"))
 

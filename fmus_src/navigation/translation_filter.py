@@ -45,31 +45,40 @@ class TranslationFilter(Block):
 
     default_step = 0.125
 
-    method = Parameter(FilterMethod, start=FilterMethod.KALMAN)
+    method = Parameter(
+        FilterMethod, start=FilterMethod.KALMAN, description="estimation method of the position and velocity errors"
+    )
     mass = landing.MASS.parameter(1000.0, "mass of the robot", minimum=1e-3)
     far_sigma = robot.FAR_SIGMA.parameter()
     near_sigma = robot.NEAR_SIGMA.parameter()
     near_range = robot.NEAR_RANGE.parameter()
     first_velocity_sigma = Parameter(
-        0.02, unit="m/s", minimum=0.0, description="initial velocity error, 1 sigma per axis"
+        0.02,
+        unit="m/s",
+        minimum=0.0,
+        description="initial error of the velocity relative to the plan, 1 sigma per axis",
     )
     process_noise = Parameter(
-        1e-13, unit="m2/s3", minimum=0.0, description="spectral density of the white acceleration noise"
+        1e-13, unit="m2/s3", minimum=0.0, description="spectral density of the robot's acceleration noise"
     )
     force_error = Parameter(0.001, unit="1", minimum=0.0, description="relative error of the commanded force, 1 sigma")
     force_error_time = Parameter(10.0, unit="s", minimum=0.0, description="correlation time of the force error")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(0.125, "sample period of the filter; 0: every communication point")
-    relative_position = inertial.POSITION.input("measured vector from the robot to the object")
-    sample_count = sampling.SAMPLE_COUNT.input("number of sensor samples so far; a change signals a new one")
-    planned_relative_position = inertial.POSITION.input("planned vector from the robot to the object")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.125, "sample period of the filter; 0: a sample at every communication point"
+    )
+    relative_position = inertial.POSITION.input("measured position of the object relative to the robot")
+    sample_count = sampling.SAMPLE_COUNT.input(
+        "number of ranger samples since the start; a change signals a new sample"
+    )
+    planned_relative_position = inertial.POSITION.input("planned position of the object relative to the robot")
     planned_velocity = inertial.VELOCITY.input("planned velocity of the robot")
     translation_count = robot.TRANSLATION_COUNT.input(
-        "number of translation control samples so far; a change signals a new one"
+        "number of translation control samples since the start; a change signals a new sample"
     )
     quaternion = robot.QUATERNION.input("estimated attitude quaternion from body to inertial, scalar first")
-    allocated_force = body.FORCE.input("force of the jets since the last communication point")
-    position_error = inertial.POSITION.output("position error of the robot against its plan", direct=AT_ONCE)
-    velocity_error = inertial.VELOCITY.output("velocity error of the robot against its plan", direct=AT_ONCE)
+    allocated_force = body.FORCE.input("force commanded to the jets since the last communication point")
+    position_error = inertial.POSITION.output("error of the robot's position relative to its plan", direct=AT_ONCE)
+    velocity_error = inertial.VELOCITY.output("error of the robot's velocity relative to its plan", direct=AT_ONCE)
     position_error_sigma = Output(
         0.0,
         unit="m",
@@ -85,17 +94,23 @@ class TranslationFilter(Block):
     innovation_square = sampling.INNOVATION_SQUARE.output(direct=AT_ONCE)
     samples_taken = sampling.SAMPLES_TAKEN.output(direct=AT_ONCE)
     status = Output(SampleStatus, direct=AT_ONCE)
-    covariance = State(zeros(2, 2), frozen=True, description="covariance of position and velocity, in row order, SI")
-    last_time = State(0.0, unit="s", description="time of the last step")
+    covariance = State(
+        zeros(2, 2), frozen=True, description="covariance matrix of position and velocity of one axis, SI units"
+    )
+    last_time = State(0.0, unit="s", description="time of the last filter step")
     start_time = sampling.START_TIME.state()
-    last_velocity = inertial.VELOCITY.state("planned_velocity at the last step")
-    last_quaternion = State([1.0, 0.0, 0.0, 0.0], unit="1", description="quaternion at the last step")
-    counted = State(0, description="sample_count of the last sample")
-    ticks = State(0, description="translation_count of the last sample")
-    tick_time = State(0.0, unit="s", description="time of the last mean")
-    total = inertial.POSITION.state("sum of the samples since the last translation control sample")
-    summed = State(0, description="number of samples in the sum")
-    means = State(0, description="number of means computed")
+    last_velocity = inertial.VELOCITY.state("planned velocity of the robot at the last filter step")
+    last_quaternion = State(
+        [1.0, 0.0, 0.0, 0.0],
+        unit="1",
+        description="estimated attitude quaternion from body to inertial at the last filter step",
+    )
+    counted = State(0, description="sample_count of the last sample used")
+    ticks = State(0, description="translation_count of the last translation control sample")
+    tick_time = State(0.0, unit="s", description="time of the last computed mean")
+    total = inertial.POSITION.state("sum of the measured position errors since the last translation control sample")
+    summed = State(0, description="number of samples in the sum of position errors")
+    means = State(0, description="number of means computed since the start")
 
     def initialize(self) -> None:
         self.last_time = self.start_time

@@ -36,23 +36,25 @@ class AttitudeMoonLander(MoonLander):
     initial_mass = MoonLander.initial_mass.with_start(600.0)
     specific_impulse = MoonLander.specific_impulse.with_start(300.0)
     internal_step = MoonLander.internal_step.with_start(0.05)
-    initial_attitude = landing.DIRECTION.parameter(description="initial thrust axis, of any length")
+    initial_attitude = landing.DIRECTION.parameter(description="initial thrust axis, normalised by the block")
     initial_angular_rate = landing.ANGULAR_RATE.parameter(
-        description="initial angular rate, whose component along the thrust axis is dropped"
+        description="initial angular rate of the thrust axis; its component along the axis is ignored"
     )
-    thrust_factor = Parameter(1.0, unit="1", minimum=0.0, description="ratio of actual to commanded thrust")
+    thrust_factor = Parameter(
+        1.0, unit="1", minimum=0.0, description="ratio of actual to commanded thrust of the engine"
+    )
     uniform_gravity = landing.UNIFORM_GRAVITY.parameter()
-    dry_mass = Parameter(1.0, unit="kg", minimum=1e-3, description="mass without propellant")
+    dry_mass = Parameter(1.0, unit="kg", minimum=1e-3, description="mass of the lander without propellant")
     probe_length = landing.PROBE_LENGTH.parameter()
     maximum_angular_acceleration = Parameter(
         deg(1.0),
         unit="rad/s2",
         minimum=0.0,
-        description="largest angular acceleration of the attitude jets; 0: no limit",
+        description="largest angular acceleration that the attitude jets can give; 0: no limit",
     )
     angular_acceleration = landing.ANGULAR_ACCELERATION.input("commanded angular acceleration of the thrust axis")
     mass = MoonLander.mass.with_start(600.0)
-    angular_rate = landing.ANGULAR_RATE.output("angular rate of the thrust axis, perpendicular to it")
+    angular_rate = landing.ANGULAR_RATE.output("angular rate of the thrust axis, without component along the axis")
     tilt = landing.TILT.output()
     vertical_speed = landing.VERTICAL_SPEED.output()
     horizontal_speed = landing.HORIZONTAL_SPEED.output()

@@ -27,14 +27,18 @@ class DriftingTarget(Block):
     default_step = 0.125
 
     initial_position = inertial.POSITION.parameter(
-        [500.0 * cos(math.pi / 9.0), 500.0 * sin(math.pi / 9.0), 0.0], "initial position of the centre of mass"
+        [500.0 * cos(math.pi / 9.0), 500.0 * sin(math.pi / 9.0), 0.0], "initial position of the object's centre of mass"
     )
-    constant_velocity = inertial.VELOCITY.parameter([-0.05, 0.05, 0.075])
-    spin_axis = robot.SPIN_AXIS.parameter(description="spin axis, of any length")
-    spin_rate = Parameter(deg(1.0), unit="rad/s", description="angular velocity about the spin axis")
-    position = inertial.POSITION.output("position of the centre of mass")
-    velocity = inertial.VELOCITY.output()
-    quaternion = robot.QUATERNION.output("attitude quaternion from body to inertial, scalar first, not negative")
+    constant_velocity = inertial.VELOCITY.parameter(
+        [-0.05, 0.05, 0.075], description="constant velocity of the object's centre of mass"
+    )
+    spin_axis = robot.SPIN_AXIS.parameter(description="spin axis of the object, normalised by the block")
+    spin_rate = Parameter(deg(1.0), unit="rad/s", description="angular rate of the object about its spin axis")
+    position = inertial.POSITION.output("position of the object's centre of mass")
+    velocity = inertial.VELOCITY.output("velocity of the object's centre of mass")
+    quaternion = robot.QUATERNION.output(
+        "attitude quaternion of the object from body to inertial, scalar first and not negative"
+    )
     start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def initialize(self) -> None:

@@ -88,95 +88,122 @@ class EntryCapsule(Block):
 
     default_step = 0.2
 
-    mass = landing.MASS.parameter(2900.0, minimum=1e-3)
+    mass = landing.MASS.parameter(2900.0, minimum=1e-3, description="constant mass of the capsule")
     inertia = body.INERTIA.parameter()
-    reference_area = Parameter(3.8, unit="m2", minimum=0.0, description="reference area of the force coefficients")
-    reference_length = Parameter(2.2, unit="m", minimum=0.0, description="reference length of the damping")
+    reference_area = Parameter(
+        3.8, unit="m2", minimum=0.0, description="reference area of the aerodynamic force coefficients"
+    )
+    reference_length = Parameter(
+        2.2, unit="m", minimum=0.0, description="reference length of the aerodynamic damping moment"
+    )
     pressure_arm = Parameter(
         [-1.335, -0.066353, 0.0],
         unit="m",
         frame="body",
-        description="distance from the centre of mass to the centre of pressure",
+        description="vector from the centre of mass to the centre of pressure",
     )
-    damping_coefficient = Parameter(-0.1, unit="1", description="damping moment per angular velocity, length and speed")
-    mach_numbers = Parameter(MACH_NUMBERS, unit="1", minimum=0.0, description="Mach numbers of the tables, ascending")
+    damping_coefficient = Parameter(
+        -0.1, unit="1", description="coefficient of the aerodynamic damping moment about each body axis"
+    )
+    mach_numbers = Parameter(
+        MACH_NUMBERS, unit="1", minimum=0.0, description="Mach numbers of the coefficient tables, ascending"
+    )
     axial_coefficient = Parameter(
         AXIAL,
         columns=KNOTS,
         unit="1",
-        description="axial force coefficient along -x, by Mach number and spatial angle of attack, 0 to 60 deg",
+        description=(
+            "axial force coefficient along -x, one row per Mach number, columns for total angles of attack "
+            "from 0 to 60 deg"
+        ),
     )
     normal_coefficient = Parameter(
         NORMAL,
         columns=KNOTS,
         unit="1",
-        description="normal force coefficient across x, by Mach number and spatial angle of attack, 0 to 60 deg",
+        description=(
+            "normal force coefficient across x, one row per Mach number, columns for total angles of attack "
+            "from 0 to 60 deg"
+        ),
     )
     jet_torque = Parameter(
         [100.0, 100.0, 80.0, 80.0, 80.0, 80.0],
         unit="N.m",
         minimum=0.0,
-        description="torque of each jet: +x, -x, +y, -y, +z, -z",
+        description="torque of each jet, in the order +x, -x, +y, -y, +z, -z",
     )
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter(
         3.986e14, "gravitational parameter of the Earth"
     )
     atmosphere = Parameter(Atmosphere, start=Atmosphere.US_1976)
-    earth_rate = Parameter(7.29e-5, unit="rad/s", description="rotation rate of the Earth")
+    earth_rate = Parameter(7.29e-5, unit="rad/s", description="rotation rate of the Earth about its axis")
     earth_radius = Parameter(
-        6371000.0, unit="m", minimum=1.0, description="radius of the sphere from which height counts"
+        6371000.0, unit="m", minimum=1.0, description="radius of the sphere above which height is measured"
     )
-    initial_height = Parameter(100000.0, unit="m", description="initial height")
-    initial_longitude = Parameter(deg(60.0), unit="rad", description="initial longitude")
-    initial_latitude = Parameter(deg(45.0), unit="rad", description="initial latitude")
+    initial_height = Parameter(100000.0, unit="m", description="initial height above the sphere of earth_radius")
+    initial_longitude = Parameter(deg(60.0), unit="rad", description="initial longitude of the capsule")
+    initial_latitude = Parameter(deg(45.0), unit="rad", description="initial latitude of the capsule")
     initial_speed = Parameter(
-        7620.0, unit="m/s", minimum=1e-3, description="initial speed relative to the rotating Earth"
+        7620.0, unit="m/s", minimum=1e-3, description="initial speed of the capsule relative to the rotating Earth"
     )
-    initial_path_angle = Parameter(deg(-1.45), unit="rad", description="initial flight path angle")
-    initial_course = Parameter(deg(40.0), unit="rad", description="initial course")
-    initial_bank = Parameter(deg(60.0), unit="rad", description="initial bank angle")
-    initial_sideslip = Parameter(0.0, unit="rad", description="initial sideslip angle")
-    initial_attack = Parameter(deg(-20.0), unit="rad", description="initial angle of attack")
+    initial_path_angle = Parameter(
+        deg(-1.45), unit="rad", description="initial flight path angle, positive above the horizon"
+    )
+    initial_course = Parameter(
+        deg(40.0), unit="rad", description="initial course, from east, counter-clockwise as seen from above"
+    )
+    initial_bank = Parameter(deg(60.0), unit="rad", description="initial bank angle of the capsule")
+    initial_sideslip = Parameter(0.0, unit="rad", description="initial sideslip angle of the capsule")
+    initial_attack = Parameter(deg(-20.0), unit="rad", description="initial angle of attack of the capsule")
     initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(
-        description="initial angular velocity relative to the inertial frame"
+        description="initial angular velocity of the capsule relative to the inertial frame"
     )
-    final_height = Parameter(25000.0, unit="m", description="height below which the simulation ends")
+    final_height = Parameter(
+        25000.0, unit="m", description="height above the sphere of earth_radius below which the simulation ends"
+    )
     internal_step = sampling.INTERNAL_STEP.parameter(0.025)
     pulse_lengths = body.PULSES.input()
     pulse_count = body.PULSE_COUNT.input()
-    mean_torque = body.TORQUE.input("torque in addition to the pulses, held over a step")
+    mean_torque = body.TORQUE.input("torque of the jets in addition to the pulses, constant over a step")
     wind = entry.WIND.input()
     density_factor = entry.DENSITY_FACTOR.input()
     jet_factor = entry.JET_FACTOR.input()
-    height = Output(100000.0, unit="m", description="height above the sphere")
-    longitude = Output(0.0, unit="rad", description="longitude")
-    latitude = Output(0.0, unit="rad", description="latitude")
-    speed = Output(0.0, unit="m/s", description="speed relative to the rotating Earth")
-    path_angle = Output(0.0, unit="rad", description="flight path angle of the velocity above the horizon")
-    course = Output(0.0, unit="rad", description="course of the velocity, from east, counter-clockwise from above")
+    height = Output(100000.0, unit="m", description="height of the capsule above the sphere of earth_radius")
+    longitude = Output(0.0, unit="rad", description="longitude of the capsule")
+    latitude = Output(0.0, unit="rad", description="latitude of the capsule")
+    speed = Output(0.0, unit="m/s", description="speed of the capsule relative to the rotating Earth")
+    path_angle = Output(0.0, unit="rad", description="flight path angle of the capsule, positive above the horizon")
+    course = Output(
+        0.0, unit="rad", description="course of the capsule, from east, counter-clockwise as seen from above"
+    )
     bank = entry.BANK.output()
-    sideslip = Output(0.0, unit="rad", description="sideslip angle")
-    attack = Output(0.0, unit="rad", description="angle of attack")
+    sideslip = Output(0.0, unit="rad", description="sideslip angle of the capsule")
+    attack = Output(0.0, unit="rad", description="angle of attack of the capsule")
     angular_velocity = body.ANGULAR_VELOCITY.output()
     dynamic_pressure = entry.DYNAMIC_PRESSURE.output()
-    mach = Output(0.0, unit="1", description="Mach number relative to the air")
-    fired_pulses = body.PULSES.output("signed lengths of the last pulses")
-    jet_seconds = body.PULSES.output("accumulated firing time of the jets about x, y, z")
+    mach = Output(0.0, unit="1", description="Mach number of the capsule relative to the air")
+    fired_pulses = body.PULSES.output("lengths of the last fired pulses about x, y and z, signed as the torque")
+    jet_seconds = body.PULSES.output("accumulated firing time of the jets about x, y and z")
     total_jet_seconds = Output(
-        0.0, unit="s", description="accumulated firing time of all jets, a measure of propellant"
+        0.0, unit="s", description="accumulated firing time of all jets, proportional to the propellant used"
     )
-    finished = landing.FINISHED.output("true: height below final_height")
+    finished = landing.FINISHED.output("true: capsule below final_height, simulation to be ended")
     status = Output(CapsuleStatus)
     state = State(EntryState, radius=6471000.0, speed=7620.0)
-    inverse_inertia = State([0.0] * 9, columns=3, description="inverse inertia matrix, 1/(kg m2)")
+    inverse_inertia = State([0.0] * 9, columns=3, description="inverse of the capsule's inertia matrix, 1/(kg m2)")
     axial_curvature = State(
-        [0.0] * 130, columns=KNOTS, description="second derivatives of the axial coefficient's splines, 1/rad2"
+        [0.0] * 130, columns=KNOTS, description="second derivatives of the splines of the axial coefficient, 1/rad2"
     )
     normal_curvature = State(
-        [0.0] * 130, columns=KNOTS, description="second derivatives of the normal coefficient's splines, 1/rad2"
+        [0.0] * 130, columns=KNOTS, description="second derivatives of the splines of the normal coefficient, 1/rad2"
     )
-    left = State([0.0, 0.0, 0.0], unit="s", frame="body", description="remaining signed pulse lengths")
-    counted = State(0, description="pulse_count of the last pulses")
+    left = State(
+        [0.0, 0.0, 0.0],
+        unit="s",
+        frame="body",
+        description="remaining lengths of the current pulses about x, y and z, signed as the torque",
+    )
+    counted = State(0, description="pulse_count at which the last pulses were accepted")
 
     def initialize(self) -> None:
         self.inverse_inertia, invertible = inverse(self.inertia)

@@ -21,12 +21,16 @@ class FlatMoonLander(Block):
     Source: Fomichev and Li 2017, equations of motion.
     """
 
-    initial_position = landing.POSITION.parameter([1.0e5, 0.0, 1.05e4], "initial position")
-    initial_velocity = landing.VELOCITY.parameter([-950.0, 0.0, 0.0], "initial velocity")
-    initial_mass = landing.INITIAL_MASS.parameter(description="constant mass")
+    initial_position = landing.POSITION.parameter(
+        [1.0e5, 0.0, 1.05e4], "initial position of the lander relative to the landing site"
+    )
+    initial_velocity = landing.VELOCITY.parameter(
+        [-950.0, 0.0, 0.0], "initial velocity of the lander relative to the landing site"
+    )
+    initial_mass = landing.INITIAL_MASS.parameter(description="constant mass of the lander")
     gravity = landing.GRAVITY.parameter()
     internal_step = sampling.INTERNAL_STEP.parameter()
-    latch_at_burn_end = Parameter(False, description="true: position and velocity held from the end of thrust on")
+    latch_at_burn_end = Parameter(False, description="true: position and velocity held once the burn has ended")
     thrust = landing.THRUST.input("thrust of the engine")
     thrust_direction = landing.DIRECTION.input()
     thrust_direction_rate = landing.DIRECTION_RATE.input()
@@ -35,9 +39,9 @@ class FlatMoonLander(Block):
     position = landing.POSITION.output()
     velocity = landing.VELOCITY.output()
     mass = landing.MASS.output(start=940.0)
-    specific_force = landing.ACCELERATION.output("mean thrust over mass in the last step")
-    latched = State(False, description="true: thrust ended and motion held")
-    under_thrust = State(False, description="true: thrust on at the end of the last step")
+    specific_force = landing.ACCELERATION.output("thrust over mass of the lander, mean over the last step")
+    latched = State(False, description="true: burn ended, position and velocity held")
+    under_thrust = State(False, description="true: engine burning at the end of the last step")
 
     def initialize(self) -> None:
         self.mass = self.initial_mass

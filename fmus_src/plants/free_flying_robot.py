@@ -18,7 +18,10 @@ class RobotRotation(Record):
 
     quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
     angular_momentum = Field(
-        Vector3, unit="N.m.s", frame="inertial", description="angular momentum G of body and gyros"
+        Vector3,
+        unit="N.m.s",
+        frame="inertial",
+        description="angular momentum of body and gyros about the centre of mass",
     )
 
 
@@ -48,38 +51,52 @@ class FreeFlyingRobot(Block):
 
     default_step = 0.125
 
-    mass = landing.MASS.parameter(1000.0, minimum=1e-3)
+    mass = landing.MASS.parameter(1000.0, minimum=1e-3, description="mass of the robot")
     inertia = Parameter(
-        [812.0, 587.0, 910.0], unit="kg.m2", minimum=1e-3, frame="body", description="principal moments of inertia"
+        [812.0, 587.0, 910.0],
+        unit="kg.m2",
+        minimum=1e-3,
+        frame="body",
+        description="principal moments of inertia of the robot about x, y and z",
     )
     jet_tilt = robot.JET_TILT.parameter()
     jet_azimuth = robot.JET_AZIMUTH.parameter()
     jet_arm = robot.JET_ARM.parameter()
     maximum_thrust = robot.MAXIMUM_THRUST.parameter()
     thrust_error = Parameter(
-        0.0, unit="1", minimum=0.0, description="relative error of thrust, 1 sigma per jet, constant over a flight"
+        0.0, unit="1", minimum=0.0, description="relative thrust error of each jet, 1 sigma, constant over a simulation"
     )
     rotor_momentum = robot.ROTOR_MOMENTUM.parameter(minimum=0.0)
-    initial_position = inertial.POSITION.parameter(description="initial position")
-    initial_velocity = inertial.VELOCITY.parameter(description="initial velocity")
+    initial_position = inertial.POSITION.parameter(description="initial position of the robot's centre of mass")
+    initial_velocity = inertial.VELOCITY.parameter(description="initial velocity of the robot's centre of mass")
     initial_quaternion = Parameter(
-        [1.0, 0.0, 0.0, 0.0], unit="1", description="initial attitude quaternion from body to inertial, scalar first"
+        [1.0, 0.0, 0.0, 0.0],
+        unit="1",
+        description="initial attitude quaternion of the robot from body to inertial, scalar first",
     )
-    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="initial angular velocity")
-    initial_gimbal_angles = Parameter(ISOTROPIC_ANGLES, unit="rad", description="initial gimbal angles")
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(
+        description="initial angular velocity of the robot relative to the inertial frame"
+    )
+    initial_gimbal_angles = Parameter(
+        ISOTROPIC_ANGLES, unit="rad", description="initial gimbal angles of the control moment gyros"
+    )
     internal_step = sampling.INTERNAL_STEP.parameter(0.0625, minimum=1e-3)
     seed, stream = sampling.random_stream()
     jet_thrust = robot.JET_THRUST.input("thrust of each jet")
-    gimbal_rates = robot.GIMBAL_RATES.input("commanded gimbal rates")
-    position = inertial.POSITION.output("position of the centre of mass")
-    velocity = inertial.VELOCITY.output()
-    quaternion = robot.QUATERNION.output("attitude quaternion from body to inertial, scalar first, continuous")
-    angular_velocity = body.ANGULAR_VELOCITY.output("angular velocity relative to the inertial frame")
-    gimbal_angles = robot.GIMBAL_ANGLES.output("gimbal angles, unwrapped")
-    gyro_momentum = body.ANGULAR_MOMENTUM.output("angular momentum H of the gyro cluster")
-    jet_force = body.FORCE.output("force of the jets over the last step")
-    jet_torque = body.TORQUE.output("torque of the jets over the last step")
-    impulse = Output(0.0, unit="N.s", description="time integral of the sum of all thrusts, a measure of propellant")
+    gimbal_rates = robot.GIMBAL_RATES.input("commanded gimbal rates of the control moment gyros")
+    position = inertial.POSITION.output("position of the robot's centre of mass")
+    velocity = inertial.VELOCITY.output("velocity of the robot's centre of mass")
+    quaternion = robot.QUATERNION.output(
+        "attitude quaternion of the robot from body to inertial, scalar first, without jumps of sign"
+    )
+    angular_velocity = body.ANGULAR_VELOCITY.output("angular velocity of the robot relative to the inertial frame")
+    gimbal_angles = robot.GIMBAL_ANGLES.output("gimbal angles of the control moment gyros, unwrapped")
+    gyro_momentum = body.ANGULAR_MOMENTUM.output("angular momentum of the gyro cluster")
+    jet_force = body.FORCE.output("force of the jets on the robot over the last step")
+    jet_torque = body.TORQUE.output("torque of the jets about the centre of mass over the last step")
+    impulse = Output(
+        0.0, unit="N.s", description="time integral of the sum of all jet thrusts, proportional to the propellant used"
+    )
     generator = State([0.0] * 6, frozen=True, description="state of the random number generator")
     thrust_factor = State([1.0] * 8, unit="1", description="ratio of actual to commanded thrust of each jet")
     strength = State(JetStrength)
@@ -87,7 +104,7 @@ class FreeFlyingRobot(Block):
         [0.0, 0.0, 0.0],
         unit="N.m.s",
         frame="inertial",
-        description="angular momentum G of body and gyros about the centre of mass",
+        description="angular momentum of body and gyros about the centre of mass",
     )
 
     def initialize(self) -> None:

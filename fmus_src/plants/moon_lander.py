@@ -50,29 +50,37 @@ class MoonLander(Block, interface=True):
     Source: Hairer, Norsett and Wanner 1993, section II.14 (integration method).
     """
 
-    initial_position = landing.POSITION.parameter([266731.0, 0.0, -2233.0], "initial position")
-    initial_velocity = landing.VELOCITY.parameter([-1676.0, 0.0, 208.0], "initial velocity")
+    initial_position = landing.POSITION.parameter(
+        [266731.0, 0.0, -2233.0], "initial position of the lander relative to the landing site"
+    )
+    initial_velocity = landing.VELOCITY.parameter(
+        [-1676.0, 0.0, 208.0], "initial velocity of the lander relative to the landing site"
+    )
     initial_mass = landing.INITIAL_MASS.parameter()
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter()
     moon_radius = landing.MOON_RADIUS.parameter()
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter()
     thrust_lag = landing.THRUST_LAG.parameter(0.1)
     internal_step = sampling.INTERNAL_STEP.parameter()
-    thrust = landing.THRUST.input("commanded thrust; below 0 counts as 0")
+    thrust = landing.THRUST.input("commanded thrust of the engine; a negative value counts as 0")
     command_time = landing.COMMAND_TIME.input()
     burn_duration = landing.BURN_DURATION.input()
     position = landing.POSITION.output()
     velocity = landing.VELOCITY.output()
-    speed = Output(0.0, unit="m/s", description="speed relative to the landing site")
+    speed = Output(0.0, unit="m/s", description="magnitude of the lander's velocity relative to the landing site")
     mass = landing.MASS.output(start=940.0)
     altitude = landing.ALTITUDE.output()
-    specific_force = landing.ACCELERATION.output("mean thrust over mass in the last step")
-    sensed_velocity = landing.VELOCITY.output("time integral of specific force since the start")
-    delivered_thrust = Output(0.0, unit="N", description="actual thrust of the engine")
-    attitude = landing.DIRECTION.output("actual thrust axis, unit vector")
-    coast_time = Output(0.0, unit="s", description="time since the commanded burn ended; 0 during a burn")
+    specific_force = landing.ACCELERATION.output("thrust over mass of the lander, mean over the last step")
+    sensed_velocity = landing.VELOCITY.output("time integral of the lander's specific force since the start")
+    delivered_thrust = Output(0.0, unit="N", description="actual thrust of the engine at the end of the step")
+    attitude = landing.DIRECTION.output("actual direction of the thrust axis, unit vector")
+    coast_time = Output(0.0, unit="s", description="time since the end of the last commanded burn; 0 during a burn")
     ground_contact = landing.GROUND_CONTACT.output()
-    longest_step = State(0.1, unit="s", description="integration step or the equal part of it in use")
+    longest_step = State(
+        0.1,
+        unit="s",
+        description="longest integration step in use: internal_step, or an equal part of it for short time constants",
+    )
 
     def place(self) -> None:
         """Put mass and motion at the start."""

@@ -26,22 +26,31 @@ class OrbitalSpacecraft(OrbitalBody):
     See docs/systems/orbital_attitude.md.
     """
 
-    initial_angles = Parameter([0.0, 0.0, 0.0], unit="rad", description="initial roll, yaw and pitch")
+    initial_angles = Parameter(
+        [0.0, 0.0, 0.0], unit="rad", description="initial roll, yaw and pitch of the body relative to the orbital frame"
+    )
     initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(
-        [0.0, 0.0, -0.0011], "initial angular velocity relative to the inertial frame"
+        [0.0, 0.0, -0.0011], "initial angular velocity of the body relative to the inertial frame"
     )
     internal_step = sampling.INTERNAL_STEP.parameter(minimum=1e-3)
     pulse_lengths = body.PULSES.input()
     pulse_count = body.PULSE_COUNT.input()
-    mean_torque = body.TORQUE.input("torque in addition to the pulses, held over a step")
+    mean_torque = body.TORQUE.input("torque of the jets in addition to the pulses, constant over a step")
     angles = body.ANGLES.output()
     angular_velocity = body.ANGULAR_VELOCITY.output()
-    fired_pulses = body.PULSES.output("signed lengths of the last pulses")
-    held_torque = body.TORQUE.output("mean_torque over the last step")
-    jet_seconds = Output(0.0, unit="s", description="accumulated firing time of all jets, a measure of propellant")
+    fired_pulses = body.PULSES.output("lengths of the last fired pulses about x, y and z, signed as the torque")
+    held_torque = body.TORQUE.output("torque of the jets in addition to the pulses, over the last step")
+    jet_seconds = Output(
+        0.0, unit="s", description="accumulated firing time of all jets, proportional to the propellant used"
+    )
     status = Output(SpacecraftStatus)
-    left = State([0.0, 0.0, 0.0], unit="s", frame="body", description="remaining signed pulse lengths")
-    counted = State(0, description="pulse_count of the last pulses")
+    left = State(
+        [0.0, 0.0, 0.0],
+        unit="s",
+        frame="body",
+        description="remaining lengths of the current pulses about x, y and z, signed as the torque",
+    )
+    counted = State(0, description="pulse_count at which the last pulses were accepted")
 
     def initialize(self) -> None:
         self.angles = self.initial_angles

@@ -13,10 +13,12 @@ from ..mathlib.lunar.gravity import STANDARD_GRAVITY
 class PlanarMotion(Record):
     """Motion over a round Moon, in local vertical axes."""
 
-    vertical_speed = Field(unit="m/s", description="vertical speed, upwards")
-    horizontal_speed = Field(unit="m/s", description="horizontal speed along increasing central angle")
-    altitude = Field(unit="m", description="altitude")
-    central_angle = Field(unit="rad", description="central angle flown over the Moon")
+    vertical_speed = Field(
+        unit="m/s", description="component of the velocity along the local vertical, positive upwards"
+    )
+    horizontal_speed = Field(unit="m/s", description="component of the velocity along increasing central angle")
+    altitude = Field(unit="m", description="altitude above the sphere of moon_radius")
+    central_angle = Field(unit="rad", description="angle at the Moon's centre, positive in the direction of flight")
 
 
 class PlanarMoonLander(Block):
@@ -39,28 +41,42 @@ class PlanarMoonLander(Block):
     Source: Diveev, Pupkov and Sofronova 2013. See docs/systems/lunar_descent_2d.md.
     """
 
-    initial_speed = Parameter(1689.0, unit="m/s", minimum=0.0, description="initial speed")
-    initial_path_angle = Parameter(-1.6, unit="rad", description="initial path angle")
-    initial_altitude = Parameter(18148.0, unit="m", description="initial altitude")
-    initial_central_angle = Parameter(0.0, unit="rad", description="initial central angle")
+    initial_speed = Parameter(1689.0, unit="m/s", minimum=0.0, description="initial speed of the lander")
+    initial_path_angle = Parameter(
+        -1.6, unit="rad", description="initial angle from the local vertical to the velocity"
+    )
+    initial_altitude = Parameter(18148.0, unit="m", description="initial altitude above the sphere of moon_radius")
+    initial_central_angle = Parameter(
+        0.0, unit="rad", description="initial angle at the Moon's centre, positive in the direction of flight"
+    )
     initial_mass = landing.INITIAL_MASS.parameter()
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter()
-    surface_gravity = Parameter(1.623, unit="m/s2", minimum=0.0, description="gravity at altitude 0")
+    surface_gravity = Parameter(1.623, unit="m/s2", minimum=0.0, description="gravitational acceleration at altitude 0")
     moon_radius = landing.MOON_RADIUS.parameter(1.7384e6, "radius of the Moon at altitude 0")
     curvature = Parameter(
-        False, description="true: rotation of the local vertical included; false: published equations"
+        False,
+        description=(
+            "true: rotation of the local vertical along the path included; false: omitted, as in the "
+            "published equations"
+        ),
     )
-    thrust_factor = Parameter(1.0, unit="1", minimum=0.0, description="ratio of actual to commanded thrust")
+    thrust_factor = Parameter(
+        1.0, unit="1", minimum=0.0, description="ratio of actual to commanded thrust of the engine"
+    )
     internal_step = sampling.INTERNAL_STEP.parameter()
     thrust_angle = landing.THRUST_ANGLE.input()
     thrust = landing.THRUST.input()
-    altitude = landing.ALTITUDE.output("altitude", start=18148.0)
-    path_angle = Output(-1.6, unit="rad", description="angle of the velocity from the local vertical, unwrapped")
-    speed = Output(1689.0, unit="m/s", description="speed")
-    central_angle = Output(0.0, unit="rad", description="central angle flown over the Moon")
+    altitude = landing.ALTITUDE.output("altitude of the lander above the sphere of moon_radius", start=18148.0)
+    path_angle = Output(-1.6, unit="rad", description="angle from the local vertical to the velocity, unwrapped")
+    speed = Output(1689.0, unit="m/s", description="speed of the lander")
+    central_angle = Output(
+        0.0, unit="rad", description="angle at the Moon's centre, positive in the direction of flight"
+    )
     mass = landing.MASS.output(start=940.0)
     ground_contact = landing.GROUND_CONTACT.output()
-    load_factor = Output(0.0, unit="1", description="thrust over weight on the Earth at the end of the last step")
+    load_factor = Output(
+        0.0, unit="1", description="thrust over weight on the Earth's surface, at the end of the last step"
+    )
     motion = State(PlanarMotion)
 
     def initialize(self) -> None:

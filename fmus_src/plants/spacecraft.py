@@ -18,7 +18,7 @@ FASTEST_MODE = 0.7  # rad of a mode within an internal step: Runge-Kutta then ad
 
 
 class SpacecraftStatus(Enumeration):
-    """Limit reached by the spacecraft, the last of several."""
+    """Last limit reached by the spacecraft."""
 
     GOOD = member("good")
     TORQUE_LIMITED = member("a motor torque limited")
@@ -39,9 +39,16 @@ class SpacecraftMotion(Record):
     velocity = Field(Vector3, unit="m/s", frame="inertial", description="velocity of the centre of mass")
     quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
     angular_momentum = Field(
-        Vector3, unit="N.m.s", frame="inertial", description="angular momentum G of the whole spacecraft"
+        Vector3,
+        unit="N.m.s",
+        frame="inertial",
+        description="angular momentum of the whole spacecraft about its centre of mass",
     )
-    spin = Field(Vector4, unit="N.m.s", description="absolute angular momentum h of each wheel about its spin axis")
+    spin = Field(
+        Vector4,
+        unit="N.m.s",
+        description="angular momentum of each wheel about its spin axis, relative to the inertial frame",
+    )
     displacements = Field(Vector4, description="modal displacements, m times square root of kg")
     momenta = Field(Vector4, description="modal momenta, m/s times square root of kg")
 
@@ -49,25 +56,28 @@ class SpacecraftMotion(Record):
 class StepInputs(Record):
     """Inputs over a step, all finite."""
 
-    motors = Field(Vector4, unit="N.m", description="motor torques")
-    dipole = Field(Vector3, unit="A.m2", frame="body", description="commanded dipole, within its limit")
+    motors = Field(Vector4, unit="N.m", description="commanded torque of each motor on its wheel about the spin axis")
+    dipole = Field(Vector3, unit="A.m2", frame="body", description="commanded magnetic dipole moment, within its limit")
     force = Field(Vector3, unit="N", frame="body", description="force at force_point")
-    torque = Field(Vector3, unit="N.m", frame="body", description="torque of body_torque")
+    torque = Field(Vector3, unit="N.m", frame="body", description="external torque on the body")
     acceleration = Field(
-        Vector3, unit="m/s2", frame="inertial", description="external acceleration without excitation of modes"
+        Vector3,
+        unit="m/s2",
+        frame="inertial",
+        description="additional acceleration of the whole spacecraft, without excitation of modes",
     )
 
 
 class Loads(Record):
     """Forces and torques at one instant, without gravity."""
 
-    force = Field(Vector3, unit="N", frame="body", description="force")
+    force = Field(Vector3, unit="N", frame="body", description="force on the body without gravity")
     torque = Field(Vector3, unit="N.m", frame="body", description="torque about the undeformed centre of mass")
     disturbance = Field(
         Vector3,
         unit="N.m",
         frame="body",
-        description="disturbance torque: gravity gradient, drag, solar pressure, residual dipole",
+        description="sum of the torques of gravity gradient, drag, solar pressure and residual dipole",
     )
 
 
@@ -104,46 +114,67 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
     wheel_inertia = satellite.WHEEL_INERTIA.parameter(3e-4)
     motor_torque_limit = satellite.MOTOR_TORQUE_LIMIT.parameter(5e-3)
     speed_limit = Parameter(
-        1000.0 / 3.0, unit="rad/s", minimum=0.0, description="largest wheel speed, 0.1 N m s; 0: no limit"
+        1000.0 / 3.0, unit="rad/s", minimum=0.0, description="largest magnitude of a wheel's speed; 0: no limit"
     )
-    viscous_friction = Parameter(1e-7, unit="N.m.s", minimum=0.0, description="viscous friction coefficient of a wheel")
+    viscous_friction = Parameter(
+        1e-7, unit="N.m.s", minimum=0.0, description="viscous friction coefficient of each wheel"
+    )
     coulomb_friction = Parameter(
-        1e-5, unit="N.m", minimum=0.0, description="Coulomb friction torque of a wheel beyond coulomb_band"
+        1e-5, unit="N.m", minimum=0.0, description="Coulomb friction torque of each wheel above coulomb_band"
     )
-    residual_dipole = space.DIPOLE.parameter([0.05, 0.05, 0.05], description="residual magnetic dipole")
-    dipole_limit = Parameter(5.0, unit="A.m2", minimum=0.0, description="largest dipole about an axis, both signs")
+    residual_dipole = space.DIPOLE.parameter(
+        [0.05, 0.05, 0.05], description="residual magnetic dipole moment of the spacecraft"
+    )
+    dipole_limit = Parameter(
+        5.0,
+        unit="A.m2",
+        minimum=0.0,
+        description="largest magnitude of the commanded magnetic dipole about each body axis",
+    )
     force_point = Parameter([0.0, 0.0, 0.0], unit="m", frame="body", description="point of application of body_force")
-    initial_position = inertial.POSITION.parameter([6878137.0, 0.0, 0.0], description="initial position")
+    initial_position = inertial.POSITION.parameter(
+        [6878137.0, 0.0, 0.0],
+        description="initial position of the centre of mass relative to the centre of the central body",
+    )
     initial_velocity = inertial.VELOCITY.parameter(
-        [0.0, -980.4704108126322, 7549.203993067037], description="initial velocity"
+        [0.0, -980.4704108126322, 7549.203993067037],
+        description="initial velocity of the centre of mass relative to the centre of the central body",
     )
     initial_quaternion = Parameter(
         [1.0, 0.0, 0.0, 0.0], unit="1", description="initial attitude quaternion from body to inertial, scalar first"
     )
-    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="initial angular velocity")
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(
+        description="initial angular velocity of the body relative to the inertial frame"
+    )
     internal_step = sampling.INTERNAL_STEP.parameter(0.25, minimum=1e-3)
-    dipole = space.DIPOLE.input("commanded magnetic dipole")
-    body_force = body.FORCE.input("force at force_point, such as thrust")
+    dipole = space.DIPOLE.input("commanded magnetic dipole moment of the torquers")
+    body_force = body.FORCE.input("external force at force_point, such as thrust")
     body_torque = body.TORQUE.input("external torque on the body")
-    external_acceleration = inertial.ACCELERATION.input("external acceleration without excitation of modes")
+    external_acceleration = inertial.ACCELERATION.input(
+        "additional acceleration of the whole spacecraft, without excitation of modes"
+    )
     orbit = Outputs(space.Orbit)
     attitude = Outputs(space.Attitude)
     angular_momentum = Output(
         [0.0, 0.0, 0.0],
         unit="N.m.s",
         frame="inertial",
-        description="angular momentum G of the whole spacecraft about the centre of mass",
+        description="angular momentum of the whole spacecraft about its centre of mass",
     )
-    specific_force = Output([0.0, 0.0, 0.0], unit="m/s2", frame="body", description="non-gravitational force over mass")
-    applied_dipole = space.DIPOLE.output("magnetic dipole applied within its limit")
+    specific_force = Output(
+        [0.0, 0.0, 0.0], unit="m/s2", frame="body", description="non-gravitational force over mass of the spacecraft"
+    )
+    applied_dipole = space.DIPOLE.output("magnetic dipole moment of the torquers after limitation")
     disturbance_torque = body.TORQUE.output(
-        "disturbance torque: gravity gradient, drag, solar pressure, residual dipole"
+        "sum of the torques of gravity gradient, drag, solar pressure and residual dipole"
     )
     status = Output(SpacecraftStatus)
     inverse_inertia = State(
         zeros(3, 3),
         frozen=True,
-        description="inverse of the inertia without the wheels' spin inertia and the modes', 1/(kg m2)",
+        description=(
+            "inverse of the inertia matrix without the wheels' spin inertia and the modes' contribution, 1/(kg m2)"
+        ),
     )
     fastest = State(
         0.0, unit="rad/s", frozen=True, description="highest natural frequency of the modes of the free spacecraft"

@@ -27,18 +27,26 @@ class SphericalMoonLander(MoonLander):
     See docs/systems/lunar_landing.md.
     """
 
-    direction_response = Parameter(0.5, unit="s", minimum=0.0, description="time constant of the attitude; 0: none")
+    direction_response = Parameter(
+        0.5,
+        unit="s",
+        minimum=0.0,
+        description="time constant with which the thrust axis follows the command; 0: no lag",
+    )
     slew_rate_limit = Parameter(
-        deg(10.0), unit="rad/s", minimum=0.0, description="largest angular rate of the attitude; 0: no limit"
+        deg(10.0), unit="rad/s", minimum=0.0, description="largest angular rate of the thrust axis; 0: no limit"
     )
     latch_at_burn_end = Parameter(
-        False, description="true: motion held from a burn's end inside a step on, without the thrust left by the lag"
+        False,
+        description="true: motion held from the commanded end of a burn on, without the residual thrust of the lag",
     )
     thrust_direction = landing.DIRECTION.input("commanded thrust direction at command_time, unit vector")
     thrust_direction_rate = landing.DIRECTION_RATE.input()
-    latched = State(False, description="true: burn ended and motion held")
-    aligned = State(False, description="true: attitude aligned with the first command")
-    response = State(0.5, unit="s", description="direction_response; 0: too short to matter")
+    latched = State(False, description="true: burn ended, motion held")
+    aligned = State(False, description="true: thrust axis aligned with the first command")
+    response = State(
+        0.5, unit="s", description="time constant of the thrust axis in use; 0: direction_response too short to matter"
+    )
 
     def initialize(self) -> None:
         self.place()

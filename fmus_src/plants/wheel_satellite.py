@@ -25,9 +25,16 @@ class SatelliteMotion(Record):
 
     quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
     angular_momentum = Field(
-        Vector3, unit="N.m.s", frame="inertial", description="angular momentum G of body and wheels"
+        Vector3,
+        unit="N.m.s",
+        frame="inertial",
+        description="angular momentum of body and wheels about the centre of mass",
     )
-    spin = Field(Vector4, unit="N.m.s", description="absolute angular momentum h of each wheel about its spin axis")
+    spin = Field(
+        Vector4,
+        unit="N.m.s",
+        description="angular momentum of each wheel about its spin axis, relative to the inertial frame",
+    )
 
 
 class WheelSatellite(SpinningWheels):
@@ -57,24 +64,30 @@ class WheelSatellite(SpinningWheels):
     default_step = 0.125
 
     inertia = satellite.INERTIA.parameter()
-    body_torque = body.TORQUE.parameter(description="constant external torque")
-    inertial_torque = Parameter([0.0, 0.0, 0.0], unit="N.m", frame="inertial", description="constant external torque")
+    body_torque = body.TORQUE.parameter(description="constant external torque, fixed in the body")
+    inertial_torque = Parameter(
+        [0.0, 0.0, 0.0], unit="N.m", frame="inertial", description="constant external torque, fixed in inertial space"
+    )
     initial_quaternion = Parameter(
         [1.0, 0.0, 0.0, 0.0], unit="1", description="initial attitude quaternion from body to inertial, scalar first"
     )
-    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(description="initial angular velocity")
+    initial_angular_velocity = body.ANGULAR_VELOCITY.parameter(
+        description="initial angular velocity of the body relative to the inertial frame"
+    )
     internal_step = sampling.INTERNAL_STEP.parameter(0.0625, minimum=1e-3)
-    quaternion = robot.QUATERNION.output("attitude quaternion from body to inertial, scalar first, continuous")
-    angular_velocity = body.ANGULAR_VELOCITY.output("angular velocity relative to the inertial frame")
+    quaternion = robot.QUATERNION.output(
+        "attitude quaternion from body to inertial, scalar first, without jumps of sign"
+    )
+    angular_velocity = body.ANGULAR_VELOCITY.output("angular velocity of the body relative to the inertial frame")
     angular_momentum = Output(
         [0.0, 0.0, 0.0],
         unit="N.m.s",
         frame="inertial",
-        description="angular momentum G of body and wheels about the centre of mass",
+        description="angular momentum of body and wheels about the centre of mass",
     )
     status = Output(WheelSatelliteStatus)
     inverse_inertia = State(
-        zeros(3, 3), description="inverse of the inertia without the wheels' spin inertia, 1/(kg m2)"
+        zeros(3, 3), description="inverse of the inertia matrix without the wheels' spin inertia, 1/(kg m2)"
     )
 
     def initialize(self) -> None:

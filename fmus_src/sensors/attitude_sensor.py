@@ -24,13 +24,16 @@ class AttitudeSensor(RandomSensor):
     """
 
     constant_sigma = Parameter(
-        deg(0.05), unit="rad", minimum=0.0, description="constant attitude error, 1 sigma per axis; 0.05 deg"
+        deg(0.05), unit="rad", minimum=0.0, description="constant error of the measured thrust axis, 1 sigma per axis"
     )
     attitude_sigma = Parameter(
-        deg(0.015), unit="rad", minimum=0.0, description="white attitude error, 1 sigma per axis; 0.015 deg"
+        deg(0.015), unit="rad", minimum=0.0, description="white error of the measured thrust axis, 1 sigma per axis"
     )
     rate_sigma = Parameter(
-        3.490658503988659e-4, unit="rad/s", minimum=0.0, description="white angular rate error, 1 sigma per axis"
+        3.490658503988659e-4,
+        unit="rad/s",
+        minimum=0.0,
+        description="white error of the measured angular rate, 1 sigma per axis",
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.0)
     seed, stream = sampling.random_stream()
@@ -41,7 +44,10 @@ class AttitudeSensor(RandomSensor):
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
     misalignment = State(
-        [0.0] * 3, unit="rad", frame="landing site", description="rotation vector of the constant attitude error"
+        [0.0] * 3,
+        unit="rad",
+        frame="landing site",
+        description="rotation vector of the constant error of the measured thrust axis",
     )
 
     def draw_constants(self) -> None:

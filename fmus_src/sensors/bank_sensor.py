@@ -20,12 +20,12 @@ class BankSensor(RandomSensor):
 
     default_step = 0.2
 
-    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="white bank error, 1 sigma")
-    bias = Parameter(0.0, unit="rad", description="constant bank error")
+    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="white error of the measured bank angle, 1 sigma")
+    bias = Parameter(0.0, unit="rad", description="constant error of the measured bank angle")
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()
-    bank = entry.BANK.input("true bank")
-    measured_bank = entry.BANK.output("measured bank", direct=True)
+    bank = entry.BANK.input("true bank angle of the capsule")
+    measured_bank = entry.BANK.output("measured bank angle of the capsule", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
 

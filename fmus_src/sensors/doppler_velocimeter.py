@@ -25,20 +25,27 @@ class DopplerVelocimeter(RandomSensor):
     """
 
     speed_error = Parameter(
-        0.001, unit="1", minimum=0.0, description="velocity error proportional to speed, 1 sigma per axis"
+        0.001,
+        unit="1",
+        minimum=0.0,
+        description="velocity error proportional to speed, as a fraction of it, 1 sigma per axis",
     )
     noise_sigma = Parameter(
         0.05, unit="m/s", minimum=0.0, description="constant part of the velocity error, 1 sigma per axis"
     )
-    maximum_altitude = landing.MAXIMUM_ALTITUDE.parameter(5e3)
+    maximum_altitude = landing.MAXIMUM_ALTITUDE.parameter(
+        5e3, description="highest altitude at which the sensor measures"
+    )
     moon_radius = landing.MOON_RADIUS.parameter()
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()
-    position = landing.POSITION.input("true position")
-    velocity = landing.VELOCITY.input("true velocity")
-    measured_velocity = landing.VELOCITY.output("measured velocity", direct=True)
+    position = landing.POSITION.input("true position of the lander relative to the landing site")
+    velocity = landing.VELOCITY.input("true velocity of the lander relative to the landing site")
+    measured_velocity = landing.VELOCITY.output(
+        "measured velocity of the lander relative to the landing site", direct=True
+    )
     sample_count = sampling.SAMPLE_COUNT.output(
-        "number of samples in range so far; a change signals a new one", direct=("position",)
+        "number of samples within range since the start; a change signals a new sample", direct=("position",)
     )
     generator = sampling.GENERATOR.state()
 

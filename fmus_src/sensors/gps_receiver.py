@@ -14,7 +14,7 @@ GOOD = 7
 
 
 class ReceiverStatus(Enumeration):
-    """State of the last sample."""
+    """Status of the last sample."""
 
     GOOD = member("good")
     OUTAGE = member("outage, no sample")
@@ -40,25 +40,41 @@ class GpsReceiver(RandomSensor):
 
     default_step = 1.0
 
-    position_sigma = Parameter(3.0, unit="m", minimum=0.0, description="white position error, 1 sigma per axis")
-    velocity_sigma = Parameter(0.03, unit="m/s", minimum=0.0, description="white velocity error, 1 sigma per axis")
-    markov_sigma = Parameter(5.0, unit="m", minimum=0.0, description="Gauss-Markov position error, 1 sigma per axis")
-    markov_time = Parameter(300.0, unit="s", minimum=1e-3, description="correlation time of the Gauss-Markov error")
-    clock_error = Parameter(0.0, unit="s", description="clock error of sample_time")
-    latency = Parameter(1, minimum=0, maximum=LATEST, description="delay of a sample, in sample periods")
+    position_sigma = Parameter(
+        3.0, unit="m", minimum=0.0, description="white error of measured position, 1 sigma per axis"
+    )
+    velocity_sigma = Parameter(
+        0.03, unit="m/s", minimum=0.0, description="white error of measured velocity, 1 sigma per axis"
+    )
+    markov_sigma = Parameter(
+        5.0, unit="m", minimum=0.0, description="Gauss-Markov error of measured position, 1 sigma per axis"
+    )
+    markov_time = Parameter(
+        300.0, unit="s", minimum=1e-3, description="correlation time of the Gauss-Markov position error"
+    )
+    clock_error = Parameter(0.0, unit="s", description="constant error of the receiver's clock in sample_time")
+    latency = Parameter(1, minimum=0, maximum=LATEST, description="delay from measurement to output, in sample periods")
     sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
     seed, stream = sampling.random_stream()
-    position = inertial.POSITION.input("true position")
-    velocity = inertial.VELOCITY.input("true velocity")
-    outage = Input(False, description="true: outage, no sample")
-    measured_position = inertial.POSITION.output("measured position", direct=True)
-    measured_velocity = inertial.VELOCITY.output("measured velocity", direct=True)
-    sample_time = Output(0.0, unit="s", direct=True, description="time of the sample by the receiver's clock")
-    sample_count = sampling.SAMPLE_COUNT.output("number of samples received so far; a change signals a new one")
+    position = inertial.POSITION.input("true position relative to the centre of the central body")
+    velocity = inertial.VELOCITY.input("true velocity relative to the centre of the central body")
+    outage = Input(False, description="true: outage of the receiver, no samples")
+    measured_position = inertial.POSITION.output(
+        "measured position relative to the centre of the central body", direct=True
+    )
+    measured_velocity = inertial.VELOCITY.output(
+        "measured velocity relative to the centre of the central body", direct=True
+    )
+    sample_time = Output(
+        0.0, unit="s", direct=True, description="time of measurement of the sample, by the receiver's clock"
+    )
+    sample_count = sampling.SAMPLE_COUNT.output(
+        "number of samples received since the start; a change signals a new sample"
+    )
     status = Output(ReceiverStatus, direct=True)
-    markov = inertial.POSITION.state("Gauss-Markov error of position")
+    markov = inertial.POSITION.state("Gauss-Markov error of measured position")
     samples = State(
-        zeros(LATEST + 1, 8), description="samples in transit, newest first: position, velocity, time (SI), 1 for valid"
+        zeros(LATEST + 1, 8), description="delayed samples, newest first: position, velocity and time (SI), 1 for valid"
     )
     start_time = sampling.START_TIME.state()
     last_time = State(0.0, unit="s", description="time of the last sample")

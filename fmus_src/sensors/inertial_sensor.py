@@ -27,15 +27,18 @@ class InertialSensor(Block):
     Source: Groves 2013, section 4.4 (error model of inertial sensors). See docs/systems/lunar_landing.md.
     """
 
-    bias_sigma = landing.BIAS_SIGMA.parameter(description="constant bias of specific force, 1 sigma per axis")
+    bias_sigma = landing.BIAS_SIGMA.parameter(description="constant bias of each accelerometer, 1 sigma")
     scale_factor_sigma = landing.SCALE_FACTOR_SIGMA.parameter(
-        description="constant scale factor error, 1 sigma per axis"
+        description="constant scale factor error of each accelerometer, 1 sigma"
     )
     velocity_random_walk = landing.VELOCITY_RANDOM_WALK.parameter(
-        description="velocity random walk, m/s per square root of s, 1 sigma per axis"
+        description="velocity random walk of each accelerometer, m/s per square root of s, 1 sigma"
     )
     attitude_sigma = Parameter(
-        3.490658503988659e-4, unit="rad", minimum=0.0, description="constant attitude error, 1 sigma per axis"
+        3.490658503988659e-4,
+        unit="rad",
+        minimum=0.0,
+        description="constant attitude error of the accelerometer triad, 1 sigma per axis",
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.1)
     seed, stream = sampling.random_stream()
@@ -44,15 +47,18 @@ class InertialSensor(Block):
         "measured integral of specific force between the last two samples", direct=True
     )
     sample_count = sampling.SAMPLE_COUNT.output(
-        "number of samples with an increment so far; a change signals a new one"
+        "number of samples with a velocity increment since the start; a change signals a new sample"
     )
     generator = sampling.GENERATOR.state()
-    bias = landing.ACCELERATION.state("bias of specific force")
-    scale_factor = landing.DIRECTION.state("scale factor error of specific force", start=[0.0] * 3)
+    bias = landing.ACCELERATION.state("constant bias of measured specific force")
+    scale_factor = landing.DIRECTION.state("constant scale factor errors of measured specific force", start=[0.0] * 3)
     misalignment = State(
-        [0.0] * 3, unit="rad", frame="landing site", description="rotation vector of the attitude error"
+        [0.0] * 3,
+        unit="rad",
+        frame="landing site",
+        description="rotation vector of the constant attitude error of the accelerometers",
     )
-    last_sensed = landing.VELOCITY.state("sensed_velocity at the last sample")
+    last_sensed = landing.VELOCITY.state("true time integral of specific force at the last sample")
     last_time = State(0.0, unit="s", description="time of the last sample")
     start_time = sampling.START_TIME.state()
 

@@ -26,19 +26,21 @@ class InfraredVertical(Block):
 
     default_step = 0.2
 
-    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error of each angle, 1 sigma")
-    bias = Parameter([0.0, 0.0], unit="rad", description="constant error of roll and pitch")
+    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error of measured roll and pitch, 1 sigma")
+    bias = Parameter([0.0, 0.0], unit="rad", description="constant errors of measured roll and pitch")
     correlation_time = Parameter(
-        0.0, unit="s", minimum=0.0, description="correlation time of the errors; 0: white errors"
+        0.0, unit="s", minimum=0.0, description="correlation time of the roll and pitch errors; 0: white errors"
     )
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()
-    angles = body.ANGLES.input("true roll, yaw and pitch")
-    measured_roll = body.MEASURED_ROLL.output("measured roll", direct=True)
-    measured_pitch = body.MEASURED_PITCH.output("measured pitch", direct=True)
+    angles = body.ANGLES.input("true roll, yaw and pitch of the body relative to the orbital frame")
+    measured_roll = body.MEASURED_ROLL.output("measured roll of the body relative to the orbital frame", direct=True)
+    measured_pitch = body.MEASURED_PITCH.output("measured pitch of the body relative to the orbital frame", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
-    error = State([0.0, 0.0], unit="1", frozen=True, description="errors of roll and pitch, normalised by sigma")
+    error = State(
+        [0.0, 0.0], unit="1", frozen=True, description="current errors of measured roll and pitch, in units of sigma"
+    )
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

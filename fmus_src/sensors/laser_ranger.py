@@ -23,15 +23,19 @@ class LaserRanger(RandomSensor):
 
     default_step = 0.125
 
-    far_sigma = robot.FAR_SIGMA.parameter(description="error at long range, 1 sigma per axis", minimum=0.0)
-    near_sigma = robot.NEAR_SIGMA.parameter(description="error at short range, 1 sigma per axis", minimum=0.0)
+    far_sigma = robot.FAR_SIGMA.parameter(
+        description="error of measured relative position beyond near_range, 1 sigma per axis", minimum=0.0
+    )
+    near_sigma = robot.NEAR_SIGMA.parameter(
+        description="error of measured relative position within near_range, 1 sigma per axis", minimum=0.0
+    )
     near_range = robot.NEAR_RANGE.parameter()
     sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
     seed, stream = sampling.random_stream()
-    robot_position = inertial.POSITION.input("true position of the robot")
-    target_position = inertial.POSITION.input("true position of the object")
-    relative_position = inertial.POSITION.output("measured vector from the robot to the object", direct=True)
-    range = robot.RANGE.output("distance from the robot to the object, from relative_position", direct=True)
+    robot_position = inertial.POSITION.input("true position of the robot's centre of mass")
+    target_position = inertial.POSITION.input("true position of the object's centre of mass")
+    relative_position = inertial.POSITION.output("measured position of the object relative to the robot", direct=True)
+    range = robot.RANGE.output("measured distance from the robot to the object", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
 

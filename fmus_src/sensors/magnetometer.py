@@ -11,7 +11,7 @@ from .random_sensor import RandomSensor
 
 
 class MagnetometerStatus(Enumeration):
-    """State of the last sample."""
+    """Status of the last sample."""
 
     GOOD = member("good")
     SATURATED = member("saturated")
@@ -36,34 +36,45 @@ class Magnetometer(RandomSensor):
 
     default_step = 1.0
 
-    sigma = Parameter(5e-8, unit="T", minimum=0.0, description="white noise, 1 sigma per axis")
-    bias = space.MAGNETIC_FIELD.parameter(description="constant bias, added to the random bias")
+    sigma = Parameter(5e-8, unit="T", minimum=0.0, description="white noise of measured flux density, 1 sigma per axis")
+    bias = space.MAGNETIC_FIELD.parameter(
+        description="constant bias of measured flux density, added to the random bias"
+    )
     bias_sigma = Parameter(
-        2e-7, unit="T", minimum=0.0, description="random bias, constant over a simulation, 1 sigma per axis"
+        2e-7,
+        unit="T",
+        minimum=0.0,
+        description="random bias of measured flux density, constant over a simulation, 1 sigma per axis",
     )
     scale = Parameter(
-        [0.0] * 9, unit="1", frame="body", columns=3, description="matrix S of scale factors and misalignments"
+        [0.0] * 9,
+        unit="1",
+        frame="body",
+        columns=3,
+        description="matrix S of scale factor errors (diagonal) and misalignments",
     )
     scale_sigma = Parameter(
-        2e-3, unit="1", minimum=0.0, description="random part of S, constant over a simulation, 1 sigma per element"
+        2e-3, unit="1", minimum=0.0, description="random part of each element of S, constant over a simulation, 1 sigma"
     )
     coupling = Parameter(
         [0.0] * 9,
         frame="body",
         columns=3,
-        description="coupling matrix K from the torquers' dipole to the field at the sensor, T/(A m2)",
+        description="matrix K from the torquers' dipole moment to their flux density at the sensor, T/(A m2)",
     )
-    range = Parameter(1e-4, unit="T", minimum=1e-9, description="range of each measured component, both signs")
-    quantum = Parameter(1e-8, unit="T", minimum=0.0, description="quantisation step of the output; 0: none")
+    range = Parameter(1e-4, unit="T", minimum=1e-9, description="largest magnitude of each measured component")
+    quantum = Parameter(
+        1e-8, unit="T", minimum=0.0, description="quantisation step of each measured component; 0: none"
+    )
     sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
     seed, stream = sampling.random_stream()
-    magnetic_field_body = space.MAGNETIC_FIELD.input("true magnetic flux density")
-    applied_dipole = space.DIPOLE.input("magnetic dipole of the torquers")
+    magnetic_field_body = space.MAGNETIC_FIELD.input("true magnetic flux density at the spacecraft")
+    applied_dipole = space.DIPOLE.input("magnetic dipole moment of the torquers")
     measured_field = space.MAGNETIC_FIELD.output("measured magnetic flux density", direct=True)
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(MagnetometerStatus, direct=True)
-    total_bias = space.MAGNETIC_FIELD.state("sum of constant and random bias")
-    total_scale = State(zeros(3, 3), frozen=True, description="matrix S with its random part")
+    total_bias = space.MAGNETIC_FIELD.state("sum of constant and random bias of measured flux density")
+    total_scale = State(zeros(3, 3), frozen=True, description="sum of the matrix S and its random part")
     generator = sampling.GENERATOR.state()
 
     def draw_constants(self) -> None:

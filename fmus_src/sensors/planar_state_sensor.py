@@ -20,14 +20,20 @@ class PlanarStateSensor(RandomSensor):
 
     default_step = 0.01
 
-    path_angle_noise = Parameter(0.0, unit="1", minimum=0.0, description="largest relative error of the path angle")
-    altitude_noise = Parameter(0.0, unit="1", minimum=0.0, description="largest relative error of the altitude")
+    path_angle_noise = Parameter(
+        0.0, unit="1", minimum=0.0, description="largest relative error of the measured path angle"
+    )
+    altitude_noise = Parameter(
+        0.0, unit="1", minimum=0.0, description="largest relative error of the measured altitude"
+    )
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.01)
     seed, stream = sampling.random_stream()
     path_angle = Input(0.0, unit="rad", description="true angle from the local vertical to the velocity")
-    altitude = landing.ALTITUDE.input("true altitude")
-    measured_path_angle = landing.MEASURED_PATH_ANGLE.output("measured path angle", start=0.0, direct=("path_angle",))
-    measured_altitude = landing.MEASURED_ALTITUDE.output("measured altitude", direct=("altitude",))
+    altitude = landing.ALTITUDE.input("true altitude of the lander")
+    measured_path_angle = landing.MEASURED_PATH_ANGLE.output(
+        "measured angle from the local vertical to the velocity", start=0.0, direct=("path_angle",)
+    )
+    measured_altitude = landing.MEASURED_ALTITUDE.output("measured altitude of the lander", direct=("altitude",))
     sample_count = sampling.SAMPLE_COUNT.output()
     generator = sampling.GENERATOR.state()
 

@@ -23,17 +23,20 @@ class RadarAltimeter(RandomSensor):
     """
 
     range_error = Parameter(
-        0.005, unit="1", minimum=0.0, description="altitude error proportional to altitude, 1 sigma"
+        0.005,
+        unit="1",
+        minimum=0.0,
+        description="altitude error proportional to altitude, as a fraction of it, 1 sigma",
     )
     noise_sigma = landing.NOISE_SIGMA.parameter()
     maximum_altitude = landing.MAXIMUM_ALTITUDE.parameter()
     moon_radius = landing.MOON_RADIUS.parameter()
     sample_period = sampling.SAMPLE_PERIOD.parameter(1.0)
     seed, stream = sampling.random_stream()
-    position = landing.POSITION.input("true position")
+    position = landing.POSITION.input("true position of the lander relative to the landing site")
     measured_altitude = landing.MEASURED_ALTITUDE.output(direct=True)
     sample_count = sampling.SAMPLE_COUNT.output(
-        "number of samples in range so far; a change signals a new one", direct=True
+        "number of samples within range since the start; a change signals a new sample", direct=True
     )
     generator = sampling.GENERATOR.state()
 

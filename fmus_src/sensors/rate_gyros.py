@@ -13,7 +13,7 @@ from .random_sensor import RandomSensor
 
 
 class RateGyrosStatus(Enumeration):
-    """State of the last sample."""
+    """Status of the last sample."""
 
     GOOD = member("good")
     SATURATED = member("saturated")
@@ -42,33 +42,52 @@ class RateGyros(RandomSensor):
 
     default_step = 0.2
 
-    sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="white noise, 1 sigma per axis")
-    bias = body.ANGULAR_VELOCITY.parameter(description="constant bias, added to the random bias")
-    bias_limit = Parameter(0.0, unit="rad/s", minimum=0.0, description="largest random bias per axis")
-    bias_walk = Parameter(0.0, minimum=0.0, description="rate random walk of the bias, rad/s per square root of s")
-    scale = Parameter(
-        [0.0] * 9, unit="1", frame="body", columns=3, description="matrix S of scale factors and misalignments"
+    sigma = Parameter(
+        0.0, unit="rad/s", minimum=0.0, description="white noise of measured angular velocity, 1 sigma per axis"
     )
-    instability_sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="bias instability, 1 sigma per axis")
+    bias = body.ANGULAR_VELOCITY.parameter(
+        description="constant bias of measured angular velocity, added to the random bias"
+    )
+    bias_limit = Parameter(
+        0.0, unit="rad/s", minimum=0.0, description="largest magnitude of the random bias about each axis"
+    )
+    bias_walk = Parameter(
+        0.0, minimum=0.0, description="rate random walk of the bias, rad/s per square root of s, 1 sigma per axis"
+    )
+    scale = Parameter(
+        [0.0] * 9,
+        unit="1",
+        frame="body",
+        columns=3,
+        description="matrix S of scale factor errors (diagonal) and misalignments",
+    )
+    instability_sigma = Parameter(0.0, unit="rad/s", minimum=0.0, description="bias instability of each gyro, 1 sigma")
     instability_time = Parameter(300.0, unit="s", minimum=1e-3, description="correlation time of the bias instability")
     range = Parameter(
-        0.0, unit="rad/s", minimum=0.0, description="range of each measured component, both signs; 0: no limit"
+        0.0, unit="rad/s", minimum=0.0, description="largest magnitude of each measured component; 0: no limit"
     )
-    quantum = Parameter(0.0, unit="rad/s", minimum=0.0, description="quantisation step of the output; 0: none")
-    latency = Parameter(0, minimum=0, maximum=LATEST, description="latency of a sample, in sample periods")
+    quantum = Parameter(
+        0.0, unit="rad/s", minimum=0.0, description="quantisation step of each measured component; 0: none"
+    )
+    latency = Parameter(0, minimum=0, maximum=LATEST, description="delay from measurement to output, in sample periods")
     sample_period = sampling.SAMPLE_PERIOD.parameter()
     seed, stream = sampling.random_stream()
-    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity relative to the inertial frame")
+    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity of the body relative to the inertial frame")
     measured_angular_velocity = body.ANGULAR_VELOCITY.output(
-        "measured angular velocity relative to the inertial frame", direct=True
+        "measured angular velocity of the body relative to the inertial frame", direct=True
     )
-    true_bias = body.ANGULAR_VELOCITY.output("true bias without instability")
+    true_bias = body.ANGULAR_VELOCITY.output("true bias of measured angular velocity, without bias instability")
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(RateGyrosStatus, direct=True)
-    instability = body.ANGULAR_VELOCITY.state("bias instability")
-    samples = State(zeros(LATEST + 1, 3), unit="rad/s", frame="body", description="samples in transit, newest first")
-    measurements = State(0, description="number of samples so far, received or in transit")
-    has_scale = State(False, description="true: S not 0")
+    instability = body.ANGULAR_VELOCITY.state("current bias instability of measured angular velocity")
+    samples = State(
+        zeros(LATEST + 1, 3),
+        unit="rad/s",
+        frame="body",
+        description="delayed samples of angular velocity, newest first",
+    )
+    measurements = State(0, description="number of measurements since the start, delayed ones included")
+    has_scale = State(False, description="true: matrix S of scale factor errors and misalignments differs from 0")
     generator = sampling.GENERATOR.state()
 
     def draw_constants(self) -> None:

@@ -46,47 +46,72 @@ class StarInertial(RandomSensor):
     default_step = 0.125
 
     attitude_sigma = Parameter(
-        4.84813681109536e-6, unit="rad", minimum=0.0, description="attitude error, 1 sigma per axis; 1 arcsec"
+        4.84813681109536e-6, unit="rad", minimum=0.0, description="error of the measured attitude, 1 sigma per axis"
     )
     boresight = Parameter(
-        [0.0, 0.0, 1.0], unit="1", frame="body", description="boresight of the tracker, of any length"
+        [0.0, 0.0, 1.0], unit="1", frame="body", description="boresight of the star tracker, normalised by the block"
     )
     roll_sigma = Parameter(
-        0.0, unit="rad", minimum=0.0, description="attitude error about the boresight, 1 sigma; 0: attitude_sigma"
+        0.0,
+        unit="rad",
+        minimum=0.0,
+        description="error of the measured attitude about the boresight, 1 sigma; 0: attitude_sigma",
     )
     sun_exclusion = Parameter(
-        0.0, unit="rad", minimum=0.0, maximum=math.pi, description="exclusion angle of the Sun; 0: none"
+        0.0,
+        unit="rad",
+        minimum=0.0,
+        maximum=math.pi,
+        description="least angle between boresight and Sun at which stars are measured; 0: no exclusion",
     )
     limb_exclusion = Parameter(
-        0.0, unit="rad", minimum=0.0, maximum=0.5 * math.pi, description="exclusion angle of the body's limb; 0: none"
+        0.0,
+        unit="rad",
+        minimum=0.0,
+        maximum=0.5 * math.pi,
+        description=(
+            "least angle between boresight and the central body's limb at which stars are measured; 0: no exclusion"
+        ),
     )
     moon_exclusion = Parameter(
-        0.0, unit="rad", minimum=0.0, maximum=math.pi, description="exclusion angle of the Moon; 0: none"
+        0.0,
+        unit="rad",
+        minimum=0.0,
+        maximum=math.pi,
+        description="least angle between boresight and Moon at which stars are measured; 0: no exclusion",
     )
     rate_limit = Parameter(
-        0.0, unit="rad/s", minimum=0.0, description="largest angular velocity with samples; 0: no limit"
+        0.0, unit="rad/s", minimum=0.0, description="largest angular rate at which stars are measured; 0: no limit"
     )
-    body_radius = Parameter(6378137.0, unit="m", minimum=0.0, description="radius of the central body")
-    latency = Parameter(0, minimum=0, maximum=LATEST, description="latency of a sample, in sample periods")
+    body_radius = Parameter(
+        6378137.0, unit="m", minimum=0.0, description="radius of the central body, for the exclusion of its limb"
+    )
+    latency = Parameter(0, minimum=0, maximum=LATEST, description="delay from measurement to output, in sample periods")
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.125)
     seed, stream = sampling.random_stream()
     quaternion = robot.QUATERNION.input("true attitude quaternion from body to inertial, scalar first")
-    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity")
+    angular_velocity = body.ANGULAR_VELOCITY.input("true angular velocity of the body relative to the inertial frame")
     position = inertial.POSITION.input("true position relative to the centre of the central body")
     sun_direction = SpaceEnvironment.sun_direction.input(
-        "direction to the Sun, unit vector; 0: no Sun", start=[0.0] * 3
+        "direction from the spacecraft to the Sun, unit vector; 0: no Sun", start=[0.0] * 3
     )
     moon_position = SpaceEnvironment.moon_position.input()
     measured_quaternion = robot.MEASURED_QUATERNION.output(
         "measured attitude quaternion from body to inertial, scalar first", direct=True
     )
-    sample_time = Output(0.0, unit="s", direct=True, description="time of the sample")
+    sample_time = Output(0.0, unit="s", direct=True, description="time of measurement of the sample")
     sample_count = sampling.SAMPLE_COUNT.output()
     status = Output(StarTrackerStatus, direct=True)
     samples = State(
-        zeros(LATEST + 1, 6), description="samples in transit, newest first: attitude, time in s, 1 for valid"
+        zeros(LATEST + 1, 6), description="delayed samples, newest first: attitude quaternion, time in s, 1 for valid"
     )
-    axis = State([0.0] * 3, unit="1", frame="body", frozen=True, description="unit vector of the boresight; 0: none")
+    axis = State(
+        [0.0] * 3,
+        unit="1",
+        frame="body",
+        frozen=True,
+        description="unit vector of the tracker's boresight; 0: boresight without length",
+    )
     generator = sampling.GENERATOR.state()
     start_time = sampling.START_TIME.state()
 

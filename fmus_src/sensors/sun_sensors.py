@@ -18,7 +18,7 @@ BRIGHTNESS = 0.5  # of the Sun's disk, for the fine head
 
 
 class SunSensorStatus(Enumeration):
-    """State of the last sample."""
+    """Status of the last sample."""
 
     GOOD = member("good")
     NO_SUN = member("no Sun, direction held")
@@ -53,34 +53,47 @@ class SunSensors(RandomSensor):
         unit="1",
         frame="body",
         columns=3,
-        description="unit normals of the heads, by row",
+        description="unit normals of the coarse heads, one per row",
     )
     sigma = Parameter(
-        0.01, unit="1", minimum=0.0, description="noise of a head's current, 1 sigma, as a fraction of full scale"
+        0.01,
+        unit="1",
+        minimum=0.0,
+        description="white noise of each head's current, 1 sigma, as a fraction of full scale",
     )
     scale_sigma = Parameter(
         0.0,
         unit="1",
         minimum=0.0,
-        description="random scale factor error of a head, constant over a simulation, 1 sigma",
+        description="scale factor error of each head's current, constant over a simulation, 1 sigma",
     )
     albedo_factor = Parameter(
         0.0,
         unit="1",
         minimum=0.0,
-        description="albedo current of a head pointing straight down, as a fraction of full scale",
+        description="current from the Earth's albedo of a head that points straight down, as a fraction of full scale",
     )
     field_of_view = Parameter(
-        deg(85.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle of a head's field of view"
+        deg(85.0),
+        unit="rad",
+        minimum=0.0,
+        maximum=math.pi,
+        description="half-angle of each coarse head's field of view",
     )
     threshold = Parameter(
-        0.5, unit="1", minimum=0.0, description="least length of the sum of currents for a valid direction"
+        0.5,
+        unit="1",
+        minimum=0.0,
+        description="least length of the vector sum of the heads' currents for a valid direction",
     )
     boresight = Parameter(
-        [0.0, 0.0, 1.0], unit="1", frame="body", description="boresight of the fine head, of any length"
+        [0.0, 0.0, 1.0], unit="1", frame="body", description="boresight of the fine head, normalised by the block"
     )
     fine_sigma = Parameter(
-        0.0, unit="rad", minimum=0.0, description="error of the fine head, 1 sigma per axis; 0: no fine head"
+        0.0,
+        unit="rad",
+        minimum=0.0,
+        description="error of the direction measured by the fine head, 1 sigma per axis; 0: no fine head",
     )
     fine_field = Parameter(
         deg(30.0), unit="rad", minimum=0.0, maximum=math.pi, description="half-angle of the fine head's field of view"
@@ -88,19 +101,27 @@ class SunSensors(RandomSensor):
     sample_period = sampling.SAMPLE_PERIOD.parameter(0.5)
     seed, stream = sampling.random_stream()
     quaternion = robot.QUATERNION.input("true attitude quaternion from body to inertial, scalar first")
-    position = inertial.POSITION.input("true position")
+    position = inertial.POSITION.input("true position relative to the centre of the central body")
     sun_direction = SpaceEnvironment.sun_direction.input()
     illumination = SpaceEnvironment.illumination.input()
     currents = Output(
-        [0.0] * HEADS, unit="1", direct=True, description="currents of the heads, as fractions of full scale"
+        [0.0] * HEADS, unit="1", direct=True, description="currents of the coarse heads, as fractions of full scale"
     )
     measured_direction = Output(
-        [1.0, 0.0, 0.0], unit="1", frame="body", direct=True, description="measured direction to the Sun, unit vector"
+        [1.0, 0.0, 0.0],
+        unit="1",
+        frame="body",
+        direct=True,
+        description="measured direction from the spacecraft to the Sun, unit vector",
     )
-    valid = Output(False, direct=True, description="true: Sun in the last sample")
-    sample_count = sampling.SAMPLE_COUNT.output("number of samples with the Sun so far; a change signals a new one")
+    valid = Output(False, direct=True, description="true: Sun seen in the last sample")
+    sample_count = sampling.SAMPLE_COUNT.output(
+        "number of samples with the Sun in view since the start; a change signals a new sample"
+    )
     status = Output(SunSensorStatus, direct=True)
-    scales = State([0.0] * HEADS, unit="1", frozen=True, description="scale factor errors of the heads")
+    scales = State(
+        [0.0] * HEADS, unit="1", frozen=True, description="scale factor errors of the coarse heads' currents"
+    )
     generator = sampling.GENERATOR.state()
 
     def draw_constants(self) -> None:

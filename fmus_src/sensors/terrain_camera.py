@@ -23,18 +23,23 @@ class TerrainCamera(RandomSensor):
     """
 
     altitude_error = Parameter(
-        0.0015, unit="1", minimum=0.0, description="position error proportional to altitude, 1 sigma per axis"
+        0.0015,
+        unit="1",
+        minimum=0.0,
+        description="position error proportional to altitude, as a fraction of it, 1 sigma per axis",
     )
     noise_sigma = landing.NOISE_SIGMA.parameter(2.0, "constant part of the position error, 1 sigma per axis")
-    minimum_altitude = Parameter(500.0, unit="m", description="least altitude of the sensor's range")
+    minimum_altitude = Parameter(500.0, unit="m", description="lowest altitude at which the sensor measures")
     maximum_altitude = landing.MAXIMUM_ALTITUDE.parameter()
     moon_radius = landing.MOON_RADIUS.parameter()
     sample_period = sampling.SAMPLE_PERIOD.parameter(5.0)
     seed, stream = sampling.random_stream()
-    position = landing.POSITION.input("true position")
-    measured_position = landing.POSITION.output("measured position", direct=True)
+    position = landing.POSITION.input("true position of the lander relative to the landing site")
+    measured_position = landing.POSITION.output(
+        "measured position of the lander relative to the landing site", direct=True
+    )
     sample_count = sampling.SAMPLE_COUNT.output(
-        "number of samples in range so far; a change signals a new one", direct=True
+        "number of samples within range since the start; a change signals a new sample", direct=True
     )
     generator = sampling.GENERATOR.state()
 

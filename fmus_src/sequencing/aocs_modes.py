@@ -45,41 +45,50 @@ class AocsModes(Block):
 
     default_step = 0.25
 
-    calm_rate = Parameter(deg(0.3), unit="rad/s", minimum=0.0, description="rate below which DETUMBLE may end")
-    lost_rate = Parameter(deg(2.0), unit="rad/s", minimum=0.0, description="rate above which DETUMBLE is resumed")
+    calm_rate = Parameter(deg(0.3), unit="rad/s", minimum=0.0, description="angular rate below which DETUMBLE can end")
+    lost_rate = Parameter(
+        deg(2.0), unit="rad/s", minimum=0.0, description="angular rate above which DETUMBLE is resumed"
+    )
     sun_error = Parameter(
         deg(10.0),
         unit="rad",
         minimum=0.0,
-        description="largest angle between panel_normal and the Sun at the end of SUN",
+        description="largest angle between panel_normal and the Sun with which SUN can end",
     )
     panel_normal = Parameter(
         [0.0, -1.0, 0.0], unit="1", frame="body", description="axis pointed to the Sun in SUN, body"
     )
     settle_time = Parameter(
-        60.0, unit="s", minimum=0.0, description="time for which the conditions of a transition must hold"
+        60.0,
+        unit="s",
+        minimum=0.0,
+        description="time for which the conditions of a transition must hold without interruption",
     )
     lost_time = Parameter(
         5.0, unit="s", minimum=0.0, description="time above lost_rate after which DETUMBLE is resumed"
     )
-    blind_time = Parameter(300.0, unit="s", minimum=0.0, description="time without attitude after which SUN is resumed")
-    sample_period = sampling.SAMPLE_PERIOD.parameter(
-        0.25, "sample period of the decisions; 0: every communication point"
+    blind_time = Parameter(
+        300.0, unit="s", minimum=0.0, description="time without a known attitude after which SUN is resumed"
     )
-    estimated_angular_velocity = body.ANGULAR_VELOCITY.input("estimated or measured angular velocity")
+    sample_period = sampling.SAMPLE_PERIOD.parameter(
+        0.25, "sample period of the mode decisions; 0: a decision at every communication point"
+    )
+    estimated_angular_velocity = body.ANGULAR_VELOCITY.input(
+        "estimated or measured angular velocity of the body relative to the inertial frame"
+    )
     estimated_quaternion = robot.QUATERNION.input()
     sun_direction = SpaceEnvironment.sun_direction.input("modelled direction to the Sun, unit vector")
     attitude_known = Input(False, description="true: estimated attitude valid")
     mode = Output(AocsMode, direct=True)
     pointing_mode = Output(PointingMode, start=PointingMode.SUN, direct=True)
     magnetic_mode = Output(MagneticMode, start=MagneticMode.DETUMBLE, direct=True)
-    wheels_on = Output(False, direct=True, description="true: wheels active, attitude reference followed")
-    time_in_mode = Output(0.0, unit="s", direct=True, description="time since the start of the mode")
+    wheels_on = Output(False, direct=True, description="true: reaction wheels active, attitude reference followed")
+    time_in_mode = Output(0.0, unit="s", direct=True, description="time since the start of the current mode")
     status = Output(AocsModesStatus, direct=True)
-    begun = State(0.0, unit="s", description="start time of the mode")
-    settled_since = State(0.0, unit="s", description="time from which the transition's conditions have held")
-    fast_since = State(0.0, unit="s", description="time from which lost_rate has been exceeded")
-    blind_since = State(0.0, unit="s", description="time from which no attitude has been known")
+    begun = State(0.0, unit="s", description="start time of the current mode")
+    settled_since = State(0.0, unit="s", description="time since which the conditions of the next transition have held")
+    fast_since = State(0.0, unit="s", description="time since which the angular rate has exceeded lost_rate")
+    blind_since = State(0.0, unit="s", description="time since which the attitude has been unknown")
     start_time = sampling.START_TIME.state()
 
     def initialize(self) -> None:

@@ -20,21 +20,21 @@ class CommandSwitch(Block):
     """
 
     source = Input(CommandSource)
-    engine_on = landing.ENGINE_ON.input()
+    engine_on = landing.ENGINE_ON.input("true: engine to burn")
     plan_number = landing.PLAN_NUMBER.input("number of the plan requested from the hover guidance")
     hover_plan = landing.HOVER_PLAN.input()
-    sequencer = Inputs(ThrustCommand, prefix="own_", about="the sequencer's own command:")
-    braking = Inputs(ThrustCommand, prefix="braking_", about="the braking guidance:")
-    hover = Inputs(ThrustCommand, prefix="hover_", about="the hover guidance:")
+    sequencer = Inputs(ThrustCommand, prefix="own_", about="command of the sequencer:")
+    braking = Inputs(ThrustCommand, prefix="braking_", about="command of the braking guidance:")
+    hover = Inputs(ThrustCommand, prefix="hover_", about="command of the hover guidance:")
     hover_angular_acceleration_feed = landing.ANGULAR_ACCELERATION.input(
-        "angular acceleration feedforward of the hover guidance"
+        "feedforward of the thrust axis' angular acceleration, from the hover guidance"
     )
     command = Outputs(ThrustCommand, direct=True)
     angular_acceleration_feed = landing.ANGULAR_ACCELERATION.output(
-        "angular acceleration feedforward of the command", direct=True
+        "feedforward of the thrust axis' angular acceleration", direct=True
     )
     passed_thrust_acceleration = State(
-        0.0, unit="m/s2", description="thrust acceleration of the last command, engine on or off"
+        0.0, unit="m/s2", description="thrust over mass of the last command passed on, whether the engine is on or off"
     )
 
     def initialize(self) -> None:

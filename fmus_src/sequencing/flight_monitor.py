@@ -14,17 +14,19 @@ class FlightMonitor(Block):
     """
 
     handover_speed = landing.HANDOVER_SPEED.parameter(
-        0.0, "speed below which the hand-over takes place; 0: no hand-over"
+        0.0, "speed below which the vehicle is handed over to the next phase; 0: no hand-over"
     )
-    handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter(description="lower altitude limit of the hand-over")
+    handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter(
+        description="lowest altitude at which the vehicle is handed over to the next phase"
+    )
     handover_altitude_high = landing.HANDOVER_ALTITUDE_HIGH.parameter(
-        description="upper altitude limit of the hand-over"
+        description="highest altitude at which the vehicle is handed over to the next phase"
     )
     guidance_finished = Input(False, description="true: guidance finished")
-    altitude = landing.ALTITUDE.input("altitude above the ground", start=1.0)
+    altitude = landing.ALTITUDE.input("altitude of the vehicle above the ground", start=1.0)
     speed = Input(0.0, unit="m/s", description="speed of the vehicle")
     finished = landing.FINISHED.output(direct=True)
-    handed_over = Output(False, direct=True, description="true: hand-over reached")
+    handed_over = Output(False, direct=True, description="true: conditions of the hand-over met")
     ground_contact = landing.GROUND_CONTACT.output(direct=True)
 
     def initialize(self) -> None:

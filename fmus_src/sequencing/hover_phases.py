@@ -16,35 +16,48 @@ class HoverPhases(LandingSequence, interface=True):
     """
 
     hover_time = Parameter(
-        20.0, unit="s", minimum=0.0, description="duration of hover 1 and hover 2, in which a site is chosen"
+        20.0,
+        unit="s",
+        minimum=0.0,
+        description="duration of hover 1 and of hover 2, in which the landing site is re-designated",
     )
-    hover_patience = Parameter(60.0, unit="s", minimum=0.0, description="longest duration of hover 1 and hover 2")
-    settled_speed = Parameter(0.5, unit="m/s", minimum=0.0, description="largest speed at the end of a hover")
+    hover_patience = Parameter(60.0, unit="s", minimum=0.0, description="longest duration of hover 1 and of hover 2")
+    settled_speed = Parameter(0.5, unit="m/s", minimum=0.0, description="largest speed with which a hover can end")
     settled_distance = Parameter(
-        10.0, unit="m", minimum=0.0, description="largest distance from the target at the end of a hover"
+        10.0, unit="m", minimum=0.0, description="largest distance from the target with which a hover can end"
     )
     reach_over_drop = Parameter(
-        1.3, unit="1", minimum=0.0, description="largest first re-designation, as a fraction of the altitude drop"
+        1.3,
+        unit="1",
+        minimum=0.0,
+        description="largest distance of the first re-designation, as a fraction of the altitude lost in the transfer",
     )
-    second_reach = Parameter(100.0, unit="m", minimum=0.0, description="largest second re-designation")
-    reserve = Parameter(25.0, unit="kg", minimum=0.0, description="propellant reserve after the transfer")
+    second_reach = Parameter(100.0, unit="m", minimum=0.0, description="largest distance of the second re-designation")
+    reserve = Parameter(25.0, unit="kg", minimum=0.0, description="propellant that must remain after the transfer")
     lookahead = Parameter(
         8.0,
         unit="s",
         minimum=0.0,
-        description="look-ahead time of the velocity for the hover position after an early end of braking",
+        description="time over which the velocity is extrapolated to the hover position after an early end of braking",
     )
     lowest_hover = Parameter(
-        300.0, unit="m", minimum=0.0, description="least altitude of the hover after an early end of braking"
+        300.0, unit="m", minimum=0.0, description="least target altitude of the hover after an early end of braking"
     )
     descent_wait = Parameter(3.0, unit="s", minimum=0.0, description="duration of the hover before the descent")
     cut_altitude = Parameter(
-        0.5, unit="m", minimum=0.0, description="estimated altitude of the engine cut-off without probe contact"
+        0.5,
+        unit="m",
+        minimum=0.0,
+        description="estimated altitude at which the engine is cut off without probe contact",
     )
-    plan_end = State(NEVER, frozen=True, unit="s", description="end time of hover 1's plan; -1: not yet")
-    plan_judged = State(False, description="true: propellant of the transfer evaluated")
+    plan_end = State(NEVER, frozen=True, unit="s", description="end time of the plan to hover 1; -1: no end known yet")
+    plan_judged = State(False, description="true: predicted propellant of the transfer checked against the reserve")
     first_site = State(
-        [0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="landing site before the transfer"
+        [0.0, 0.0, 0.0],
+        frozen=True,
+        unit="m",
+        frame="landing site",
+        description="position of the landing site before the transfer",
     )
 
     def begin_first_hover(self) -> None:

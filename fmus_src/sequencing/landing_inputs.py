@@ -18,65 +18,121 @@ class LandingInputs(Block, interface=True):
     Frame: landing site.
     """
 
-    cycle = Parameter(0.1, unit="s", minimum=0.0, description="decision period; 0: every communication point")
-    estimated_position = landing.POSITION.input()
-    estimated_velocity = landing.VELOCITY.input()
-    mass = landing.MASS.input("mass of the vehicle")
-    attitude = landing.DIRECTION.input("measured thrust axis, unit vector")
-    braking_direction = landing.DIRECTION.input("thrust direction of the braking guidance, unit vector")
-    braking_command_time = Input(
-        0.0, unit="s", description="reference time of the braking command, valid from the start of braking"
+    cycle = Parameter(
+        0.1,
+        unit="s",
+        minimum=0.0,
+        description="decision period of the sequencer; 0: a decision at every communication point",
     )
+    estimated_position = landing.POSITION.input("estimated position of the lander relative to the landing site")
+    estimated_velocity = landing.VELOCITY.input("estimated velocity of the lander relative to the landing site")
+    mass = landing.MASS.input("mass of the lander")
+    attitude = landing.DIRECTION.input("measured direction of the thrust axis, unit vector")
+    braking_direction = landing.DIRECTION.input("thrust direction commanded by the braking guidance, unit vector")
+    braking_command_time = Input(0.0, unit="s", description="reference time of the command of the braking guidance")
     braking_time_to_go = Input(0.0, unit="s", description="time to go of the braking guidance")
     braking_status = Input(TerminalStatus, description="status of the braking guidance")
     braking_finished = Input(False, description="true: braking guidance finished")
-    hover_plan = landing.HOVER_PLAN.input("plan_number of the hover guidance's outputs")
+    hover_plan = landing.HOVER_PLAN.input("plan_number that the outputs of the hover guidance follow")
     hover_finished = Input(False, description="true: plan of the hover guidance completed")
     hover_status = Input(HoverStatus, description="status of the hover guidance")
-    predicted_propellant = landing.PREDICTED_PROPELLANT.input("predicted propellant of the hover guidance's plan")
+    predicted_propellant = landing.PREDICTED_PROPELLANT.input(
+        "propellant that the plan of the hover guidance is predicted to use"
+    )
     probe_contact = landing.PROBE_CONTACT.input()
     ground_contact = landing.GROUND_CONTACT.input()
     redesignation_1 = Input(
         [0.0, 0.0],
         unit="m",
         frame="landing site",
-        description="first re-designation of the site, x and y, read at the end of hover 1",
+        description="first re-designation: offset of the site along x and y, read at the end of hover 1",
     )
     redesignation_2 = Input(
         [0.0, 0.0],
         unit="m",
         frame="landing site",
-        description="second re-designation of the site, x and y, read at the end of hover 2",
+        description="second re-designation: offset of the site along x and y, read at the end of hover 2",
     )
     divert_count = Input(
-        0, description="number of diverts of the braking guidance; a change during braking moves the site"
+        0, description="number of diverts of the braking guidance; a change during braking moves the landing site"
     )
     divert_position = landing.POSITION.input(
-        "target position of the braking guidance after a divert, above the new site"
+        "target position of the braking guidance after a divert, above the new landing site"
     )
-    sampled_time = State(0.0, unit="s", description="sampling time of the inputs")
-    sampled_position = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="sampled estimated_position")
+    sampled_time = State(0.0, unit="s", description="time at which the inputs of this decision period were sampled")
+    sampled_position = State(
+        [0.0, 0.0, 0.0],
+        unit="m",
+        frame="landing site",
+        description="estimated position of the lander, sampled for this decision period",
+    )
     sampled_velocity = State(
-        [0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="sampled estimated_velocity"
+        [0.0, 0.0, 0.0],
+        unit="m/s",
+        frame="landing site",
+        description="estimated velocity of the lander, sampled for this decision period",
     )
-    sampled_mass = State(1.0, unit="kg", description="sampled mass")
-    sampled_attitude = State([0.0, 0.0, 1.0], unit="1", frame="landing site", description="sampled attitude")
-    sampled_direction = State([0.0, 0.0, 1.0], unit="1", frame="landing site", description="sampled braking_direction")
-    sampled_command_time = State(0.0, unit="s", description="sampled braking_command_time")
-    sampled_time_to_go = State(0.0, unit="s", description="sampled braking_time_to_go")
-    sampled_braking_status = State(TerminalStatus, description="sampled braking_status")
-    sampled_braking_finished = State(False, description="sampled braking_finished")
-    sampled_plan = State(0, description="sampled hover_plan")
-    sampled_hover_finished = State(False, description="sampled hover_finished")
-    sampled_hover_status = State(HoverStatus, description="sampled hover_status")
-    sampled_propellant = State(0.0, unit="kg", description="sampled predicted_propellant")
-    sampled_probe_contact = State(False, description="sampled probe_contact")
-    sampled_ground_contact = State(False, description="sampled ground_contact")
-    sampled_move_1 = State([0.0, 0.0], unit="m", frame="landing site", description="sampled redesignation_1")
-    sampled_move_2 = State([0.0, 0.0], unit="m", frame="landing site", description="sampled redesignation_2")
-    sampled_divert = State(0, description="sampled divert_count")
+    sampled_mass = State(1.0, unit="kg", description="mass of the lander, sampled for this decision period")
+    sampled_attitude = State(
+        [0.0, 0.0, 1.0],
+        unit="1",
+        frame="landing site",
+        description="measured direction of the thrust axis, sampled for this decision period",
+    )
+    sampled_direction = State(
+        [0.0, 0.0, 1.0],
+        unit="1",
+        frame="landing site",
+        description="thrust direction commanded by the braking guidance, sampled for this decision period",
+    )
+    sampled_command_time = State(
+        0.0, unit="s", description="reference time of the braking command, sampled for this decision period"
+    )
+    sampled_time_to_go = State(
+        0.0, unit="s", description="time to go of the braking guidance, sampled for this decision period"
+    )
+    sampled_braking_status = State(
+        TerminalStatus, description="status of the braking guidance, sampled for this decision period"
+    )
+    sampled_braking_finished = State(
+        False, description="true: braking guidance finished, as sampled for this decision period"
+    )
+    sampled_plan = State(0, description="plan_number of the hover guidance's outputs, sampled for this decision period")
+    sampled_hover_finished = State(
+        False, description="true: plan of the hover guidance completed, as sampled for this decision period"
+    )
+    sampled_hover_status = State(
+        HoverStatus, description="status of the hover guidance, sampled for this decision period"
+    )
+    sampled_propellant = State(
+        0.0,
+        unit="kg",
+        description="predicted propellant of the hover guidance's plan, sampled for this decision period",
+    )
+    sampled_probe_contact = State(
+        False, description="true: landing probe in contact with the ground, as sampled for this decision period"
+    )
+    sampled_ground_contact = State(
+        False, description="true: lander in contact with the ground, as sampled for this decision period"
+    )
+    sampled_move_1 = State(
+        [0.0, 0.0],
+        unit="m",
+        frame="landing site",
+        description="first re-designation of the site along x and y, sampled for this decision period",
+    )
+    sampled_move_2 = State(
+        [0.0, 0.0],
+        unit="m",
+        frame="landing site",
+        description="second re-designation of the site along x and y, sampled for this decision period",
+    )
+    sampled_divert = State(0, description="number of diverts of the braking guidance, sampled for this decision period")
     sampled_divert_position = State(
-        [0.0, 0.0, 0.0], unit="m", frame="landing site", description="sampled divert_position"
+        [0.0, 0.0, 0.0],
+        unit="m",
+        frame="landing site",
+        description="target position after a divert, sampled for this decision period",
     )
     is_sampled = State(False, description="true: inputs of this decision period sampled")
     cycles = State(0, description="number of completed decision periods")

@@ -12,7 +12,7 @@ ROUNDING = 1e-6  # s, allowed for in times of communication points
 
 
 class LandingPhase(Enumeration):
-    """Phases of a landing in their order."""
+    """Phase of a landing."""
 
     REFUSED = member("refused")
     DEORBIT = member("deorbit")
@@ -31,11 +31,11 @@ class LandingStatus(Enumeration):
 
     GOOD = member("good")
     SHORTENED = member("re-designation shortened")
-    HOVER_GUIDANCE_SAID = member("hover guidance not good")
+    HOVER_GUIDANCE_SAID = member("fault reported by the hover guidance")
     TIMEOUT = member("timeout")
     SITE_MOVED = member("site moved")
     DROPPED = member("re-designation dropped")
-    CUT_OFF = member("cut off without the probe")
+    CUT_OFF = member("engine cut off without probe contact")
     OUT_OF_PROPELLANT = member("out of propellant")
     BRAKING_FAILED = member("braking failed")
     REFUSED = member("refused")
@@ -51,42 +51,51 @@ class LandingSequence(LandingInputs, interface=True):
     Frame: landing site, not rotating; the Moon's centre is moon_radius below the origin.
     """
 
-    start_phase = Parameter(LandingPhase.DEORBIT, description="first phase, 1 to 9")
+    start_phase = Parameter(
+        LandingPhase.DEORBIT, description="phase of the landing at the start of the simulation, 1 to 9"
+    )
     moon_radius = landing.MOON_RADIUS.parameter()
     gravitational_parameter = landing.GRAVITATIONAL_PARAMETER.parameter()
-    minimum_thrust = landing.MINIMUM_THRUST.parameter(340.0, "least thrust of the engine")
+    minimum_thrust = landing.MINIMUM_THRUST.parameter(340.0, "least thrust of the burning engine")
     maximum_thrust = landing.MAXIMUM_THRUST.parameter(description="largest thrust of the engine")
-    dry_mass = Parameter(440.0, unit="kg", minimum=0.0, description="mass without propellant")
+    dry_mass = Parameter(440.0, unit="kg", minimum=0.0, description="mass of the lander without propellant")
     probe_length = landing.PROBE_LENGTH.parameter()
     preliminary_altitude = Parameter(2400.0, unit="m", description="target altitude of hover 1, after braking")
     final_altitude = Parameter(100.0, unit="m", description="target altitude of hover 2, after the transfer")
     cutoff_altitude = Parameter(4.0, unit="m", description="target altitude of the hover after the approach")
-    phase = Output(LandingPhase)
+    phase = Output(LandingPhase, description="current phase of the landing")
     braking_active = Output(False, description="true: braking guidance active")
     hover_active = Output(False, description="true: hover guidance active")
     hover_mode = Output(HoverMode)
     plan_number = landing.PLAN_NUMBER.output(
         "number of the plan requested from the hover guidance; a change requests a new one"
     )
-    target_position = landing.POSITION.output("target position of the hover guidance")
-    site = landing.POSITION.output("landing site on the sphere")
-    source = Output(CommandSource, description="source of the command in force")
-    engine_on = landing.ENGINE_ON.output("true: engine on")
-    command = Outputs(ThrustCommand, about="own command:")
-    free_flight = landing.FREE_FLIGHT.output("true: no thrust, for navigation")
-    status = Output(LandingStatus, description="largest status so far")
+    target_position = landing.POSITION.output(
+        "target position of the hover guidance relative to the initial landing site"
+    )
+    site = landing.POSITION.output("position of the landing site on the sphere of moon_radius")
+    source = Output(CommandSource, description="source of the current command")
+    engine_on = landing.ENGINE_ON.output("true: engine to burn")
+    command = Outputs(ThrustCommand, about="command of the sequencer:")
+    free_flight = landing.FREE_FLIGHT.output("true: free flight without thrust, for navigation")
+    status = Output(LandingStatus, description="largest status since the start")
     status_flags = Output(
-        0, minimum=0, maximum=511, description="all statuses so far: sum of 2^(k - 1) over each status k that occurred"
+        0,
+        minimum=0,
+        maximum=511,
+        description="all statuses since the start: sum of 2^(k - 1) over each status k that occurred",
     )
     status_time = Output(
-        [NEVER] * 9, unit="s", description="time of the first occurrence of each status from 1 on; -1: never"
+        [NEVER] * 9, unit="s", description="time of the first occurrence of each status from 1 on; -1: not occurred"
     )
-    phase_time = Output([NEVER] * 9, unit="s", description="start time of each phase; -1: never")
+    phase_time = Output([NEVER] * 9, unit="s", description="start time of each phase; -1: not started")
     phase_mass = Output(
-        [0.0] * 9, unit="kg", description="mass at the start of each phase, one decision period late; 0: never"
+        [0.0] * 9,
+        unit="kg",
+        description="mass of the lander at the start of each phase, one decision period late; 0: not started",
     )
     finished = landing.FINISHED.output()
-    mass_is_known = State(False, description="true: phase_mass of the phase set")
+    mass_is_known = State(False, description="true: phase_mass of the current phase set")
 
     def note(self, status: int, time: float) -> None:
         """Remember a status at ``time`` (s)."""

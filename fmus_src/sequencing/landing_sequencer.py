@@ -24,10 +24,8 @@ class LandingSequencer(OrbitPhases, HoverPhases):
     Source: Huang 2017 (phases and altitudes); rules and times: docs/systems/landing_mission.md.
     """
 
-    settling_time = Parameter(
-        2.0, unit="s", minimum=0.0, description="settling time from engine cut-off to free flight"
-    )
-    last_thrust = State(0.0, frozen=True, unit="s", description="time from which the engine has been off")
+    settling_time = Parameter(2.0, unit="s", minimum=0.0, description="time from engine cut-off to free flight")
+    last_thrust = State(0.0, frozen=True, unit="s", description="time since which the engine has been off")
 
     def initialize(self) -> None:
         self.sample_inputs(self.start_time)

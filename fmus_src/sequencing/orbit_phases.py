@@ -37,48 +37,74 @@ class OrbitPhases(LandingSequence, interface=True):
         15e3, unit="m", minimum=0.0, description="target pericentre altitude of the deorbit"
     )
     deorbit_throttle = Parameter(
-        0.1, unit="1", minimum=1e-3, maximum=1.0, description="thrust of the deorbit, as a fraction of maximum_thrust"
+        0.1,
+        unit="1",
+        minimum=1e-3,
+        maximum=1.0,
+        description="thrust in the deorbit burn, as a fraction of maximum_thrust",
     )
     hold_time = Parameter(
-        1.0, unit="s", minimum=0.0, description="time before the end of the deorbit from which its burn is held"
+        1.0, unit="s", minimum=0.0, description="remaining time of the deorbit burn below which its command is held"
     )
     deorbit_patience = Parameter(
-        2.0, unit="1", minimum=1.0, description="longest deorbit burn, as a multiple of the planned one"
+        2.0,
+        unit="1",
+        minimum=1.0,
+        description="longest duration of the deorbit burn, as a multiple of the planned duration",
     )
-    lowest_coast = Parameter(12e3, unit="m", description="altitude below which a coast towards the ground is ended")
+    lowest_coast = Parameter(12e3, unit="m", description="altitude below which a coast is ended if impact is predicted")
     coast_clearance = Parameter(
         300.0,
         unit="m",
         minimum=0.0,
-        description="least predicted altitude of the coast up to braking_range; below: ground expected",
+        description="least predicted altitude of the coast before braking_range; below it impact is predicted",
     )
     coast_patience = Parameter(
-        20.0, unit="s", minimum=0.0, description="time for which the ground must be expected before the coast is ended"
+        20.0, unit="s", minimum=0.0, description="time for which impact must be predicted before the coast is ended"
     )
-    pointing_tolerance = Parameter(deg(2.0), unit="rad", minimum=0.0, description="largest attitude error at ignition")
+    pointing_tolerance = Parameter(
+        deg(2.0),
+        unit="rad",
+        minimum=0.0,
+        description="largest angle between measured and commanded thrust axis at ignition",
+    )
     pointing_patience = Parameter(
-        30.0, unit="s", minimum=0.0, description="longest wait for pointing_tolerance before ignition"
+        30.0,
+        unit="s",
+        minimum=0.0,
+        description="longest wait before ignition for the pointing error to fall below pointing_tolerance",
     )
     handover_time_to_go = Parameter(
-        28.0, unit="s", minimum=0.0, description="time to go of braking at which hover 1 begins"
+        28.0, unit="s", minimum=0.0, description="time to go of the braking guidance at which hover 1 begins"
     )
-    braking_patience = Parameter(450.0, unit="s", minimum=0.0, description="longest duration of braking")
+    braking_patience = Parameter(
+        450.0, unit="s", minimum=0.0, description="longest duration of braking before it counts as failed"
+    )
     solution_patience = Parameter(
-        20.0, unit="s", minimum=0.0, description="longest duration of braking without a solution"
+        20.0, unit="s", minimum=0.0, description="longest time without a solution of the braking guidance"
     )
     far_range = Parameter(
-        5e3, unit="m", minimum=0.0, description="remaining ground range from which braking ends away from the site"
+        5e3,
+        unit="m",
+        minimum=0.0,
+        description="remaining ground range to the site above which braking is completed away from the site",
     )
-    slow_speed = Parameter(30.0, unit="m/s", minimum=0.0, description="speed at which braking away from the site ends")
-    ignition_time = State(NEVER, frozen=True, unit="s", description="ignition time of the deorbit; -1: not yet")
-    planned_burn = State(0.0, frozen=True, unit="s", description="planned duration of the deorbit burn at ignition")
-    holding = State(False, description="true: burn of the deorbit held")
+    slow_speed = Parameter(
+        30.0, unit="m/s", minimum=0.0, description="speed below which braking away from the site ends"
+    )
+    ignition_time = State(
+        NEVER, frozen=True, unit="s", description="ignition time of the deorbit burn; -1: not ignited"
+    )
+    planned_burn = State(0.0, frozen=True, unit="s", description="duration of the deorbit burn planned at ignition")
+    holding = State(False, description="true: command of the deorbit burn held until its end")
     falling_since = State(
-        NEVER, unit="s", description="time from which ground before braking_range has been predicted; -1: not predicted"
+        NEVER, unit="s", description="time since which impact has been predicted in the coast; -1: not predicted"
     )
-    unsolved_since = State(NEVER, unit="s", description="time from which braking has had no solution; -1: has one")
-    flown_divert = State(0, description="divert_count of the site")
-    elsewhere = State(False, description="true: braking to an end away from the site")
+    unsolved_since = State(
+        NEVER, unit="s", description="time since which the braking guidance has had no solution; -1: solution exists"
+    )
+    flown_divert = State(0, description="number of diverts of the braking guidance included in the landing site")
+    elsewhere = State(False, description="true: braking to be completed away from the site")
 
     def face_back(self, time: float) -> None:
         """Command against the horizontal velocity, without thrust."""

@@ -19,14 +19,20 @@ class SiteDivert(Block):
     See docs/systems/descent_laws.md.
     """
 
-    divert_time = Parameter(0.0, unit="s", minimum=0.0, description="time of the divert; 0: never")
-    offset = Parameter([0.0, 0.0], unit="m", frame="landing site", description="offset of the site along x and y")
-    target_position = landing.POSITION.parameter([0.0, 0.0, 100.0], "target position before the divert")
+    divert_time = Parameter(
+        0.0, unit="s", minimum=0.0, description="time from the start of the simulation to the divert; 0: no divert"
+    )
+    offset = Parameter(
+        [0.0, 0.0], unit="m", frame="landing site", description="offset of the landing site along x and y"
+    )
+    target_position = landing.POSITION.parameter(
+        [0.0, 0.0, 100.0], "target position before the divert, relative to the landing site"
+    )
     moon_radius = landing.MOON_RADIUS.parameter()
-    divert_count = Output(0, description="number of diverts so far")
-    divert_position = landing.POSITION.output("target position in force")
+    divert_count = Output(0, description="number of diverts since the start")
+    divert_position = landing.POSITION.output("current target position, relative to the landing site")
     start_time = sampling.START_TIME.state()
-    diverted = State(False, description="true: site moved")
+    diverted = State(False, description="true: landing site has been moved")
 
     def initialize(self) -> None:
         self.divert_position = self.target_position

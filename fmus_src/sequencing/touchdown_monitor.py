@@ -17,31 +17,43 @@ class TouchdownMonitor(Block):
     """
 
     vertical_speed_limit = Parameter(
-        3.0, unit="m/s", minimum=0.0, description="largest allowed vertical speed at contact"
+        3.0, unit="m/s", minimum=0.0, description="largest allowed vertical speed at ground contact"
     )
     horizontal_speed_limit = Parameter(
-        1.0, unit="m/s", minimum=0.0, description="largest allowed horizontal speed at contact"
+        1.0, unit="m/s", minimum=0.0, description="largest allowed horizontal speed at ground contact"
     )
-    tilt_limit = Parameter(deg(5.0), unit="rad", minimum=0.0, description="largest allowed tilt at contact")
-    rate_limit = Parameter(deg(2.0), unit="rad/s", minimum=0.0, description="largest allowed angular rate at contact")
+    tilt_limit = Parameter(deg(5.0), unit="rad", minimum=0.0, description="largest allowed tilt at ground contact")
+    rate_limit = Parameter(
+        deg(2.0), unit="rad/s", minimum=0.0, description="largest allowed angular rate at ground contact"
+    )
     distance_limit = Parameter(
-        10.0, unit="m", minimum=0.0, description="largest allowed distance from the site at contact"
+        10.0, unit="m", minimum=0.0, description="largest allowed distance from the landing site at ground contact"
     )
     ground_contact = landing.GROUND_CONTACT.input()
-    vertical_speed = landing.VERTICAL_SPEED.input("true vertical velocity, upwards")
-    horizontal_speed = landing.HORIZONTAL_SPEED.input("true horizontal speed")
-    tilt = landing.TILT.input("true angle of the thrust axis from the local vertical")
+    vertical_speed = landing.VERTICAL_SPEED.input(
+        "true component of the lander's velocity along the local vertical, positive upwards"
+    )
+    horizontal_speed = landing.HORIZONTAL_SPEED.input("true speed of the lander perpendicular to the local vertical")
+    tilt = landing.TILT.input("true angle between thrust axis and local vertical")
     angular_rate = landing.ANGULAR_RATE.input("true angular rate of the thrust axis")
-    position = landing.POSITION.input("true position")
-    site = landing.POSITION.input("landing site")
-    contact = Output(False, direct=True, description="true: ground contact made, outputs held")
-    contact_time = Output(-1.0, unit="s", direct=True, description="time of the ground contact; -1: not yet")
-    contact_vertical_speed = Output(0.0, unit="m/s", direct=True, description="vertical speed at contact, downwards")
-    contact_horizontal_speed = Output(0.0, unit="m/s", direct=True, description="horizontal speed at contact")
-    contact_tilt = Output(0.0, unit="rad", direct=True, description="tilt at contact")
-    contact_rate = Output(0.0, unit="rad/s", direct=True, description="angular rate at contact")
-    contact_distance = Output(0.0, unit="m", direct=True, description="distance from the site at contact")
-    within_limits = Output(False, direct=True, description="true: contact within all limits")
+    position = landing.POSITION.input("true position of the lander relative to the landing site")
+    site = landing.POSITION.input("position of the landing site")
+    contact = Output(False, direct=True, description="true: ground contact has occurred, outputs held")
+    contact_time = Output(-1.0, unit="s", direct=True, description="time of the ground contact; -1: no contact yet")
+    contact_vertical_speed = Output(
+        0.0, unit="m/s", direct=True, description="vertical speed at ground contact, positive downwards"
+    )
+    contact_horizontal_speed = Output(0.0, unit="m/s", direct=True, description="horizontal speed at ground contact")
+    contact_tilt = Output(
+        0.0, unit="rad", direct=True, description="angle between thrust axis and local vertical at ground contact"
+    )
+    contact_rate = Output(
+        0.0, unit="rad/s", direct=True, description="angular rate of the thrust axis at ground contact"
+    )
+    contact_distance = Output(
+        0.0, unit="m", direct=True, description="distance from the landing site at ground contact"
+    )
+    within_limits = Output(False, direct=True, description="true: ground contact within all limits")
     start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def initialize(self) -> None:

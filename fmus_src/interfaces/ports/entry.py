@@ -6,12 +6,14 @@ from ...bundles import Bundle
 from ...ports import Port
 from ...units import deg
 
-BANK = Port(0.0, unit="rad", description="bank angle")
-DENSITY_FACTOR = Port(1.0, unit="1", description="factor on the density of the standard atmosphere")
-DYNAMIC_PRESSURE = Port(0.0, unit="Pa", description="dynamic pressure in the standard atmosphere at rest")
-ERROR_LIMIT = Port(math.pi, unit="rad", description="largest bank error that is acted on")
-JET_FACTOR = Port([1.0] * 6, unit="1", description="factors on the torque of each jet")
-TARGET_BANK = Port(deg(60.0), unit="rad", description="target bank angle")
+BANK = Port(0.0, unit="rad", description="bank angle of the capsule")
+DENSITY_FACTOR = Port(1.0, unit="1", description="ratio of actual to standard atmospheric density")
+DYNAMIC_PRESSURE = Port(0.0, unit="Pa", description="dynamic pressure in the standard atmosphere without wind")
+ERROR_LIMIT = Port(math.pi, unit="rad", description="magnitude to which control limits the bank error")
+JET_FACTOR = Port(
+    [1.0] * 6, unit="1", description="ratio of actual to nominal torque of the jets +x, -x, +y, -y, +z, -z"
+)
+TARGET_BANK = Port(deg(60.0), unit="rad", description="target bank angle of the programme")
 WIND = Port(
     [0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="velocity of the air relative to the rotating Earth"
 )
@@ -21,5 +23,5 @@ class BankReference(Bundle):
     """Reference bank with its derivatives."""
 
     bank = Port(deg(60.0), unit="rad", description="reference bank angle")
-    bank_rate = Port(0.0, unit="rad/s", description="time derivative of the reference bank")
-    bank_acceleration = Port(0.0, unit="rad/s2", description="second time derivative of the reference bank")
+    bank_rate = Port(0.0, unit="rad/s", description="time derivative of the reference bank angle")
+    bank_acceleration = Port(0.0, unit="rad/s2", description="second time derivative of the reference bank angle")

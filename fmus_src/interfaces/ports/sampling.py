@@ -3,15 +3,15 @@
 from ...block import Parameter
 from ...ports import Port
 
-GENERATOR = Port([0.0] * 6, frozen=True, description="state of the random number generator")
+GENERATOR = Port([0.0] * 6, frozen=True, description="internal state of the random number generator")
 INNOVATION_SQUARE = Port(
-    0.0, unit="1", description="normalised innovation squared of the last sample, three components"
+    0.0, unit="1", description="normalised innovation squared of the last sample, sum over three components"
 )
-INTERNAL_STEP = Port(0.1, unit="s", minimum=1e-4, description="largest integration step")
+INTERNAL_STEP = Port(0.1, unit="s", minimum=1e-4, description="largest step of the numerical integration")
 TIME_ROUNDING = 1e-9  # s, by which times of communication points and samples may miss: importers round or add them up
-SAMPLES_TAKEN = Port(0, description="number of samples used so far")
-SAMPLE_COUNT = Port(0, description="number of samples so far; a change signals a new one")
-SAMPLE_PERIOD = Port(0.2, unit="s", minimum=0.0, description="sample period; 0: every communication point")
+SAMPLES_TAKEN = Port(0, description="number of samples used since the start")
+SAMPLE_COUNT = Port(0, description="number of samples since the start; a change signals a new sample")
+SAMPLE_PERIOD = Port(0.2, unit="s", minimum=0.0, description="sample period; 0: a sample at every communication point")
 START_TIME = Port(0.0, unit="s", description="start time of the simulation")
 
 

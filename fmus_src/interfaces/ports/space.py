@@ -3,12 +3,14 @@
 from ...bundles import Bundle
 from ...kernel.enumerations import Enumeration, member
 from ...ports import Port
-from . import body, inertial, robot
+from . import body
 
-EPOCH = Port(827301600.0, unit="s", description="time TT since J2000.0 at simulation time 0")
-TT_MINUS_UT1 = Port(69.184, unit="s", description="difference TT - UT1; UTC in place of UT1 errs by 0.9 s at most")
-DIPOLE = Port([0.0, 0.0, 0.0], unit="A.m2", frame="body", description="magnetic dipole")
-MAGNETIC_FIELD = Port([0.0, 0.0, 0.0], unit="T", frame="body", description="magnetic flux density")
+EPOCH = Port(827301600.0, unit="s", description="Terrestrial Time at simulation time 0, since J2000.0")
+TT_MINUS_UT1 = Port(
+    69.184, unit="s", description="difference of Terrestrial Time and UT1; UTC in place of UT1 errs by at most 0.9 s"
+)
+DIPOLE = Port([0.0, 0.0, 0.0], unit="A.m2", frame="body", description="magnetic dipole moment of the torquers")
+MAGNETIC_FIELD = Port([0.0, 0.0, 0.0], unit="T", frame="body", description="magnetic flux density at the spacecraft")
 
 
 class CelestialBody(Enumeration):
@@ -29,14 +31,26 @@ class Atmosphere(Enumeration):
 class Orbit(Bundle):
     """Position and velocity of the centre of mass, relative to the centre of the central body."""
 
-    position = inertial.POSITION
-    velocity = inertial.VELOCITY
+    position = Port(
+        [0.0, 0.0, 0.0],
+        unit="m",
+        frame="inertial",
+        description="position of the centre of mass relative to the centre of the central body",
+    )
+    velocity = Port(
+        [0.0, 0.0, 0.0],
+        unit="m/s",
+        frame="inertial",
+        description="velocity of the centre of mass relative to the centre of the central body",
+    )
 
 
 class Attitude(Bundle):
     """Attitude relative to inertial axes."""
 
-    quaternion = robot.QUATERNION
+    quaternion = Port(
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude quaternion from body to inertial, scalar first"
+    )
     angular_velocity = body.ANGULAR_VELOCITY
 
 
@@ -53,11 +67,17 @@ class SpaceEnvironment(Bundle):
         frame="inertial",
         description="position of the Moon relative to the centre of the central body",
     )
-    illumination = Port(1.0, unit="1", description="visible fraction of the Sun's disk; 0: umbra")
-    magnetic_field = Port([0.0, 0.0, 0.0], unit="T", frame="inertial", description="magnetic flux density")
+    illumination = Port(
+        1.0, unit="1", description="visible fraction of the Sun's disk; 0: full shadow, 1: full sunlight"
+    )
+    magnetic_field = Port(
+        [0.0, 0.0, 0.0], unit="T", frame="inertial", description="magnetic flux density at the spacecraft"
+    )
     magnetic_field_body = MAGNETIC_FIELD
-    density = Port(0.0, unit="kg/m3", description="air density")
-    planet_angle = Port(0.0, unit="rad", description="rotation angle of the prime meridian about the pole")
+    density = Port(0.0, unit="kg/m3", description="air density at the spacecraft")
+    planet_angle = Port(
+        0.0, unit="rad", description="rotation angle of the central body's prime meridian about its pole"
+    )
 
 
 class MagneticMode(Enumeration):

@@ -30,15 +30,29 @@ XYZ = (1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0)
 class Wrench(Record):
     """Force and torque."""
 
-    force = Field(Vector3, unit="N", frame="body", description="force")
-    torque = Field(Vector3, unit="N.m", frame="body", description="torque")
+    force = Field(Vector3, unit="N", frame="body", description="force on the body")
+    torque = Field(Vector3, unit="N.m", frame="body", description="torque on the body")
 
 
 class JetStrength(Record):
     """Force or torque of 1 N of every jet, with the signs of a row, along an axis, over the number of jets; 0: none."""
 
-    force = Field(Vector3, unit="1", frame="body", description="force over thrust, signs X, Y, Z")
-    torque = Field(Vector3, unit="m", frame="body", description="torque over thrust, signs YZ, ZX, XY")
+    force = Field(
+        Vector3,
+        unit="1",
+        frame="body",
+        description=(
+            "force along each axis per 1 N of all eight jets with sign rows X, Y and Z, divided by their number"
+        ),
+    )
+    torque = Field(
+        Vector3,
+        unit="m",
+        frame="body",
+        description=(
+            "torque about each axis per 1 N of all eight jets with sign rows YZ, ZX and XY, divided by their number"
+        ),
+    )
 
 
 def jet_strength(tilt: float, azimuth: float, arm: Vector3) -> JetStrength:

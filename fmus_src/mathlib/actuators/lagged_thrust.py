@@ -7,11 +7,11 @@ from ...kernel.records import Field, Record
 class LaggedThrust(Record):
     """Thrust over a step, and its integrals."""
 
-    start = Field(unit="N", description="at the start of the step")
-    middle = Field(unit="N", description="in its middle")
-    end = Field(unit="N", description="at its end")
-    middle_impulse = Field(unit="N.s", description="until the middle")
-    impulse = Field(unit="N.s", description="until the end")
+    start = Field(unit="N", description="thrust at the start of the step")
+    middle = Field(unit="N", description="thrust in the middle of the step")
+    end = Field(unit="N", description="thrust at the end of the step")
+    middle_impulse = Field(unit="N.s", description="impulse from the start to the middle of the step")
+    impulse = Field(unit="N.s", description="impulse from the start to the end of the step")
 
 
 def lagged_thrust(delivered: float, commanded: float, lag: float, h: float) -> LaggedThrust:

@@ -47,9 +47,9 @@ def turning(direction: Vector3, goal: Vector3, response: float, limit: float) ->
 class Pursuit(Record):
     """A step of a pursuit."""
 
-    direction = Field(Vector3, description="unit vector at its end")
-    goal = Field(Vector3, description="unit vector at its end")
-    angle = Field(unit="rad", description="from the direction to the goal at its start")
+    direction = Field(Vector3, description="pursuing direction at the end of the step, unit vector")
+    goal = Field(Vector3, description="direction of the goal at the end of the step, unit vector")
+    angle = Field(unit="rad", description="angle from the pursuing direction to the goal at the start of the step")
 
 
 def pursuit_rate(

@@ -10,8 +10,8 @@ ALIGNED = 1e-12  # sine below which two directions count as parallel
 class TurningDirection(Record):
     """A direction that turns."""
 
-    direction = Field(Vector3, unit="1", description="unit vector")
-    rate = Field(Vector3, unit="1/s", description="its derivative")
+    direction = Field(Vector3, unit="1", description="direction at the reference time, unit vector")
+    rate = Field(Vector3, unit="1/s", description="time derivative of the direction")
 
 
 def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vector3, float]:

@@ -12,8 +12,8 @@ from ..vectors import Vector3, across, cross, limit_length, norm
 class AxisState(Record):
     """A thrust axis that turns."""
 
-    axis = Field(Vector3, unit="1", description="unit vector")
-    rate = Field(Vector3, unit="rad/s", description="angular rate, perpendicular to it")
+    axis = Field(Vector3, unit="1", description="direction of the axis, unit vector")
+    rate = Field(Vector3, unit="rad/s", description="angular rate of the axis, perpendicular to it")
 
 
 def axis_derivatives(t: float, s: AxisState, acceleration: Vector3, limit: float) -> AxisState:

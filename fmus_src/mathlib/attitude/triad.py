@@ -8,8 +8,8 @@ from .quaternion import conjugate, multiply, normalise, quaternion
 class AxesAttitude(Record):
     """Attitude of two directions, and whether they are not parallel."""
 
-    quaternion = Field(Vector4, unit="1", description="from body to inertial, scalar first")
-    exists = Field(bool, description="the directions of both frames are far enough from parallel")
+    quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
+    exists = Field(bool, description="true: directions far enough from parallel in both frames")
 
 
 def from_axes(x: Vector3, y: Vector3, z: Vector3) -> Vector4:

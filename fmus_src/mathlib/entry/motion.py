@@ -14,13 +14,19 @@ class EntryState(Record):
     """Capsule over a turning, spherical Earth."""
 
     radius = Field(unit="m", frozen=True, description="distance from the Earth's centre")
-    longitude = Field(unit="rad", frozen=True, description="longitude")
-    latitude = Field(unit="rad", frozen=True, description="latitude")
-    speed = Field(unit="m/s", frozen=True, description="over the turning Earth")
-    flight_path_angle = Field(unit="rad", frozen=True, description="of the velocity over the horizon")
-    heading = Field(unit="rad", frozen=True, description="of the velocity, from east, counter-clockwise from above")
-    attitude = Field(Vector3, unit="rad", description="bank, sideslip, attack")
-    angular_velocity = Field(Vector3, unit="rad/s", frame="body", description="absolute")
+    longitude = Field(unit="rad", frozen=True, description="longitude of the capsule")
+    latitude = Field(unit="rad", frozen=True, description="latitude of the capsule")
+    speed = Field(unit="m/s", frozen=True, description="speed relative to the rotating Earth")
+    flight_path_angle = Field(unit="rad", frozen=True, description="flight path angle, positive above the horizon")
+    heading = Field(
+        unit="rad",
+        frozen=True,
+        description="direction of the velocity, from east, counter-clockwise as seen from above",
+    )
+    attitude = Field(Vector3, unit="rad", description="bank angle, sideslip angle and angle of attack")
+    angular_velocity = Field(
+        Vector3, unit="rad/s", frame="body", description="angular velocity of the body relative to the inertial frame"
+    )
 
 
 class BodyAxes(Record):

@@ -16,21 +16,21 @@ LONGEST = 30.0  # s; longest interval of eight nodes, which leave below 1e-9 of 
 class HoverVehicle(Record):
     """A lander as its plan takes it."""
 
-    full = Field(unit="m/s2", frozen=True, description="largest thrust over the mass at the start")
-    least = Field(unit="m/s2", frozen=True, description="least thrust over the mass at the start")
-    exhaust = Field(unit="m/s", frozen=True, description="exhaust speed")
-    gravity = Field(unit="m/s2", frozen=True, description="gravity, uniform")
-    swing = Field(unit="rad/s2", frozen=True, description="angular acceleration")
+    full = Field(unit="m/s2", frozen=True, description="largest thrust in the plan over the mass at its start")
+    least = Field(unit="m/s2", frozen=True, description="least thrust in the plan over the mass at its start")
+    exhaust = Field(unit="m/s", frozen=True, description="exhaust speed of the engine")
+    gravity = Field(unit="m/s2", frozen=True, description="uniform gravitational acceleration assumed by the plan")
+    swing = Field(unit="rad/s2", frozen=True, description="angular acceleration of the thrust axis in the plan")
 
 
 class PlaneMotion(Record):
     """Motion in the plane of a transfer."""
 
-    x = Field(unit="m", description="towards the target")
-    x_rate = Field(unit="m/s", description="its rate")
-    y = Field(unit="m", description="upwards")
-    y_rate = Field(unit="m/s", description="its rate")
-    exists = Field(bool, description="whether mass is left and the programme has a shape")
+    x = Field(unit="m", description="horizontal distance from the start, towards the target")
+    x_rate = Field(unit="m/s", description="horizontal velocity towards the target")
+    y = Field(unit="m", description="height above the start")
+    y_rate = Field(unit="m/s", description="upward velocity")
+    exists = Field(bool, description="true: mass is left and the programme has a shape")
 
 
 class ThrustSpan(Record):

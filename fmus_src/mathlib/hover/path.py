@@ -28,8 +28,8 @@ TILT = 0.01  # rad, for the response to small tilts
 class ReachedProgramme(Record):
     """A programme that ends as far aside as could be reached."""
 
-    programme = Field(HoverProgramme, description="the programme")
-    x = Field(unit="m", description="where it ends; 0: it is not feasible")
+    programme = Field(HoverProgramme, description="programme with the largest horizontal distance reached")
+    x = Field(unit="m", description="horizontal distance at the end of the programme; 0: not feasible")
 
 
 def vertical(y: float, vehicle: HoverVehicle) -> HoverSolution:

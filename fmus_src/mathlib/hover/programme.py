@@ -23,16 +23,18 @@ LARGEST_PATH = 60  # programmes
 class PlannedProgramme(Record):
     """The result of a search."""
 
-    kind = Field(int, description="which form the programme has: a `PlanKind`")
-    programme = Field(HoverProgramme, description="the programme; all its times are 0 for PlanKind.NONE")
+    kind = Field(int, description="form of the programme, a `PlanKind`")
+    programme = Field(HoverProgramme, description="planned programme; all times 0 for PlanKind.NONE")
 
 
 class Bracket(Record):
     """A programme that takes less propellant than those of earlier and of later end, as far as these are feasible."""
 
-    programme = Field(HoverProgramme, description="the programme")
-    before = Field(unit="s", description="end of the one before; of the programme itself where there is none")
-    beyond = Field(unit="s", description="end of the one beyond")
+    programme = Field(HoverProgramme, description="programme with the least propellant found")
+    before = Field(
+        unit="s", description="end time of the next shorter programme; that of the programme itself if there is none"
+    )
+    beyond = Field(unit="s", description="end time of the next longer programme")
 
 
 def nothing_planned() -> PlannedProgramme:

@@ -18,51 +18,60 @@ STEEPEST = 0.5 * math.pi  # rad; largest deviation, beyond which thrust would pu
 class HoverProgramme(Record):
     """The times (s) that determine a programme, named as in the paper. A change of a programme is one as well."""
 
-    t2 = Field(unit="s", description="where the deviation is least")
-    t5 = Field(unit="s", description="where the deviation is largest")
-    width = Field(unit="s", description="w = t1 sqrt(2 (1 - k)), half a first burn symmetric about t2; 0: none")
-    last_burn = Field(unit="s", description="tp, duration of the last burn")
-    t7 = Field(unit="s", description="the end")
+    t2 = Field(unit="s", description="time of the least thrust angle")
+    t5 = Field(unit="s", description="time of the largest thrust angle")
+    width = Field(
+        unit="s",
+        description="half duration w = t1 sqrt(2 (1 - k)) of a first burn symmetric about t2; 0: no first burn",
+    )
+    last_burn = Field(unit="s", description="duration tp of the last burn")
+    t7 = Field(unit="s", description="end time of the programme")
 
 
 class HoverShape(Record):
     """The times (s) at which pitch acceleration and thrust switch, named t1 to t7 as in the paper."""
 
-    t1 = Field(unit="s", frozen=True, description="first change of angular acceleration")
-    t2 = Field(unit="s", frozen=True, description="where the deviation is least")
-    t3 = Field(unit="s", frozen=True, description="begin of the constant rate")
-    t4 = Field(unit="s", frozen=True, description="its end")
-    t5 = Field(unit="s", frozen=True, description="where the deviation is largest")
-    t6 = Field(unit="s", frozen=True, description="last change of angular acceleration")
-    t7 = Field(unit="s", frozen=True, description="the end")
-    first_burn_begin = Field(unit="s", frozen=True, description="begin of the first burn")
-    first_burn_end = Field(unit="s", frozen=True, description="its end")
-    last_burn_begin = Field(unit="s", frozen=True, description="begin of the last burn, which ends at t7")
-    d = Field(unit="s", frozen=True, description="t3 - t2")
-    last = Field(unit="s", frozen=True, description="t7 - t6")
+    t1 = Field(
+        unit="s", frozen=True, description="time t1 of the first switching of the thrust axis' angular acceleration"
+    )
+    t2 = Field(unit="s", frozen=True, description="time t2 of the least thrust angle of the programme")
+    t3 = Field(unit="s", frozen=True, description="time t3 at which the thrust axis starts to turn at a constant rate")
+    t4 = Field(unit="s", frozen=True, description="time t4 at which the thrust axis stops turning at a constant rate")
+    t5 = Field(unit="s", frozen=True, description="time t5 of the largest thrust angle of the programme")
+    t6 = Field(
+        unit="s", frozen=True, description="time t6 of the last switching of the thrust axis' angular acceleration"
+    )
+    t7 = Field(unit="s", frozen=True, description="end time t7 of the programme")
+    first_burn_begin = Field(unit="s", frozen=True, description="start time of the programme's first burn")
+    first_burn_end = Field(unit="s", frozen=True, description="end time of the programme's first burn")
+    last_burn_begin = Field(
+        unit="s", frozen=True, description="start time of the programme's last burn, which ends at t7"
+    )
+    d = Field(unit="s", frozen=True, description="duration t3 - t2")
+    last = Field(unit="s", frozen=True, description="duration t7 - t6")
 
 
 class PlannedShape(Record):
     """The shape of a programme, if it has one."""
 
-    shape = Field(HoverShape, description="the shape; all its times are 0 where there is no room for it")
-    exists = Field(bool, description="whether there is one")
+    shape = Field(HoverShape, description="shape of the programme; all times 0 if the programme has none")
+    exists = Field(bool, description="true: programme has a shape")
 
 
 class PitchSegment(Record):
     """A parabola that the deviation follows."""
 
-    begin = Field(unit="s", description="time that it counts from")
-    value = Field(unit="rad", description="deviation then")
-    rate = Field(unit="rad/s", description="its rate then")
-    half_acceleration = Field(unit="rad/s2", description="half its acceleration")
+    begin = Field(unit="s", description="time from which the parabola counts")
+    value = Field(unit="rad", description="thrust angle at that time")
+    rate = Field(unit="rad/s", description="time derivative of the thrust angle at that time")
+    half_acceleration = Field(unit="rad/s2", description="half of the thrust angle's second derivative")
 
 
 class Pitch(Record):
     """Deviation of the thrust from the vertical."""
 
-    deviation = Field(unit="rad", description="angle, positive against the way to go")
-    rate = Field(unit="rad/s", description="its rate")
+    deviation = Field(unit="rad", description="angle of thrust from the vertical, positive away from the target")
+    rate = Field(unit="rad/s", description="time derivative of the thrust angle")
 
 
 def without_programme() -> HoverProgramme:

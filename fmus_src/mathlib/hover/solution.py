@@ -19,7 +19,7 @@ DIFFERENCE = 1e-6  # s
 
 
 class PlanKind(Enumeration):
-    """Kind of a plan from hover to hover: none, one of three forms of the programme, or a polynomial of degree 7."""
+    """Kind of a plan between hovers: none, a form of the programme, or a polynomial of degree 7."""
 
     NONE = member("none")
     VERTICAL = member("vertical")
@@ -31,15 +31,17 @@ class PlanKind(Enumeration):
 class HoverSolution(Record):
     """A programme that was searched for."""
 
-    programme = Field(HoverProgramme, description="the programme; where it is not feasible, one near by")
-    is_feasible = Field(bool, description="whether it ends where it should, at rest")
+    programme = Field(
+        HoverProgramme, description="programme found; an infeasible one close to the demand if none is feasible"
+    )
+    is_feasible = Field(bool, description="true: programme ends at the target at rest")
 
 
 class Residual(Record):
     """Miss of a programme at its target."""
 
-    errors = Field(Vector4, description="at the end: y/10 (m), y' (m/s), x/10 (m), x' (m/s)")
-    size = Field(description="their length; infinite without a motion")
+    errors = Field(Vector4, description="errors at the end of the programme: y/10 (m), y' (m/s), x/10 (m), x' (m/s)")
+    size = Field(description="norm of the errors; infinite without a motion")
 
 
 def propellant_fraction(p: HoverProgramme, vehicle: HoverVehicle) -> float:

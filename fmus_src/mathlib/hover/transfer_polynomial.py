@@ -28,47 +28,52 @@ EXCESS_PRICE = 1000.0  # m/s for a limit exceeded by all of itself
 class Transfer(Record):
     """Position c0 + c1 s + ... + c7 s^7."""
 
-    c0 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^0: where it starts")
-    c1 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^1")
-    c2 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^2")
-    c3 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^3")
-    c4 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^4")
-    c5 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^5")
-    c6 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^6")
-    c7 = Field(Vector3, unit="m", frozen=True, description="coefficient of s^7")
+    c0 = Field(
+        Vector3,
+        unit="m",
+        frozen=True,
+        description="coefficient c0 of the transfer polynomial: start position relative to the landing site",
+    )
+    c1 = Field(Vector3, unit="m", frozen=True, description="coefficient c1 of the transfer polynomial")
+    c2 = Field(Vector3, unit="m", frozen=True, description="coefficient c2 of the transfer polynomial")
+    c3 = Field(Vector3, unit="m", frozen=True, description="coefficient c3 of the transfer polynomial")
+    c4 = Field(Vector3, unit="m", frozen=True, description="coefficient c4 of the transfer polynomial")
+    c5 = Field(Vector3, unit="m", frozen=True, description="coefficient c5 of the transfer polynomial")
+    c6 = Field(Vector3, unit="m", frozen=True, description="coefficient c6 of the transfer polynomial")
+    c7 = Field(Vector3, unit="m", frozen=True, description="coefficient c7 of the transfer polynomial")
 
 
 class TransferLimits(Record):
     """Limits of a transfer, and its engine."""
 
-    maximum_thrust = Field(unit="N", description="largest thrust")
-    minimum_thrust = Field(unit="N", description="least thrust")
-    angular_acceleration = Field(unit="rad/s2", description="largest of the thrust's direction")
-    exhaust_speed = Field(unit="m/s", description="of the engine")
+    maximum_thrust = Field(unit="N", description="largest thrust of the engine in a transfer")
+    minimum_thrust = Field(unit="N", description="least thrust of the engine in a transfer")
+    angular_acceleration = Field(unit="rad/s2", description="largest angular acceleration of the thrust direction")
+    exhaust_speed = Field(unit="m/s", description="exhaust speed of the engine")
 
 
 class ThrustAlong(Record):
     """Thrust over mass at a time of a transfer."""
 
     size = Field(unit="m/s2", description="thrust over mass")
-    direction = Field(Vector3, unit="1", description="unit vector")
-    rate = Field(Vector3, unit="1/s", description="first derivative of the direction")
-    bend = Field(Vector3, unit="1/s2", description="its second derivative")
+    direction = Field(Vector3, unit="1", description="thrust direction, unit vector")
+    rate = Field(Vector3, unit="1/s", description="first time derivative of the thrust direction")
+    bend = Field(Vector3, unit="1/s2", description="second time derivative of the thrust direction")
 
 
 class Expense(Record):
     """Expense of a transfer."""
 
-    impulse = Field(unit="m/s", description="integral of thrust over mass")
-    excess = Field(unit="1", description="largest relative excess over a limit, 0 within all of them")
+    impulse = Field(unit="m/s", description="time integral of thrust over mass")
+    excess = Field(unit="1", description="largest relative excess over a limit; 0: within all limits")
 
 
 class Capture(Record):
     """The transfer that a capture flies."""
 
-    duration = Field(unit="s", description="duration; 0: there is no transfer that is finite")
-    expense = Field(Expense, description="what it takes")
-    transfer = Field(Transfer, description="its path")
+    duration = Field(unit="s", description="duration of the transfer; 0: no finite transfer exists")
+    expense = Field(Expense, description="expense of the transfer")
+    transfer = Field(Transfer, description="polynomial of the transfer")
 
 
 def transfer(

@@ -13,9 +13,11 @@ from ...kernel.records import Field, Record
 class GravityTurn(Record):
     """A gravity turn that ends at rest at the target's height."""
 
-    ratio = Field(unit="1", description="thrust acceleration over gravity; 0: none reaches rest there")
-    duration = Field(unit="s", description="until it is at rest")
-    distance = Field(unit="m", description="horizontal, until it is at rest")
+    ratio = Field(
+        unit="1", description="ratio of thrust acceleration to gravity; 0: no gravity turn ends at rest at this height"
+    )
+    duration = Field(unit="s", description="duration of the gravity turn until rest")
+    distance = Field(unit="m", description="horizontal distance of the gravity turn until rest")
 
 
 def gravity_turn(speed: float, descent_cosine: float, height: float, g: float) -> GravityTurn:

@@ -22,7 +22,7 @@ SETTLED = 1e-6  # of the time
 class DescentShape(Record):
     """The numbers that make the law."""
 
-    final = Field(Vector3, unit="m/s2", description="thrust acceleration at the end")
+    final = Field(Vector3, unit="m/s2", description="thrust acceleration at the target")
     gamma = Field(unit="1", description="first exponent of the time to go")
     kr = Field(unit="1", description="gain of the position error")
 
@@ -30,11 +30,11 @@ class DescentShape(Record):
 class DescentProfile(Record):
     """A thrust acceleration over the fraction s of the time to go: final + first s^gamma + second s^gamma_2."""
 
-    final = Field(Vector3, unit="m/s2", description="at the end")
-    first = Field(Vector3, unit="m/s2", description="of s^gamma")
-    second = Field(Vector3, unit="m/s2", description="of s^gamma_2")
-    gamma = Field(unit="1", description="first exponent")
-    gamma_2 = Field(unit="1", description="second exponent")
+    final = Field(Vector3, unit="m/s2", description="thrust acceleration at the target")
+    first = Field(Vector3, unit="m/s2", description="coefficient of s^gamma")
+    second = Field(Vector3, unit="m/s2", description="coefficient of s^gamma_2")
+    gamma = Field(unit="1", description="first exponent of the time to go")
+    gamma_2 = Field(unit="1", description="second exponent of the time to go")
 
 
 def second_exponent(shape: DescentShape) -> float:

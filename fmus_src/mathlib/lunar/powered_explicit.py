@@ -26,35 +26,43 @@ MOST_OF_MAXIMUM = 1.3  # ... of the largest, which an iteration may try
 class SteeringState(Record):
     """Unknowns of the guidance, as an iteration leaves them."""
 
-    time = Field(unit="s", description="time to go")
-    thrust = Field(unit="N", description="constant thrust")
-    direction = Field(Vector3, unit="1", description="lambda, of the thrust at the time K")
-    turning = Field(Vector3, unit="1/s", description="its derivative lambda'")
-    centre = Field(unit="s", description="K")
-    change = Field(unit="1", description="last change of the time over the time; below 0: there is no solution")
+    time = Field(unit="s", description="time to go of the linear-tangent steering")
+    thrust = Field(unit="N", description="constant thrust of the linear-tangent steering")
+    direction = Field(
+        Vector3, unit="1", description="thrust direction vector lambda at the time K (landing site frame)"
+    )
+    turning = Field(
+        Vector3, unit="1/s", description="time derivative of the thrust direction vector lambda (landing site frame)"
+    )
+    centre = Field(unit="s", description="time K from now at which lambda is the thrust direction")
+    change = Field(
+        unit="1", description="relative change of the time to go in the last iteration; below 0: no solution"
+    )
 
 
 class SteeringProblem(Record):
     """Errors and engine of an iteration."""
 
-    way = Field(Vector3, unit="m", description="to the target, less what gravity adds")
-    gain = Field(Vector3, unit="m/s", description="velocity to gain, less what gravity adds")
-    velocity = Field(Vector3, unit="m/s", description="velocity")
-    mass = Field(unit="kg", description="mass")
-    exhaust = Field(unit="m/s", description="exhaust speed")
-    minimum = Field(unit="N", description="least thrust")
-    maximum = Field(unit="N", description="largest thrust")
+    way = Field(Vector3, unit="m", description="vector to the target, minus the contribution of gravity")
+    gain = Field(Vector3, unit="m/s", description="velocity to gain, minus the contribution of gravity")
+    velocity = Field(Vector3, unit="m/s", description="current velocity")
+    mass = Field(unit="kg", description="current mass")
+    exhaust = Field(unit="m/s", description="exhaust speed of the engine")
+    minimum = Field(unit="N", description="least thrust of the engine")
+    maximum = Field(unit="N", description="largest thrust of the engine")
 
 
 class ThrustIntegrals(Record):
     """Integrals of a constant thrust over mass."""
 
-    S = Field(unit="m", description="of the time from now to the end, weighted")
-    Q = Field(unit="m s", description="its moment")
-    P = Field(unit="m s2", description="the moment of that")
-    J = Field(unit="m", description="moment of the acceleration")
-    H = Field(unit="m s", description="J T - Q")
-    K = Field(unit="s", description="J/L")
+    S = Field(
+        unit="m", description="integral of the thrust acceleration over the remaining time, weighted by the time left"
+    )
+    Q = Field(unit="m s", description="first time moment of the integrand of S")
+    P = Field(unit="m s2", description="second time moment of the integrand of S")
+    J = Field(unit="m", description="first time moment of the thrust acceleration")
+    H = Field(unit="m s", description="second time moment of the thrust acceleration, J T - Q")
+    K = Field(unit="s", description="time centroid of the thrust acceleration, J/L")
 
 
 def thrust_integrals(impulse: float, tau: float, time: float, exhaust: float) -> ThrustIntegrals:

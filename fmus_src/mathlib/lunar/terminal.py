@@ -15,9 +15,9 @@ from ..vectors import Vector3, dot, norm, vector
 class LinearThrust(Record):
     """A thrust over mass that is linear in time."""
 
-    size = Field(unit="m/s2", description="its mean over a span")
-    direction = Field(Vector3, unit="1", description="unit vector at the start of the span")
-    rate = Field(Vector3, unit="1/s", description="derivative of the direction then")
+    size = Field(unit="m/s2", description="mean thrust over mass in the span")
+    direction = Field(Vector3, unit="1", description="thrust direction at the start of the span, unit vector")
+    rate = Field(Vector3, unit="1/s", description="time derivative of the thrust direction at the start of the span")
 
 
 def impulse_and_miss(dr: Vector3, v: Vector3, dv: Vector3, g: float, time_to_go: float) -> tuple[Vector3, Vector3]:

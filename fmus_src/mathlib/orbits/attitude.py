@@ -22,8 +22,10 @@ PITCH = 2
 class AttitudeState(Record):
     """Attitude against the orbital frame, and angular velocity."""
 
-    angles = Field(Vector3, unit="rad", description="roll, yaw, pitch")
-    angular_velocity = Field(Vector3, unit="rad/s", frame="body", description="absolute")
+    angles = Field(Vector3, unit="rad", description="roll, yaw and pitch of the body relative to the orbital frame")
+    angular_velocity = Field(
+        Vector3, unit="rad/s", frame="body", description="angular velocity of the body relative to the inertial frame"
+    )
 
 
 def index_of_measured(j: int) -> int:

@@ -17,20 +17,29 @@ DAY = 86400.0  # s
 class PlanetAxes(Record):
     """Axes of the pole at one instant, and the angle about it, which grows at a constant rate near that instant."""
 
-    first = Field(Vector3, unit="1", frame="inertial", description="axis from which the angle counts")
-    second = Field(Vector3, unit="1", frame="inertial", description="axis at a right angle to both others")
-    pole = Field(Vector3, unit="1", frame="inertial", description="axis of rotation, north")
-    time = Field(unit="s", description="the instant")
-    angle = Field(unit="rad", description="of the prime meridian from the first axis at that instant")
-    rate = Field(unit="rad/s", description="of the angle")
+    first = Field(
+        Vector3, unit="1", frame="inertial", description="axis from which the rotation angle counts, unit vector"
+    )
+    second = Field(
+        Vector3,
+        unit="1",
+        frame="inertial",
+        description="axis perpendicular to the first axis and to the pole, unit vector",
+    )
+    pole = Field(Vector3, unit="1", frame="inertial", description="rotation axis towards north, unit vector")
+    time = Field(unit="s", description="time for which axes and angle hold")
+    angle = Field(unit="rad", description="angle of the prime meridian from the first axis at that time")
+    rate = Field(unit="rad/s", description="time derivative of the prime meridian's angle")
 
 
 class FixedAxes(Record):
     """Planet-fixed axes at one instant: the prime meridian in the equator, 90 degrees east, north."""
 
-    meridian = Field(Vector3, unit="1", frame="inertial", description="x")
-    east = Field(Vector3, unit="1", frame="inertial", description="y")
-    pole = Field(Vector3, unit="1", frame="inertial", description="z")
+    meridian = Field(
+        Vector3, unit="1", frame="inertial", description="planet-fixed x axis, through the prime meridian, unit vector"
+    )
+    east = Field(Vector3, unit="1", frame="inertial", description="planet-fixed y axis, 90 degrees east, unit vector")
+    pole = Field(Vector3, unit="1", frame="inertial", description="planet-fixed z axis, towards north, unit vector")
 
 
 def angle_at(axes: PlanetAxes, t: float) -> float:

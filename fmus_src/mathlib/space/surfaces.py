@@ -20,8 +20,8 @@ SOLAR_PRESSURE = 1361.0 / 299792458.0  # N/m2 at one astronomical unit: Kopp and
 class SurfaceLoad(Record):
     """Force on all surfaces, and its torque about the origin."""
 
-    force = Field(Vector3, unit="N", frame="body", description="force")
-    torque = Field(Vector3, unit="N.m", frame="body", description="torque about the origin")
+    force = Field(Vector3, unit="N", frame="body", description="force on all surfaces")
+    torque = Field(Vector3, unit="N.m", frame="body", description="torque about the origin of the body frame")
 
 
 def pressure_at(distance: float, illumination: float) -> float:

@@ -39,34 +39,34 @@ SEED_BURNT = 0.75  # of the mass, and of what the largest thrust burns
 class DescentTask(Record):
     """Start, end and limits of a descent, landing-site frame."""
 
-    position = Field(Vector3, unit="m", description="now")
-    velocity = Field(Vector3, unit="m/s", description="now")
-    target = Field(Vector3, unit="m", description="position to arrive at")
-    arrival = Field(Vector3, unit="m/s", description="velocity to arrive with")
-    mass = Field(unit="kg", description="now")
-    maximum = Field(unit="N", description="largest thrust")
-    minimum = Field(unit="N", description="least thrust")
-    exhaust = Field(unit="m/s", description="exhaust speed")
-    tilt = Field(unit="rad", description="largest tilt of thrust from z; pi: off")
-    slope = Field(unit="rad", description="least elevation seen from the target; 0: off")
-    depth = Field(unit="m", description="of the glide cone's apex below the target")
-    central = Field(bool, description="gravity is that of a sphere")
-    gravity = Field(unit="m/s2", description="constant gravity")
+    position = Field(Vector3, unit="m", description="current position")
+    velocity = Field(Vector3, unit="m/s", description="current velocity")
+    target = Field(Vector3, unit="m", description="target position")
+    arrival = Field(Vector3, unit="m/s", description="target velocity")
+    mass = Field(unit="kg", description="current mass")
+    maximum = Field(unit="N", description="largest thrust of the engine")
+    minimum = Field(unit="N", description="least thrust of the engine")
+    exhaust = Field(unit="m/s", description="exhaust speed of the engine")
+    tilt = Field(unit="rad", description="largest angle between thrust and z; pi: no constraint")
+    slope = Field(unit="rad", description="least elevation of the vehicle as seen from the target; 0: no constraint")
+    depth = Field(unit="m", description="depth of the glide-slope cone's apex below the target")
+    central = Field(bool, description="true: central gravity of a sphere; false: constant gravity")
+    gravity = Field(unit="m/s2", description="constant gravitational acceleration along -z")
     parameter = Field(unit="m3/s2", description="gravitational parameter of the sphere")
-    radius = Field(unit="m", description="from the sphere's centre to the site")
+    radius = Field(unit="m", description="distance of the landing site from the sphere's centre")
 
 
 class PlanSummary(Record):
     """Duration, propellant and misses of a solved plan."""
 
-    time = Field(unit="s", description="of flight")
-    solved = Field(bool, description="the iterations converged; false: the plan is as before")
-    iterations = Field(int, description="of the interior point")
-    impulse = Field(unit="m/s", description="sum of h s")
-    slope = Field(unit="m/s2", description="derivative of the objective by the time of flight")
-    propellant = Field(unit="kg", description="propellant")
-    position_miss = Field(unit="m", description="distance from the target at the end")
-    velocity_miss = Field(unit="m/s", description="difference from the velocity to arrive with")
+    time = Field(unit="s", description="time of flight")
+    solved = Field(bool, description="true: iterations converged; false: plan unchanged")
+    iterations = Field(int, description="number of interior-point iterations")
+    impulse = Field(unit="m/s", description="sum of h s, the velocity change of the plan")
+    slope = Field(unit="m/s2", description="derivative of the objective with respect to the time of flight")
+    propellant = Field(unit="kg", description="propellant of the plan")
+    position_miss = Field(unit="m", description="distance from the target position at the end")
+    velocity_miss = Field(unit="m/s", description="magnitude of the difference from the target velocity at the end")
 
 
 def gravity_of(task: DescentTask, position: Vector3) -> Vector3:

@@ -24,11 +24,11 @@ VELOCITY_TOLERANCE = 0.1  # m/s
 class TimeBracket(Record):
     """Times between which a search continues."""
 
-    time = Field(unit="s", description="guess")
-    low = Field(unit="s", description="too short")
-    high = Field(unit="s", description="long enough")
-    growths = Field(int, description="times that the upper one may grow")
-    bisections = Field(int, description="bisections")
+    time = Field(unit="s", description="time of flight to try next")
+    low = Field(unit="s", description="time of flight known to be too short")
+    high = Field(unit="s", description="time of flight known to be long enough")
+    growths = Field(int, description="number of times that the upper bound may still grow")
+    bisections = Field(int, description="number of bisections")
 
 
 def is_met(s: PlanSummary) -> bool:

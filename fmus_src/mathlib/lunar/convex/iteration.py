@@ -56,10 +56,10 @@ FIRST_CONE_SLACK = 1e-1
 class ConeSolution(Record):
     """Outcome of the iterations."""
 
-    solved = Field(bool, description="gap and residuals are below their tolerance")
-    iterations = Field(int, description="iterations")
-    impulse = Field(unit="1", description="sum of h s, scaled")
-    slope = Field(unit="1", description="derivative of the objective by the time of flight, scaled")
+    solved = Field(bool, description="true: gap and residuals below their tolerances")
+    iterations = Field(int, description="number of iterations")
+    impulse = Field(unit="1", description="scaled sum of h s")
+    slope = Field(unit="1", description="scaled derivative of the objective with respect to the time of flight")
 
 
 def begin(p: DescentProblem, expansion: list, point: list, c: list) -> None:

@@ -59,16 +59,16 @@ WEIGHT = 30.0  # of the misses
 class DescentProblem(Record):
     """Scaled numbers of a convex problem, and the units they are scaled by."""
 
-    step = Field(unit="1", description="h, of an interval")
+    step = Field(unit="1", description="duration h of an interval")
     exhaust = Field(unit="1", description="exhaust speed v_e")
-    position = Field(Vector3, unit="1", description="now, from the target")
-    velocity = Field(Vector3, unit="1", description="now")
-    arrival = Field(Vector3, unit="1", description="velocity to arrive with")
-    tilted = Field(bool, description="the tilt is limited")
+    position = Field(Vector3, unit="1", description="current position relative to the target")
+    velocity = Field(Vector3, unit="1", description="current velocity")
+    arrival = Field(Vector3, unit="1", description="target velocity")
+    tilted = Field(bool, description="true: tilt of the thrust limited")
     upright = Field(unit="1", description="cosine of the largest tilt")
-    sloped = Field(bool, description="there is a glide slope")
+    sloped = Field(bool, description="true: glide slope constrained")
     slope = Field(unit="1", description="tangent of the glide slope")
-    depth = Field(unit="1", description="of the glide cone's apex below the target")
+    depth = Field(unit="1", description="depth of the glide-slope cone's apex below the target")
     length = Field(unit="m", description="unit of length")
     acceleration = Field(unit="m/s2", description="unit of acceleration")
     time = Field(unit="s", description="unit of time")
