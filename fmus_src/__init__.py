@@ -1,4 +1,4 @@
-"""Perilune's components, one Python class each, and what turns them into FMUs."""
+"""Perilune's components, one Python class each, and their export as FMUs."""
 
 from __future__ import annotations
 

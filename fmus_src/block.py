@@ -1,4 +1,4 @@
-"""Declaration of a component: one class, its variables (`variables`) as class attributes.
+"""Declaration of a component: a class whose attributes are its variables (`variables`).
 
 Everything else about a component (modelDescription.xml, connectors, C struct, tables in the docs) is derived from these
 declarations.
@@ -21,25 +21,25 @@ __all__ = ["Block", "ExternalState", "Input", "Inputs", "Output", "Outputs", "Pa
 
 
 def snake_case(name: str) -> str:
-    """Convert a class name: ``AstarGuidance`` -> ``astar_guidance``."""
+    """Return a class name in snake case: ``AstarGuidance`` becomes ``astar_guidance``."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
 
 
 class Block(DataFiles, HasExternalState):
-    """A component: declared variables, `initialize` and `step`.
+    """Component: declared variables, `initialize` and `step`.
 
-    Subclasses declare variables and write `initialize` (states and outputs at the start, from
-    parameters and inputs; total: the declared starts alone must not fail) and `step` (outputs
-    valid at t + h). Both are kernels: the subset of Python in `fmus_src.export.judge.subset`.
+    Subclasses declare variables and define two kernels, methods in the subset of Python of
+    `fmus_src.export.judge.subset`: `initialize` computes states and outputs at the start from parameters and inputs and
+    must succeed with the declared start values; `step` computes states and outputs at t + h.
 
-    An output is ``direct`` where it answers for t + h from inputs of t + h; a plant has none and is given inputs of t.
-    Variables that are found by their names, such as a parameter ``sample_period``, are those of `roles.ROLES`.
+    An output is ``direct`` if its value at t + h depends on inputs at t + h. A plant has no direct outputs and receives
+    the inputs of t. Variables with a meaning in the life cycle, such as a parameter ``sample_period``, are listed in
+    `roles.ROLES`.
 
-    ``class Name(Block, interface=True)`` declares connectors only and builds no FMU; ``to_write`` names the methods
-    that its blocks write, without which a class is refused.
-    ``python_only = True`` with ``requires`` lets a block use libraries; it then has no C form. ``data`` names files
-    next to its source, which it reads by `data_path` and which travel in its FMU. Objects of a library with state of
-    their own are declared as `ExternalState`.
+    ``class Name(Block, interface=True)`` declares connectors and builds no FMU; ``to_write`` names the methods that its
+    blocks must define. ``python_only = True`` with ``requires`` allows a block to use libraries; it then has no C form.
+    ``data`` names files next to its source, which it reads by `data_path` and which its FMU contains. Library objects
+    with internal state are declared as `ExternalState`.
     """
 
     variables: ClassVar[dict[str, Variable]] = {}
@@ -81,8 +81,9 @@ class Block(DataFiles, HasExternalState):
 
     @classmethod
     def _check_redeclared(cls, name: str, value: Variable) -> None:
-        """Check a redeclaration: starts and bounds may change, the kind of a variable may not,
-        since others connect to it."""
+        """Check that a redeclared variable keeps its causality, since other blocks connect to it; start and bounds may
+        change.
+        """
         before = cls.variables.get(name)
         if before is not None and before.causality != value.causality:
             kinds = f"a {value.causality} here, of causality {before.causality} in what {cls.__name__} derives from"
@@ -90,7 +91,7 @@ class Block(DataFiles, HasExternalState):
 
     @classmethod
     def _check_role(cls, name: str, variable: Variable) -> None:
-        """Refuse what the life cycle cannot compute with."""
+        """Reject a variable with a role in the life cycle that is not a single number."""
         role = LIFE_CYCLE.get(name)
         if role is not None and (variable.size != 1 or variable.record or variable.type_name == "Boolean"):
             problem = f"is no number ({role.declared}: {role.effect})"
@@ -131,11 +132,11 @@ class Block(DataFiles, HasExternalState):
         """Compute states and outputs at the start time."""
 
     def step(self, t: float, h: float) -> None:
-        """Make the outputs valid at t + h (s)."""
+        """Advance states and outputs from t to t + h (s)."""
 
     @classmethod
     def direct_inputs(cls, output: Output) -> list[str]:
-        """Return names of the inputs that ``output`` depends on within one communication point."""
+        """Return the names of the inputs on which ``output`` depends at the same communication point."""
         if isinstance(output.direct, tuple):
             return list(output.direct)
         if not output.direct:
@@ -144,17 +145,17 @@ class Block(DataFiles, HasExternalState):
 
     @classmethod
     def summary(cls) -> str:
-        """Return first line of the docstring."""
+        """Return the first line of the docstring."""
         return (cls.__doc__ or "").strip().splitlines()[0]
 
 
 def _bundles_of(owner: type) -> dict[str, Connectors]:
-    """Return the bundles that a class itself has, by name."""
+    """Return the bundles that a class itself declares, by name."""
     return {name: bundle for name, bundle in vars(owner).items() if isinstance(bundle, Connectors)}
 
 
 def _variables_of(owner: type) -> Iterator[tuple[str, Variable]]:
-    """Name and variable of what a class itself declares, in order, those of a bundle where it is."""
+    """Yield name and variable of each declaration of a class itself, in order, with those of bundles in their places."""
     bundles = _bundles_of(owner)
     for name in vars(owner):
         for each in bundles[name].names.values() if name in bundles else [name]:

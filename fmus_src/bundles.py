@@ -1,14 +1,14 @@
 """Bundles: ports that are connected together, declared once for all sources and targets.
 
     class ThrustCommand(Bundle):
-        thrust_acceleration = Port(0.0, unit="m/s2", description="thrust over mass")
-        burn_duration = Port(0.0, unit="s", description="how long to thrust")
+        thrust_acceleration = Port(0.0, unit="m/s2", description="commanded thrust over mass")
+        burn_duration = Port(0.0, unit="s", description="commanded burn duration")
 
     command = Outputs(ThrustCommand, direct=True)
     braking = Inputs(ThrustCommand, prefix="braking_", about="command of the braking guidance:")
 
-Each member is a separate variable, as ``braking_burn_duration``, which kernels read and assign as
-``self.braking.burn_duration``. ``self.command = self.braking`` assigns them all.
+Each port becomes a separate variable, such as ``braking_burn_duration``, which kernels read and assign as
+``self.braking.burn_duration``. ``self.command = self.braking`` assigns all of them.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .variables import DeclarationError, Input, Output
 
 
 class Bundle:
-    """Ports that are connected together: those that a subclass declares."""
+    """Base of bundles; a subclass declares the ports that are connected together."""
 
     ports: ClassVar[dict[str, Port]] = {}
 
@@ -33,10 +33,10 @@ B = TypeVar("B", bound=Bundle)
 
 
 class Connectors(Generic[B]):
-    """A block's variables for the members of a bundle.
+    """Variables of a block for the ports of a bundle.
 
-    ``prefix`` stands before their names, ``about`` before their descriptions; ``starts`` are those that differ from the
-    bundle's.
+    ``prefix`` and ``about`` are prepended to the names and descriptions of the ports; ``starts`` are start values that
+    differ from those of the bundle.
     """
 
     def __init__(self, bundle: type[B], *, prefix: str = "", about: str = "", **starts: Any) -> None:
@@ -47,7 +47,7 @@ class Connectors(Generic[B]):
         self.view = _make_view(bundle, self.names)
 
     def declare(self, owner: type, name: str) -> None:
-        """Give a block's class, whose attribute ``name`` this is, the variables."""
+        """Add the variables to the block class ``owner``, whose attribute ``name`` is this bundle."""
         where = f"{owner.__name__}.{name}"
         for unknown in self.starts.keys() - self.names.keys():
             raise DeclarationError(f"{where}: {self.bundle.__name__} has no {unknown}; it has {', '.join(self.names)}")
@@ -61,7 +61,7 @@ class Connectors(Generic[B]):
             variable.__set_name__(owner, full)
 
     def make(self, port: Port, description: str, start: Any) -> Input | Output:
-        """Create the variable of a member."""
+        """Create the variable of a port."""
         raise NotImplementedError
 
     def __get__(self, instance: Any, owner: type | None = None) -> B:
@@ -76,14 +76,14 @@ class Connectors(Generic[B]):
 
 
 class Inputs(Connectors[B]):
-    """An input for each member of a bundle."""
+    """Inputs of a block for the ports of a bundle."""
 
     def make(self, port: Port, description: str, start: Any) -> Input:
         return port.input(description, start=start)
 
 
 class Outputs(Connectors[B]):
-    """An output of each member of a bundle; ``direct`` as an `Output` has it."""
+    """Outputs of a block for the ports of a bundle; ``direct`` as for an `Output`."""
 
     def __init__(self, bundle: type[B], *, direct: bool | tuple[str, ...] = False, **declaration: Any) -> None:
         super().__init__(bundle, **declaration)
@@ -94,7 +94,7 @@ class Outputs(Connectors[B]):
 
 
 class _View:
-    """The members of a bundle in one block."""
+    """Access to the variables of a bundle in one block."""
 
     __slots__ = ("_block",)
     bundle: ClassVar[type[Bundle]]
@@ -104,7 +104,7 @@ class _View:
 
 
 def _make_view(bundle: type[Bundle], names: dict[str, str]) -> type[_View]:
-    """Return a class of views, whose properties are the block's variables."""
+    """Return a class of views whose properties are the block's variables."""
     members: dict[str, Any] = {member: _make_property(name) for member, name in names.items()}
     return type(bundle.__name__, (_View,), {"__slots__": (), "bundle": bundle, **members})
 

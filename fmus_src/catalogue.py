@@ -1,4 +1,4 @@
-"""Finds blocks by their FMU names."""
+"""Catalogue of blocks by FMU name."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CLASS = re.compile(r"^class (\w+)", re.MULTILINE)
 
 
 def blocks_of(module: ModuleType) -> list[type[Block]]:
-    """Return the blocks that a module itself defines, in order of definition; interfaces are left out."""
+    """Return the blocks that a module defines, without interfaces, in order of definition."""
     blocks = [
         value
         for value in vars(module).values()
@@ -33,7 +33,7 @@ def blocks_of(module: ModuleType) -> list[type[Block]]:
 
 
 def is_shipped(block_class: type[Block]) -> bool:
-    """Return True if a block is of Perilune, false of a user's."""
+    """Return True if a block belongs to Perilune, False if it is a user's."""
     return block_class.__module__.startswith(f"{__package__}.")
 
 
@@ -61,8 +61,7 @@ def _catalogue() -> dict[str, type[Block]]:
 
 @cache
 def block_kinds() -> dict[str, str]:
-    """Return the kind of every block of the repository by FMU name, without importing a block;
-    of its other classes, too."""
+    """Return the kind of every class in the repository's block modules by FMU name, without importing them."""
     return {
         snake_case(name): kind
         for kind in KINDS
@@ -74,7 +73,7 @@ def block_kinds() -> dict[str, str]:
 def blocks_in_file(path: Path) -> list[type[Block]]:
     """Return the blocks defined in a Python file outside the repository.
 
-    Raises ValueError, with the file's name, when there is none or the file does not import.
+    Raises ValueError, with the file's name, if it defines no block or cannot be imported.
     """
     if not path.is_file():
         raise ValueError(f"{path}: not a Python file; give the .py file that defines the blocks")
@@ -97,7 +96,7 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
 
 
 def _check_names(path: Path) -> None:
-    """Refuse two classes of one name, of which Python would keep the last without a word."""
+    """Reject two classes of the same name, of which Python would silently keep the last."""
     try:
         tree = ast.parse(path.read_bytes())
     except (SyntaxError, ValueError):

@@ -1,6 +1,6 @@
-"""Objects of libraries with state, and files, which a block may have that is Python only.
+"""Library objects with state and data files of Python-only blocks.
 
-Files are declared by name, packed into the FMU and reached by one path in all faces.
+Files are declared by name, packed into the FMU and found by the same path in Python and in the FMU.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from .variables import DeclarationError, Variable
 class ExternalState:
     """Object with internal state: ``simulation = ExternalState("the plant as Basilisk simulates it")``.
 
-    It is None until `initialize` assigns it, and again whenever the block is initialised or reset, so that no
-    simulation depends on another one. An FMU with one can neither save nor restore its state, and runs in another
+    It is None until `initialize` assigns it, and is set to None whenever the block is initialised or reset, so that no
+    simulation depends on another. An FMU with such an object cannot save or restore its state and runs in a separate
     process.
     """
 
@@ -31,7 +31,7 @@ class ExternalState:
 
 
 class HasExternalState:
-    """Base of blocks that may declare `ExternalState`: their names, and their removal."""
+    """Base of blocks that may declare `ExternalState` objects."""
 
     external: ClassVar[tuple[str, ...]] = ()
     python_only: ClassVar[bool]
@@ -39,7 +39,7 @@ class HasExternalState:
 
     @classmethod
     def collect_external(cls) -> None:
-        """Note the names of all that is declared, in order. Raises DeclarationError."""
+        """Collect the names of all declared objects, in order. Raises DeclarationError."""
         names = [name for owner in reversed(cls.__mro__) for name, each in vars(owner).items() if _is_external(each)]
         cls.external = tuple(dict.fromkeys(names))
         twice = next((name for name in names if name in cls.variables), None)
@@ -50,7 +50,7 @@ class HasExternalState:
             raise DeclarationError(f"{cls.__name__}.{names[0]}: {problem}; add python_only = True, or declare a State")
 
     def drop_external(self) -> None:
-        """Let go of the objects, which are None from now on."""
+        """Set all objects to None."""
         for name in self.external:
             setattr(self, name, None)
 
@@ -60,16 +60,16 @@ def _is_external(attribute: object) -> bool:
 
 
 class DataFiles:
-    """Mixin of a block with ``data``: the path of each file, as an object and inside an FMU."""
+    """Mixin of blocks with ``data``: the path of each file, both in Python and inside an FMU."""
 
     data: ClassVar[tuple[str, ...]] = ()
     fmu_resources: str | None = None  # the folder of the FMU that the instance runs in, set by the FMU
 
     def data_path(self, name: str) -> Path:
-        """Return the path of a file that ``data`` declares: next to the block's source, or in the FMU's resources.
+        """Return the path of a file declared in ``data``: next to the block's source, or in the FMU's resources.
 
-        Valid as long as the instance lives: an importer unpacks an FMU again for each of its runs. Raises ValueError
-        for a name that is not declared.
+        The path is valid during the life of the instance, since an importer may unpack an FMU for each simulation.
+        Raises ValueError for an undeclared name.
         """
         for owner in type(self).__mro__:
             if name in vars(owner).get("data", ()):
@@ -80,7 +80,7 @@ class DataFiles:
 
 
 def data_problem(names: object, python_only: bool) -> str | None:
-    """Return the problem of a declaration of data, and the remedy; None for a valid one."""
+    """Return the problem of a declaration of data files and its remedy, or None if it is valid."""
     if not isinstance(names, tuple) or not all(isinstance(name, str) for name in names):
         return f"data is {names!r}; write a tuple of file names, data = ('net.npz',)"
     for name in names:

@@ -1,7 +1,7 @@
-"""Public names for writing a block, with the module that defines each.
+"""Public names for writing a block, with the modules that define them.
 
-`from perilune import TerminalGuidance` finds it here, and so does an FMU, whose packed files know no `perilune`: they
-import from this module, since a name of a package is that of its submodule (`block`) where there is one.
+`from perilune import TerminalGuidance` resolves its names here. So does a Python FMU, which does not contain
+`perilune`: its files import from this module because a package attribute may be shadowed by its submodule (`block`).
 """
 
 from __future__ import annotations

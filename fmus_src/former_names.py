@@ -1,6 +1,6 @@
-"""Modules under the names of the last release, accepted in this one with a warning that says the new name.
+"""Module names of the last release, still accepted with a warning that reports the new name.
 
-The package `perilune` imports them by `FormerNames`; in a Python FMU a module of two lines stands for each.
+The package `perilune` imports them by `FormerNames`; a Python FMU contains a module of two lines for each.
 """
 
 from __future__ import annotations
@@ -51,13 +51,13 @@ FORMER = {
 
 
 def stand_in(module: str) -> str:
-    """Return the text of a module of the old name: whoever imports it gets the new one."""
+    """Return the source of a module under a former name, which imports the module under its present name."""
     folder, _, name = FORMER[module].rpartition(".")
     return f"import sys\nfrom {PACKAGE}.{folder} import {name}\nsys.modules[__name__] = {name}\n"
 
 
 class FormerNames(MetaPathFinder):
-    """Finder of modules by their former names."""
+    """Finder of modules under their former names."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None

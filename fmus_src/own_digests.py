@@ -1,7 +1,7 @@
-"""Registry of Perilune's own FMUs: known by the SHA-256 of their files, never by their declarations.
+"""Registry of Perilune's own FMUs, recognised by the SHA-256 of their files and never by their declarations.
 
-The lists have the format of sha256sum. `build_fmus.py` writes one into each folder that it builds, which the wheel
-ships; a list in the cache folder has all FMUs built on this machine. All others are foreign code.
+The lists have the format of sha256sum. `build_fmus.py` writes one into each folder that it builds, and the wheel ships
+them; a list in the cache folder contains all FMUs built on this machine. All other FMUs are foreign code.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _built_here: set[str] = set()  # digests that no list could be written of
 
 
 def digest_of(path: Path) -> str:
-    """Return SHA-256 of a file, in hexadecimal digits."""
+    """Return the SHA-256 of a file as hexadecimal digits."""
     return _digest(path.read_bytes())
 
 
@@ -43,8 +43,9 @@ def is_own(digest: str) -> bool:
 
 
 def has_foreign(path: Path) -> bool:
-    """Return True if a file, or a folder with its subfolders, has FMUs that Perilune has not
-    built; False where unreadable."""
+    """Return True if a file, or a folder with its subfolders, contains FMUs that Perilune has not built; False if
+    unreadable.
+    """
     try:
         if names_fmu(path):
             return not is_own(_digest(read_input(path, "", ARCHIVE_BYTES)))
@@ -59,7 +60,7 @@ def has_foreign(path: Path) -> bool:
 
 
 def note_own(path: Path) -> None:
-    """Add the FMU that was just built at ``path`` to the list of this machine, else to that of this process."""
+    """Add a newly built FMU to the list of this machine or, if that cannot be written, to the list of this process."""
     digest = digest_of(path)
     if is_own(digest):
         return
@@ -77,18 +78,17 @@ def note_own(path: Path) -> None:
 
 
 def list_own(folder: Path, paths: Iterable[Path]) -> None:
-    """Write the list of the FMUs that were just built in a folder, in place of the one before."""
+    """Write the list of a folder's newly built FMUs, replacing the previous one."""
     write_atomically(folder / SUMS, b"".join(_line(digest_of(path), path) for path in sorted(paths)))
 
 
 def _line(digest: str, path: Path) -> bytes:
-    """Return a line of a list, as sha256sum writes it: names are bytes, of any encoding."""
+    """Return a line of a list in the format of sha256sum, with the file name as bytes in any encoding."""
     return f"{digest}  ".encode() + os.fsencode(path.name) + b"\n"
 
 
 def _version(path: Path) -> tuple[int, int]:
-    """Return time of change (ns) and size (bytes) of a list, by which a new version is
-    recognised; 0, 0 without the file."""
+    """Return modification time (ns) and size (bytes) of a list, which identify its version; (0, 0) without the file."""
     try:
         stat = path.stat()
     except FileNotFoundError:
@@ -101,7 +101,7 @@ def _version(path: Path) -> tuple[int, int]:
 
 @lru_cache(maxsize=2 * len(LISTS))
 def _digests_in(path: Path, _time: int, size: int) -> frozenset[str]:
-    """Return the digests of a list; a warning says which of its lines are none of sha256sum, and are left out."""
+    """Return the digests of a list; lines that do not have the format of sha256sum are ignored with a warning."""
     if not size:
         return frozenset()
     try:

@@ -1,4 +1,4 @@
-"""Ports: what is connected, declared once for the outputs that give it and the inputs that take it."""
+"""Ports: quantities that blocks exchange, declared once for the outputs and inputs that connect them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .variables import Input, Output, Parameter, State
 class Port:
     """Start, unit, frame, bounds and description of a quantity, from which blocks declare their variables.
 
-    A variable may have another start, description or bounds; its quantity and unit are the port's.
+    A variable may change start, description and bounds, but not quantity and unit.
     """
 
     def __init__(self, start: Any, **declaration: Any) -> None:
@@ -24,7 +24,7 @@ class Port:
         def __set__(self, instance: object, value: Any) -> None: ...
 
     def input(self, description: str | None = None, *, start: Any = None, **changes: Any) -> Input:
-        """Declare an input for it."""
+        """Return an input of this quantity."""
         return Input(*self._start(start), **self._complete(description, changes))
 
     def output(
@@ -35,15 +35,15 @@ class Port:
         direct: bool | tuple[str, ...] = False,
         **changes: Any,
     ) -> Output:
-        """Declare an output of it."""
+        """Return an output of this quantity."""
         return Output(*self._start(start), direct=direct, **self._complete(description, changes))
 
     def parameter(self, start: Any = None, description: str | None = None, **changes: Any) -> Parameter:
-        """Declare a parameter that sets it."""
+        """Return a parameter of this quantity."""
         return Parameter(*self._start(start), **self._complete(description, changes))
 
     def state(self, description: str | None = None, *, start: Any = None, **changes: Any) -> State:
-        """Declare a state that keeps it."""
+        """Return a state of this quantity."""
         return State(*self._start(start), **self._complete(description, changes))
 
     def _start(self, start: Any) -> tuple[Any]:

@@ -1,6 +1,6 @@
-"""Variables that are found by their names: what each does in the life cycle of an FMU, a flight, a campaign or a study.
+"""Variables with a meaning fixed by their names, in the life cycle of an FMU, a simulation, a campaign or a study.
 
-A block declares them as any others, under these names; the names of FMI are these, too.
+A block declares them like any other variable; an FMU has them under the same names.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ FROZEN = "frozen_"  # before the name of an output
 
 @dataclass(frozen=True)
 class Role:
-    """Declaration that a name demands of its variable, and its effect.
+    """Declaration that a name requires of its variable, and the effect of the variable.
 
-    ``is_in_life_cycle``: the life cycle of every FMU computes with it, so that it is one number.
+    ``is_in_life_cycle``: used by the life cycle of every FMU, so the variable must be a single number.
     """
 
     name: str

@@ -1,6 +1,6 @@
-"""The FMI life cycle of one block: initialisation, sampling, complete state.
+"""FMI life cycle of one block: initialisation, sampling, complete state.
 
-Shared by the plain Python object and the pythonfmu FMU; the native wrapper does the same in C.
+Used for plain Python objects and for pythonfmu FMUs; the native wrapper implements the same life cycle in C.
 """
 
 from __future__ import annotations
@@ -27,30 +27,30 @@ Access = tuple[str, int, int, int]  # variable, element or one of the above, pla
 
 
 class StepError(ValueError):
-    """A communication step that the block cannot take; the message says why."""
+    """Error of a communication step that the block cannot perform; the message gives the reason."""
 
 
 class StateError(ValueError):
-    """A block's state cannot be saved; the message says why."""
+    """Error of a block whose state cannot be saved; the message gives the reason."""
 
 
 def integration_step(block_class: type[Block]) -> str | None:
-    """Return the name of the variable that is the longest step of a block's own integration, if it has one."""
+    """Return the name of the variable that limits the step of a block's internal integration, or None."""
     return next((name for name in INTEGRATION_STEPS if name in block_class.variables), None)
 
 
 class Component:
-    """One instance of a block, driven as an FMI importer drives an FMU.
+    """Instance of a block, with the interface that an FMI importer has to an FMU.
 
-    Setting a variable during initialisation marks the instance; the next `settle` puts states
-    and outputs back to their declared starts, checks parameters and inputs and runs `Block.initialize` again. Value
-    references number the elements of all variables in order of declaration. Between steps inputs can be set, and the
-    parameters that are ``tunable`` (`export.judge.tunable`), which the next step reads: outputs stand till then.
+    Value references number the elements of all variables in order of declaration. If a variable is set during
+    initialisation, the next `settle` restores states and outputs to their declared starts, checks parameters and
+    inputs, and runs `Block.initialize`. Between steps, inputs and parameters that are ``tunable``
+    (`export.judge.tunable`) can be set; they take effect in the next step, and outputs do not change before.
 
-    Raises what the block's arithmetic raises (ZeroDivisionError, ValueError, OverflowError) and
-    `StepError` when too many samples, or integration steps, fall into a communication step; `StartError`
-    where a parameter is outside its bounds, or a parameter or an input is not finite; `TuningError` where another
-    variable is set between steps, or a tunable parameter to a value outside its bounds.
+    Raises the errors of the block's arithmetic (ZeroDivisionError, ValueError, OverflowError); `StepError` if a
+    communication step contains too many samples or integration steps; `StartError` if a parameter is outside its
+    bounds, or a parameter or input is not finite; `TuningError` if another variable is set between steps, or a tunable
+    parameter to a value outside its bounds.
     """
 
     def __init__(self, block_class: type[Block], tunable: Iterable[str] = ()) -> None:
@@ -80,7 +80,9 @@ class Component:
         self.tuned: dict[tuple[int, ...], list[int]] = {}  # tunable parameters among references, by place in the list
 
     def accesses(self, references: list[int]) -> list[Access]:
-        """Return variables behind value references, in order; those of which all elements are named come as wholes."""
+        """Return the variables that value references refer to, in order; a variable with all its elements appears
+        once.
+        """
         key = tuple(references)
         accesses = self.known.get(key)
         if accesses is None:
@@ -88,7 +90,7 @@ class Component:
         return accesses
 
     def find_accesses(self, references: tuple[int, ...]) -> list[Access]:
-        """Compute the result of `accesses`."""
+        """Compute the result of `accesses` for references not requested before."""
         accesses: list[Access] = []
         position = 0
         while position < len(references):
@@ -109,13 +111,13 @@ class Component:
         return accesses
 
     def get(self, references: list[int]) -> list:
-        """Return values at these value references, settled first if initialisation is under way."""
+        """Return the values at value references, after settling a pending initialisation."""
         if self.unsettled:
             self.settle()
         return self.read(references)
 
     def read(self, references: list[int]) -> list:
-        """Return values at these value references, as they are."""
+        """Return the values at value references without settling."""
         attributes = self.block.__dict__
         values: list = []
         for name, index, _, _ in self.accesses(references):
@@ -131,11 +133,13 @@ class Component:
         return values
 
     def values(self) -> list:
-        """Return all values in order of value references, as they are."""
+        """Return all values in order of value references without settling."""
         return self.read(list(range(len(self.elements))))
 
     def set(self, references: list[int], values: list) -> None:
-        """Set inputs or parameters by value reference; between steps inputs and tunable parameters."""
+        """Set variables by value reference: inputs and parameters before the start, inputs and tunable parameters
+        between steps.
+        """
         if self.initialising:
             self.write(references, values)
             self.unsettled = True
@@ -148,7 +152,9 @@ class Component:
         self.write(references, values)
 
     def find_tuned(self, references: list[int]) -> list[int]:
-        """Return positions of tunable parameters among references. Raises TuningError for fixed and computed ones."""
+        """Return the positions of tunable parameters among references. Raises TuningError for fixed and computed
+        variables.
+        """
         tuned = []
         for k, reference in enumerate(references):
             name, index = self.elements[reference]
@@ -162,7 +168,7 @@ class Component:
         return tuned
 
     def check_tuned(self, settings: list[tuple[int, Any]]) -> None:
-        """Refuse parameters outside their bounds, by value reference."""
+        """Reject tunable parameters outside their bounds, by value reference."""
         ranges = dict(zip(self.checked, self.ranges, strict=True))
         for reference, number in settings:
             name, low, high = ranges.get(reference, ("", -math.inf, math.inf))
@@ -170,7 +176,7 @@ class Component:
                 raise TuningError(describe_violation(name, number, low, high))
 
     def write(self, references: list[int], values: list) -> None:
-        """Put values, which have their variables' types, where the value references say."""
+        """Store values, already of their variables' types, at value references."""
         if len(references) != len(values):
             raise ValueError(f"{len(values)} values for {len(references)} value references")
         attributes = self.block.__dict__
@@ -205,19 +211,19 @@ class Component:
         self.unsettled = False
 
     def check_start_values(self) -> None:
-        """Refuse parameters outside their bounds, and parameters and inputs that are not finite."""
+        """Reject parameters outside their bounds, and parameters and inputs that are not finite."""
         for number, (name, low, high) in zip(self.read(self.checked), self.ranges, strict=True):
             if not low <= number <= high:
                 raise StartError(describe_violation(name, number, low, high))
 
     def start(self) -> None:
-        """Leave initialisation."""
+        """Complete the initialisation."""
         if self.unsettled:
             self.settle()
         self.initialising = False
 
     def check_point(self, t: float, h: float, here: float) -> None:
-        """Refuse a step that begins at t (s) where the FMU is elsewhere, ``here`` (s)."""
+        """Reject a step that does not begin at the current time ``here`` (s) but at t (s)."""
         if abs(t - here) > POINT_TOLERANCE * h + TIME_TOLERANCE * abs(here):
             raise StepError(
                 f"the step begins at {t!r} s, and the FMU is at {here!r} s; "
@@ -225,16 +231,16 @@ class Component:
             )
 
     def check_end(self, t: float, h: float, stop: float) -> None:
-        """Refuse a step from t (s) over h (s) past the stop time (s; infinite: the importer has not said it)."""
+        """Reject a step from t (s) over h (s) beyond the stop time (s; infinite if the importer has not set one)."""
         end = t + h
         if end > stop and end > stop + POINT_TOLERANCE * h + TIME_TOLERANCE * abs(end):
             raise StepError(f"the step ends at {end!r} s, after the stop time of {stop!r} s")
 
     def do_step(self, t: float, h: float) -> None:
-        """Advance from t to t + h (s); a sampled block steps at its sample instants only, at each of them.
+        """Advance from t to t + h (s); a sampled block steps at each of its sample instants in that interval only.
 
-        With one instant the block's step is the importer's; with several there is a step from each instant to the
-        next, as of an importer that steps by the period and holds its inputs.
+        With one instant, the block steps over the importer's step; with several, it steps from instant to instant, as
+        if the importer stepped by the sample period and held its inputs.
         """
         period = self.block.sample_period if self.sampled else 0.0
         if not period > 0.0:
@@ -262,7 +268,7 @@ class Component:
             self.block.step(self.start_time + tick * period, period)
 
     def check_integration(self, h: float) -> None:
-        """Refuse a communication step of h (s) with too many steps of the block's own integration."""
+        """Reject a communication step of h (s) that contains too many steps of the block's internal integration."""
         if self.integration_step is None:
             return
         longest = getattr(self.block, self.integration_step)
@@ -273,8 +279,7 @@ class Component:
             )
 
     def get_state(self) -> dict[str, Any]:
-        """Return complete state: every variable and the life-cycle counters. Raises StateError for a block with
-        more."""
+        """Return the complete state: every variable and the life-cycle counters. Raises StateError for external state."""
         if self.block.external:
             names = ", ".join(self.block.external)
             raise StateError(f"{names} of {self.block.fmu_name} is external state, which cannot be saved")
@@ -284,6 +289,6 @@ class Component:
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Restore what `get_state` returned."""
+        """Restore a state returned by `get_state`."""
         self.write(list(range(len(self.elements))), state["values"])
         self.initialising, self.unsettled, self.start_time, self.tick = state["life_cycle"]

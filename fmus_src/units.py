@@ -1,7 +1,8 @@
-"""Units by their names, as FMI 2.0 defines one: exponents of base units, a factor and an offset.
+"""Units by name, as FMI 2.0 defines them: exponents of base units, a factor and an offset.
 
-A name is symbols with whole exponents, joined by "." and "/", each "/" for the one symbol behind it: m/s2, N.m/rad,
-kg.m2, 1/s. Blocks of this repository work in SI and radians throughout, so all their factors are one.
+A name consists of symbols with integer exponents, joined by "." and "/", each "/" for the one symbol after it: m/s2,
+N.m/rad, kg.m2, 1/s. Blocks of this repository use SI units and radians, so all their factors are one.
+
 Source of factors: the International System of Units (BIPM 2019); the international foot, pound and knot.
 """
 
@@ -20,7 +21,7 @@ GRAVITY = 9.80665  # m/s2, standard
 
 @dataclass(frozen=True)
 class UnitDefinition:
-    """value in base units = factor * value + offset."""
+    """Unit in terms of base units: value in base units = factor * value + offset."""
 
     exponents: dict[str, int]
     factor: float = 1.0
@@ -84,8 +85,10 @@ PART = re.compile(r"([./]?)([A-Za-z]+|1)(-?\d+)?")
 
 @cache
 def unit_definition(name: str) -> UnitDefinition | None:
-    """Return the definition of a unit by its name; None where it is no product of SYMBOLS. One
-    with an offset stands alone."""
+    """Return the definition of a unit by name, or None if it is not a product of SYMBOLS.
+
+    A unit with an offset cannot be part of a product.
+    """
     if name in SYMBOLS:
         return SYMBOLS[name]
     exponents: dict[str, int] = {}
@@ -108,5 +111,5 @@ def unit_definition(name: str) -> UnitDefinition | None:
 
 
 def deg(angle: float) -> float:
-    """Convert an angle of degrees to radians, for parameters that are written in degrees."""
+    """Return an angle in degrees as radians, for parameters written in degrees."""
     return angle * math.pi / 180.0

@@ -1,7 +1,7 @@
-"""Modules in a user's folder: imported as one package, whichever way they name each other.
+"""Modules in a user's folder, imported as one package regardless of how they import each other.
 
-A block file says `from .helper import table` or `import helper`; both mean helper.py of its folder, here and in an
-FMU, where all of them are one package.
+A block file may contain `from .helper import table` or `import helper`; both refer to helper.py in its folder, in
+Python and in an FMU, where they form one package.
 """
 
 from __future__ import annotations
@@ -27,18 +27,18 @@ _folders: dict[str, Path] = {}
 
 
 def module_name(path: Path) -> str:
-    """Return a file's name as a module; one that Python could not import gets another."""
+    """Return the module name for a file, replacing characters that Python could not import."""
     usable = path.stem.isidentifier() and not keyword.iskeyword(path.stem)
     return path.stem if usable else "file_" + re.sub(r"\W", "_", path.stem)
 
 
 def is_sibling(name: str, folder: Path) -> bool:
-    """Return True if `import name` in a file of the folder means a file of the folder. Libraries come first."""
+    """Return True if `import name` in a file of the folder refers to a file of the folder. Libraries take precedence."""
     return name not in LIBRARIES and (folder / f"{name}.py").is_file()
 
 
 def with_relative_imports(text: bytes, file: Path) -> bytes:
-    """Return the source of a module in which imports of other modules of its folder are relative.
+    """Return the source of a module with relative imports of the other modules in its folder.
 
     Raises SyntaxError, which names the file.
     """
@@ -63,7 +63,11 @@ def with_relative_imports(text: bytes, file: Path) -> bytes:
 
 
 def modules_of(path: Path) -> dict[Path, bytes]:
-    """Return a file and its imports of its folder, recursively: sources with relative imports. Raises SyntaxError."""
+    """Return the sources, with relative imports, of a file and of all files in its folder that it imports,
+    recursively.
+
+    Raises SyntaxError.
+    """
     folder = path.resolve().parent
     sources: dict[Path, bytes] = {}
     waiting = [path.resolve()]
@@ -79,8 +83,10 @@ def modules_of(path: Path) -> dict[Path, bytes]:
 
 
 def list_imports(node: ast.ImportFrom) -> list[str]:
-    """Return the modules of the folder that a relative import means: `from .a import x` a, `from . import a, b`
-    both."""
+    """Return the modules of the folder that a relative import refers to.
+
+    `from .a import x` refers to a, `from . import a, b` to both.
+    """
     return [node.module] if node.module else [alias.name for alias in node.names]
 
 
@@ -90,9 +96,9 @@ def _import(alias: ast.alias, folder: Path) -> str:
 
 
 def import_file(path: Path) -> ModuleType:
-    """Import a file of a user's folder as a module, again with all that it imports of the folder.
+    """Import a file of a user's folder as a module, reloading everything that it imports from the folder.
 
-    Raises whatever the file raises, and ModuleNotFoundError for a module that is not in the folder.
+    Raises any exception that the file raises, and ModuleNotFoundError for a module that is not in the folder.
     """
     folder = path.resolve().parent
     package = f"perilune_user_{hashlib.sha256(str(folder).encode()).hexdigest()[:16]}"
@@ -119,7 +125,7 @@ def import_file(path: Path) -> ModuleType:
 
 
 class _Finder(MetaPathFinder):
-    """Finds the modules of users' folders by the names of their packages."""
+    """Finder of the modules in users' folders by the names of their packages."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
@@ -132,7 +138,7 @@ class _Finder(MetaPathFinder):
 
 
 class _Loader(SourceFileLoader):
-    """Compiles a module with relative imports; nothing compiled is stored in the user's folder."""
+    """Loader that compiles a module with relative imports and writes no compiled file into the user's folder."""
 
     def get_code(self, fullname: str) -> CodeType:
         path = Path(self.path)

@@ -1,7 +1,7 @@
 """Declarations of a block: inputs, parameters, states and outputs, each with start, unit, description and bounds.
 
-Values live on the block under the same names: floats, ints and bools; vectors (`kernel.vector_types`) for two to four
-Reals; matrices (`kernel.matrix_types`); records; lists for everything else.
+A block's attributes hold the values under the same names: floats, ints and bools; vectors (`kernel.vector_types`) of
+two to four Reals; matrices (`kernel.matrix_types`); records; lists for everything else.
 """
 
 from __future__ import annotations
@@ -28,22 +28,22 @@ CONVERSIONS: dict[type, Callable[[Any], Any]] = {
 
 
 class DeclarationError(TypeError):
-    """A block's declaration is inconsistent; the message names block, variable and remedy."""
+    """Error of an inconsistent declaration; the message names block, variable and remedy."""
 
 
 class Variable:
-    """One declared variable: start value, unit, description, bounds.
+    """Declared variable: start value, unit, description, bounds.
 
-    ``declared`` is the start value and fixes type and size: a float, int or bool, a list of equal ones, or a `Matrix`
-    of floats. Or it is an `Enumeration`, which gives bounds and the end of the description; ``start`` is then its
-    first member or another. ``unit`` is a name that `fmus_src.units` understands; ``minimum``, ``maximum`` and
-    ``nominal`` hold per element; ``frame`` names the frame that a vector's components refer to. A list with ``columns``
-    is that of a matrix in row order, whose elements are named by row and column; a `Matrix` makes one whose elements
-    are numbered through.
+    ``declared`` is the start value and fixes type and size: a float, int or bool, a list of values of one such type, or
+    a `Matrix` of floats. It may also be an `Enumeration`, which defines the bounds and is listed in the description;
+    ``start`` is then its first member unless given. ``unit`` is a name known to `fmus_src.units`; ``minimum``,
+    ``maximum`` and ``nominal`` apply to each element; ``frame`` names the frame of a vector's components. A list with
+    ``columns`` is a matrix in row order, whose elements are named by row and column; the elements of a `Matrix` are
+    numbered consecutively.
 
-    Two to four Reals are a vector: a value that is stored as a whole, ``self.velocity = self.velocity + gained``.
-    More of them, Integers, Booleans and what says ``vector=False`` are a list, whose elements are assigned. Each takes
-    any sequence of its size, a matrix its rows, too, and copies it.
+    Two to four Reals form a vector, a value that is assigned as a whole: ``self.velocity = self.velocity + change``.
+    More Reals, Integers, Booleans and variables with ``vector=False`` form a list, whose elements are assigned.
+    Assignment to either accepts any sequence of its size, and copies it; a matrix also accepts a sequence of rows.
     """
 
     causality: ClassVar[str]
@@ -125,7 +125,7 @@ class Variable:
                 raise DeclarationError(f"{where}: {problem}; give a smaller start, or a larger maximum")
 
     def numbers_of_record(self) -> list[tuple[str, Field]]:
-        """Name and field of each number of a record; empty where it is none."""
+        """Return name and field of each number of a record; empty for other variables."""
         return [] if self.record is None else flat_fields(self.record)
 
     if TYPE_CHECKING:  # instances hold plain values under the same name
@@ -136,7 +136,7 @@ class Variable:
 
     @property
     def is_array(self) -> bool:
-        """True if there are several elements, as a vector or as a list."""
+        """True if the variable has several elements, as a vector, matrix, record or list."""
         return isinstance(self.start, list)
 
     @property
@@ -154,17 +154,18 @@ class Variable:
 
     @property
     def type_name(self) -> str:
-        """The type of its values: Real, Integer or Boolean."""
+        """Type of the values: Real, Integer or Boolean."""
         return TYPE_NAMES[type(self.elements[0])]
 
     @property
     def fmi_type(self) -> str:
-        """FMI 2.0 type: Enumeration where it has one, else that of its values."""
+        """FMI 2.0 type: Enumeration for a variable with an enumeration, else the type of the values."""
         return "Enumeration" if self.enumeration is not None else self.type_name
 
     def element_names(self) -> list[str]:
-        """Return FMI names of the elements: ``name``; ``name[1]``, ``name[2]``, ...; or
-        ``name[1,1]``, ``name[1,2]``, ..."""
+        """Return the FMI names of the elements: ``name``; ``name[1]``, ``name[2]``, ...; or ``name[1,1]``,
+        ``name[1,2]``, ...
+        """
         if not self.is_array:
             return [self.name]
         if self.record is not None:
@@ -193,13 +194,15 @@ class Variable:
         return f"{self.description}: {_about(field)}" if self.is_described else _about(field)
 
     def with_start(self, start: Any) -> Any:
-        """Return the same variable with another start value, for thin variants of a block."""
+        """Return a copy of the variable with another start value, for variants of a block."""
         other = copy.copy(self)
         other.start = _flatten(start) if is_several(start) else start
         return other
 
     def check_start(self, block: Any, values: Any) -> list:
-        """Return the values of any sequence as elements; raises TypeError where their number or type does not fit."""
+        """Return the values of any sequence as a list of elements. Raises TypeError if their number or type does not
+        fit.
+        """
         where = f"{block.fmu_name}.{self.name}"
         try:
             elements = _flatten(values)
@@ -214,7 +217,7 @@ class Variable:
 
 
 class _StoresVector(Variable):
-    """A variable whose assignment stores a vector. Without __get__, reads go to the instance as they do for scalars."""
+    """Variable whose assignment stores a vector; reads use the instance dictionary, as there is no ``__get__``."""
 
     def __set__(self, instance: Any, value: Any) -> None:
         if value.__class__ is not VECTORS[self.size]:
@@ -223,7 +226,7 @@ class _StoresVector(Variable):
 
 
 class _StoresRecord(Variable):
-    """A variable whose assignment stores a record."""
+    """Variable whose assignment stores a record."""
 
     def __set__(self, instance: Any, value: Any) -> None:
         if value.__class__ is not self.record:
@@ -233,7 +236,7 @@ class _StoresRecord(Variable):
 
 
 class _StoresMatrix(Variable):
-    """A variable whose matrix is never another: assignment copies the elements."""
+    """Variable that keeps one matrix object; assignment copies the elements."""
 
     def __set__(self, instance: Any, new: Any) -> None:
         assert self.shape is not None
@@ -245,7 +248,7 @@ class _StoresMatrix(Variable):
 
 
 class _StoresList(Variable):
-    """A variable whose list is never another: assignment copies the elements."""
+    """Variable that keeps one list object; assignment copies the elements."""
 
     def __set__(self, instance: Any, value: Any) -> None:
         instance.__dict__.setdefault(self.name, [])[:] = self.check_start(instance, value)
@@ -253,20 +256,20 @@ class _StoresList(Variable):
 
 @cache
 def _that_stores(kind: Any, how: Any) -> Any:
-    """Return the kind of variable (Input, Output, ...) with a way of storing."""
+    """Return a subclass of a kind of variable (Input, Output, ...) with a way of storing."""
     return type(kind.__name__, (how, kind), {})
 
 
 class Input(Variable):
-    """Set from outside at every communication point."""
+    """Variable set by the importer at every communication point."""
 
     causality = "input"
 
 
 class Parameter(Variable):
-    """Quantity set before the start, and between steps where the block's kernel proves that it may.
+    """Variable set before the start, and between steps if the block's kernels allow it.
 
-    `export.judge.tunable` has the proof; ``fixed`` says why one that would be tunable is not to be changed then.
+    `export.judge.tunable` determines this; ``fixed`` is the reason why an otherwise tunable parameter must not change.
     """
 
     causality = "parameter"
@@ -277,14 +280,14 @@ class Parameter(Variable):
 
 
 class State(Variable):
-    """Internal, kept from step to step; readable from outside, never set.
+    """Internal variable kept from step to step; readable by the importer, never set by it.
 
-    ``declared`` may be a record's class, with the starts of fields by name (others 0): ``State(Motion, speed=7620.0)``
-    has the FMI variables ``NAME.speed``, ``NAME.attitude[1]`` and so on, NAME the variable's, with the fields'
-    descriptions, after that of the state where it has one.
+    ``declared`` may be a record class, with start values of fields by name (others 0): a variable ``motion`` declared
+    as ``State(Motion, speed=7620.0)`` has the FMI variables ``motion.speed``, ``motion.attitude[1]`` and so on. Their
+    descriptions are those of the fields, preceded by the description of the state if it has one.
 
-    ``frozen``: left as it is along the flight where a system is linearised: the memory of random number generators,
-    and covariances, whose small changes act on estimates only through innovations.
+    ``frozen`` states keep their values along the trajectory when a system is linearised: states of random number
+    generators, and covariances, whose small changes act on estimates only through innovations.
     """
 
     causality = "local"
@@ -300,17 +303,17 @@ class State(Variable):
         self.frozen = frozen
 
     def frozen_elements(self) -> list[bool]:
-        """Return for each element if it is frozen."""
+        """Return, for each element, True if it is frozen."""
         if self.record is not None:
             return [self.frozen or field.frozen for _, field in flat_fields(self.record)]
         return [self.frozen] * self.size
 
 
 class Output(Variable):
-    """Read from outside at every communication point.
+    """Variable read by the importer at every communication point.
 
-    ``direct`` says which inputs of the same communication point the value depends on: True for
-    all, False for none (a plant's states), or their names.
+    ``direct`` declares the inputs of the same communication point on which the value depends: True for all, False for
+    none (as for a plant), or their names.
     """
 
     causality = "output"
@@ -326,7 +329,7 @@ def is_several(start: Any) -> bool:
 
 
 def _flatten(values: Any) -> list:
-    """Return the elements of a sequence, a record, or a matrix, also where that is a list of rows."""
+    """Return the elements of a sequence, record or matrix as a list; a matrix may also be a sequence of rows."""
     if isinstance(values, Record | Matrix):
         return list(values.elements())
     elements = list(values)

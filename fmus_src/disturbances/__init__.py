@@ -1,1 +1,1 @@
-"""Random disturbances with a prescribed spectrum."""
+"""Disturbances of the environment and faults of actuators."""

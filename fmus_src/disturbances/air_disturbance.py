@@ -1,4 +1,4 @@
-"""Wind and density that are not those of the standard atmosphere."""
+"""Wind, and deviation from the density of the standard atmosphere."""
 
 import math
 
@@ -47,7 +47,7 @@ class AirDisturbance(Block):
         self.put_out(0.0)
 
     def put_out(self, time: float) -> None:
-        """Set outputs ``time`` (s) after the start."""
+        """Set the outputs for ``time`` (s) after the start."""
         since = time - self.gust_time
         fraction = 0.0
         if since > 0.0 and since < self.gust_duration:

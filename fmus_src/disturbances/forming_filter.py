@@ -1,4 +1,4 @@
-"""White noise through a second-order filter: a disturbance with a prescribed spectrum."""
+"""Disturbance with a prescribed spectrum: white noise through a second-order filter."""
 
 import math
 

@@ -1,11 +1,11 @@
-"""Remaining torque of each jet."""
+"""Actual torque of each jet as a fraction of its nominal torque."""
 
 from ..block import Block, Parameter
 from ..interfaces.ports import entry
 
 
 class JetHealth(Block):
-    """Torque factors of six jets, constant over a simulation; faults on the connectors change them during it.
+    """Torque factors of six jets, constant over a simulation unless faults are injected at the connectors.
 
     See docs/systems/entry_attitude.md.
     """

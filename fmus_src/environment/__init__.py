@@ -1,1 +1,1 @@
-"""Environment of a flight, by itself: what surrounds a spacecraft."""
+"""Environment of a spacecraft as a separate block."""

@@ -1,4 +1,4 @@
-"""Light, magnetic field and air where a spacecraft is."""
+"""Sunlight, magnetic field and air at a spacecraft's position."""
 
 import math
 
@@ -21,15 +21,15 @@ class EnvironmentStatus(Enumeration):
 
 
 class SpaceEnvironment(SpaceModel):
-    """Sun, Moon, magnetic field, eclipse and air density at a position at the same instant.
+    """Sun, Moon, magnetic field, eclipse and air density at the present position and time.
 
-    Sensors read it at the true position. With an estimated position and magnetic_degree 6 it is an on-board model,
-    whose field differs from degree 13 by 221 nT and 0.31 deg (rms at 500 km). It has no effect on the plant, which
-    evaluates its own models.
+    Sensors use it at the true position. With an estimated position and magnetic_degree 6 it serves as an on-board
+    model, whose field differs from that of degree 13 by 221 nT and 0.31 deg (rms at 500 km). The plant does not use it
+    but evaluates its own models.
 
     Frames: inertial (GCRS axes, origin at the body's centre); body.
 
-    Assumes straight light without travel time: no aberration, no refraction.
+    Assumes straight light rays without travel time: no aberration, no refraction.
 
     See docs/systems/earth_pointing.md.
     """

@@ -1,4 +1,4 @@
-"""The evidence of a block's FMU: its check, its outputs, its page, and the digests of all files."""
+"""Evidence of a block's FMU: check, recorded outputs, page, and digests of all files."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ PAGE = "documentation/index.html"
 
 
 def add_evidence(block_class: type[Block], files: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Return the files of a block's FMU with its evidence.
+    """Return the files of a block's FMU with its evidence added.
 
-    Its outputs for the check are recorded where they are the same on every processor, which Python libraries do not
-    promise. Raises CheckError for a check that does not fit the block.
+    The outputs for the check are recorded only for blocks with the same results on every processor, which Python
+    libraries do not guarantee. Raises CheckError for a check that does not fit the block.
     """
     page = Related(PAGE, "document", "text/html", "what the block computes, its variables, its source")
     complete = {**files, PAGE: block_page(block_class)}

@@ -1,4 +1,4 @@
-"""The check of a block: a short reference trajectory that is computed without the block's code."""
+"""Check of a block: a short reference trajectory computed without the block's code."""
 
 from __future__ import annotations
 
@@ -25,15 +25,16 @@ Tolerances = Mapping[str, tuple[float, float]]  # of signals: absolute, relative
 
 
 class CheckError(ValueError):
-    """A check that is incomplete or does not fit its block; the message names file and element."""
+    """Error of a check that is incomplete or does not fit its block; the message names file and element."""
 
 
 @dataclass(frozen=True)
 class Check:
-    """Row n of ``table`` (CSV) has the inputs from its time (s) to the next row's, and the outputs at its time.
+    """Reference trajectory of a block, with tolerances and settings.
 
-    An output may differ by ``absolute + relative |reference|`` of its ``tolerances``. ``truth`` says how the reference
-    was computed. Steps in s; ``parameters`` are set before initialisation.
+    Each row of ``table`` (CSV) contains a time (s), the outputs at this time, and the inputs from this time to the next
+    row. An output may differ from the reference by ``absolute + relative |reference|`` of its ``tolerances``. ``truth``
+    describes how the reference was computed. Steps are in s; ``parameters`` are set before initialisation.
     """
 
     table: bytes
@@ -44,7 +45,7 @@ class Check:
     tolerances: Tolerances
 
     def columns(self) -> dict[str, list[float]]:
-        """Return the table's numbers by column, ``time`` first."""
+        """Return the numbers of the table by column, ``time`` first."""
         names, *rows = csv.reader(io.StringIO(self.table.decode()))
         if not rows:
             raise ValueError("no rows")
@@ -53,14 +54,14 @@ class Check:
 
 
 def elements_of(block_class: type[Block]) -> dict[str, Variable]:
-    """Return the FMI names of a block's variables, each element of a vector, with the variable that declares it."""
+    """Return the FMI names of all elements of a block's variables, each with the variable that declares it."""
     return {name: variable for variable in block_class.variables.values() for name in variable.element_names()}
 
 
 def read_check(block_class: type[Block]) -> Check | None:
-    """Read the check next to a block's file, checks/NAME.csv and checks/NAME.toml; None without one.
+    """Read the check of a block, checks/NAME.csv and checks/NAME.toml next to its file; None without one.
 
-    Raises CheckError, naming file and element, where one of the two is missing or does not fit the block.
+    Raises CheckError, naming file and element, if one of the two is missing or does not fit the block.
     """
     source = getattr(sys.modules.get(block_class.__module__), "__file__", None)
     if source is None:
@@ -109,7 +110,7 @@ def _is_number(value: object) -> bool:
 
 
 def _refuse_unknown(block_class: type[Block], check: Check, table: Path, declarations: Path) -> None:
-    """Refuse columns, tolerances and parameters that the block does not have."""
+    """Reject columns, tolerances and parameters that the block does not have."""
     elements = elements_of(block_class)
     try:
         columns = check.columns()

@@ -1,7 +1,7 @@
-"""Experiments that reproduce reference trajectories: what to set, what to feed in, what should come out.
+"""Experiments that reproduce reference trajectories: settings, inputs and expected outputs.
 
-Format: Experiments (ma-hs-experiments), Modelica Association 2026. It has no tolerances for each signal, which stand in
-an annotation of ours: |output - reference| <= absolute + relative |reference|.
+Format: Experiments (ma-hs-experiments), Modelica Association 2026. The format has no tolerances per signal; Perilune
+writes them as an annotation: |output - reference| <= absolute + relative |reference|.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ TOLERANCES = "org.perilune.tolerances"
 
 @dataclass(frozen=True)
 class Experiment:
-    """One simulation (times in s) with its files, named relative to that of the experiments; None where it has none.
+    """One simulation (times in s) and its files, with names relative to the file of experiments, or None.
 
-    ``tolerances``: signal -> (absolute, relative). A signal that they do not name has to be equal, bit by bit; with
-    None, which writes no annotation, every signal may differ by what whoever compares permits.
+    ``tolerances``: signal -> (absolute, relative). A signal without an entry must be equal bit by bit. With None no
+    annotation is written, and the tolerances are left to the user of the experiment.
     """
 
     name: str
@@ -35,7 +35,7 @@ class Experiment:
 
 
 def write_experiments(name: str, experiments: Sequence[Experiment]) -> bytes:
-    """Return the file of experiments, XML without a namespace."""
+    """Return the file of experiments as XML without a namespace."""
     root = etree.Element("Experiments", name=name)
     for each in experiments:
         element = etree.SubElement(root, "Experiment", name=each.name, description=each.description)

@@ -1,4 +1,4 @@
-"""The manifest of an FMU's or a system's evidence: which file has which role, with its digest.
+"""Manifest of the evidence of an FMU or system: role and digest of each file.
 
 Format: FMI Layered Standard for References (FMI-LS-REF), Modelica Association 2025, for FMI 2.0 and 3.0.
 """
@@ -50,13 +50,13 @@ MIME_TYPES = {
 
 
 def mime_type(name: str) -> str:
-    """Return the type of a file by the suffix of its name."""
+    """Return the MIME type of a file by its suffix."""
     return MIME_TYPES.get(posixpath.splitext(name)[1].lower(), "application/octet-stream")
 
 
 @dataclass(frozen=True)
 class Related:
-    """A file of the archive by its ``name`` there, with its role in FMI-LS-REF and its MIME ``type``."""
+    """File of the archive by its ``name`` there, with its role in FMI-LS-REF and its MIME ``type``."""
 
     name: str
     role: str
@@ -66,8 +66,7 @@ class Related:
 
 
 def add_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> dict[str, bytes]:
-    """Return the files of an archive with SHA256SUMS of all of them, in the format of sha256sum, and with the
-    manifest."""
+    """Return the files of an archive with the manifest, and with SHA256SUMS of all files in the format of sha256sum."""
     sums = "".join(
         f"{hashlib.sha256(files[name]).hexdigest()}  {name}\n" for name in sorted(files) if name not in NOT_LISTED
     )

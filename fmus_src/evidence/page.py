@@ -1,4 +1,4 @@
-"""The page of a block inside its FMU, documentation/index.html: HTML without script, from the declaration."""
+"""Page of a block inside its FMU, documentation/index.html: HTML without scripts, generated from the declaration."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SECTIONS = (("Inputs", Input), ("Outputs", Output), ("Parameters", Parameter))
 
 
 def block_page(block_class: type[Block]) -> bytes:
-    """Return the page: purpose, equations and source from the docstring, tables of inputs, outputs and parameters."""
+    """Return the page: purpose, equations and source from the docstring, and tables of inputs, outputs and parameters."""
     body = [builder.H1(block_class.fmu_name), *_prose(block_class)]
     for base in block_class.__mro__[1:]:
         if issubclass(base, Block) and base is not Block:
@@ -41,7 +41,7 @@ def block_page(block_class: type[Block]) -> bytes:
 
 
 def page_of(title: str, body: Iterable[etree._Element]) -> bytes:
-    """Return a page of an FMU, which follows the reader's screen and colour scheme."""
+    """Return an FMU's page, which adapts to screen width and colour scheme."""
     screen = builder.META(name="viewport", content="width=device-width, initial-scale=1")
     head = builder.HEAD(builder.META(charset="utf-8"), screen, builder.TITLE(title), builder.STYLE(STYLE))
     page = builder.HTML(head, builder.BODY(*body), lang="en")
@@ -49,7 +49,7 @@ def page_of(title: str, body: Iterable[etree._Element]) -> bytes:
 
 
 def _prose(block_class: type[Block]) -> list[etree._Element]:
-    """Return the docstring as paragraphs, indented equations as they are."""
+    """Return a docstring as HTML paragraphs, with indented equations preformatted."""
     paragraphs: list[etree._Element] = []
     for is_equation, lines in groupby(inspect.cleandoc(block_class.__doc__ or "").splitlines(), _is_equation):
         if is_equation:
@@ -60,7 +60,7 @@ def _prose(block_class: type[Block]) -> list[etree._Element]:
 
 
 def _with_code(text: str) -> Iterator[str | etree._Element]:
-    """Yield a text with what stands between backticks as code."""
+    """Yield the HTML of a text, with passages between backticks as code."""
     for index, words in enumerate(text.split("`")):
         yield builder.CODE(words) if index % 2 else words
 

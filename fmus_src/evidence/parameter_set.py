@@ -1,4 +1,4 @@
-"""A parameter set (.ssv) of SSP 1.0, written."""
+"""Writer of parameter sets (.ssv) of SSP 1.0."""
 
 from __future__ import annotations
 

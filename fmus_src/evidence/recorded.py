@@ -1,4 +1,4 @@
-"""The outputs of a block for the inputs of its check, all bits: what its FMU gives on every processor."""
+"""Recorded outputs of a block for the inputs of its check, with all bits, as its FMU computes them on every processor."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from .check import TIME, Check, CheckError, elements_of
 
 
 def record_outputs(block_class: type[Block], check: Check) -> bytes:
-    """Return a CSV of time (s) and outputs for the inputs and parameters of a check.
+    """Return a CSV table of time (s) and outputs for the inputs and parameters of a check.
 
-    Raises CheckError where the block raises anything.
+    Raises CheckError if the block raises an exception.
     """
     try:
         return _record(block_class, check)
@@ -48,16 +48,16 @@ def _record(block_class: type[Block], check: Check) -> bytes:
 
 
 def write_table(names: Sequence[str], rows: Iterable[Sequence[str]]) -> bytes:
-    """Return a CSV file; the name of a matrix' element has a comma, and quotation marks."""
+    """Return a CSV table; names with commas, such as those of matrix elements, are quoted."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([names, *rows])
     return text.getvalue().encode()
 
 
 def _sample(variable: Variable, samples: list[float], row: int) -> float | int | bool:
-    """Return an input at a row's time, as importers interpolate a continuous one there: 0 * before + 1 * here.
+    """Return an input at a row's time as importers interpolate a continuous input there: 0 * before + 1 * here.
 
-    It is the sample but for -0.0, and for one after a sample that is not finite.
+    The result equals the sample except for -0.0, and for a sample after one that is not finite.
     """
     if variable.type_name == "Real" and row:
         return 0.0 * samples[row - 1] + 1.0 * samples[row]

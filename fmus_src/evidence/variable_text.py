@@ -1,4 +1,4 @@
-"""A variable's declaration in words: its name with its size, start values, bounds."""
+"""Declaration of a variable as text: name with size, start values, bounds."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ SHOWN = 12  # start values of a list, beyond which the first ones are enough
 
 
 def sized_name(variable: Variable) -> str:
-    """Return the name, of a vector with its number of elements, of a matrix with rows and columns."""
+    """Return the name, followed by the number of elements of a vector or the rows and columns of a matrix."""
     if variable.columns is not None:
         return f"{variable.name}[{variable.size // variable.columns}, {variable.columns}]"
     return f"{variable.name}[{variable.size}]" if variable.is_array else variable.name
 
 
 def unit_text(variable: Variable) -> str:
-    """Return the unit; 1 of a Real without one, empty of other types."""
+    """Return the unit; 1 for a Real without a unit, empty for other types."""
     return variable.unit or ("1" if variable.type_name == "Real" else "")
 
 
 def bounds_text(variable: Variable) -> str:
-    """Return the declared range; empty without one."""
+    """Return the declared range as text; empty without bounds."""
     low, high = variable.minimum, variable.maximum
     if low is not None and high is not None:
         return f"{low:g} to {high:g}"
@@ -28,7 +28,7 @@ def bounds_text(variable: Variable) -> str:
 
 
 def start_text(variable: Variable) -> str:
-    """Return the start in few characters: one for all where all are alike, the first ones of many."""
+    """Return the start values in brief: one value if all are equal, the first ones of many."""
     numbers = [number_text(number) for number in variable.elements]
     if not variable.is_array:
         return numbers[0]
@@ -38,7 +38,7 @@ def start_text(variable: Variable) -> str:
 
 
 def number_text(number: float | int | bool) -> str:
-    """Return a number as it is written in a parameter set."""
+    """Return a number as written in a parameter set."""
     if isinstance(number, bool):
         return "true" if number else "false"
     return f"{number:.10g}" if isinstance(number, float) else str(number)

@@ -47,7 +47,7 @@ class RendezvousGuidance(Block):
     command acts from delay_fraction of the period later until the next one; planned_acceleration is the mean over that
     time. Phases out of order give no plan: status 1, and the robot stays at rest.
 
-    Frames: inertial; body of the plan.
+    Frames: inertial; planned body.
 
     Assumes an object in uniform motion with a known spin axis, and a robot at rest at the origin at the start.
 

@@ -1,1 +1,1 @@
-"""Ports, and slots that only declare them; a base that computes stands with its blocks."""
+"""Ports, and slots that only declare variables; slots with computations are defined next to their blocks."""

@@ -1,4 +1,4 @@
-"""The slot of allocation: from a guidance command to what engine and attitude do."""
+"""Slot of allocation: from the guidance command to commands of engine and attitude."""
 
 from ..block import Block, Input, Output
 from ..kernel.enumerations import Enumeration, member

@@ -1,15 +1,15 @@
-"""The slot of navigation: from measurements to the estimate that guidance flies on."""
+"""Slot of navigation: from measurements to the estimate used by guidance."""
 
 from ..block import Block, Input, Output, Parameter
 from .ports import landing, sampling
 
 
 class Navigation(Block, interface=True):
-    """Position and velocity of a lander as known on board.
+    """Estimated position and velocity of a lander.
 
-    Measurements come from sensor blocks, each with a count that distinguishes a new sample from a held one. The true
+    Measurements come from sensor blocks, each with a count that distinguishes new samples from held ones. The true
     motion is connected as well: for ideal navigation, for blocks with internal sensors, and for the initial estimate of
-    filters. All blocks of the slot have all inputs and parameters, so that they are interchangeable.
+    filters. All blocks of the slot have the same inputs and parameters, so they are interchangeable.
 
     Frame: landing site (x north, y west, z up).
     """

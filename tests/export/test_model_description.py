@@ -39,14 +39,15 @@ def test_variables_are_those_declared(fmus, name):
     references = [variable.valueReference for variable in variables.values()]
     assert references == list(range(len(references)))
     for declared in block.variables.values():
-        units = declared.units()
-        for element, start, unit in zip(declared.element_names(), declared.elements, units, strict=True):
+        names_and_starts = zip(declared.element_names(), declared.elements, strict=True)
+        about = zip(declared.units(), declared.descriptions(), strict=True)
+        for (element, start), (unit, words) in zip(names_and_starts, about, strict=True):
             actual = variables[element]
             assert (actual.causality, actual.type) == (declared.causality, declared.fmi_type)
             if declared.enumeration:
                 items = {item.name: int(item.value) for item in actual.declaredType.items}
                 assert items == {name: number for number, name in declared.enumeration.names.items()}
-            assert actual.description.startswith(re.sub(r"\s+", " ", declared.description))
+            assert actual.description.startswith(re.sub(r"\s+", " ", words))
             if isinstance(declared, Parameter | Input):
                 value = {"Real": float, "Integer": int, "Enumeration": int, "Boolean": lambda text: text == "true"}[
                     actual.type

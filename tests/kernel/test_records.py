@@ -84,7 +84,8 @@ def test_a_state_has_a_variable_for_each_number():
     declared = Turned.variables["state"]
     assert declared.element_names() == ["state.rate[1]", "state.rate[2]", "state.rate[3]", "state.heat"]
     assert declared.units() == ["rad/s"] * 3 + ["Pa"]
-    assert declared.descriptions()[0] == "A body that turns: angular velocity (body frame)"
+    assert declared.descriptions()[0] == "angular velocity (body frame)"
+    assert State(Turning, description="estimate").descriptions()[3] == "estimate: pressure"
     assert declared.frozen_elements() == [False, False, False, True]
     block = Turned()
     assert block.state == Turning(rate=vector(0.0, 0.0, 0.0), heat=300.0)

@@ -1,1 +1,1 @@
-"""Ports by domain: what is connected, declared once."""
+"""Ports by domain."""

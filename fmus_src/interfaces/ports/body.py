@@ -1,4 +1,4 @@
-"""Vectors of body axes, and what turns a spacecraft on a circular orbit."""
+"""Ports in body axes, and ports of a spacecraft on a circular orbit."""
 
 from ...ports import Port
 

@@ -1,4 +1,4 @@
-"""Entry into the atmosphere: bank, its reference, and what disturbs."""
+"""Ports of an atmospheric entry: bank angle, its reference, and disturbances."""
 
 import math
 
@@ -20,7 +20,7 @@ WIND = Port(
 
 
 class BankReference(Bundle):
-    """Reference bank with its derivatives."""
+    """Reference bank angle with its derivatives."""
 
     bank = Port(deg(60.0), unit="rad", description="reference bank angle")
     bank_rate = Port(0.0, unit="rad/s", description="time derivative of the reference bank angle")

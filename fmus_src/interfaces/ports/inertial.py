@@ -1,4 +1,4 @@
-"""Vectors of inertial axes."""
+"""Ports in inertial axes."""
 
 from ...ports import Port
 

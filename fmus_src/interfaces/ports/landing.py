@@ -1,4 +1,4 @@
-"""Landing on the Moon: vectors of the landing-site frame, and the command, mass and Moon of a lander."""
+"""Ports of a lunar landing: vectors in the landing-site frame, commands, vehicle and Moon."""
 
 from ...bundles import Bundle
 from ...kernel.enumerations import Enumeration, member

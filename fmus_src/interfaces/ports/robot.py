@@ -1,4 +1,4 @@
-"""The free-flying robot: attitude, jets, gyros, and what its plan and its commands count."""
+"""Ports of the free-flying robot: attitude, jets, gyros, plan and commands."""
 
 import math
 
@@ -58,14 +58,14 @@ TRANSLATION_PERIOD = Port(8.0, unit="s", minimum=1e-3, description="time to the 
 
 
 class FilterMethod(Enumeration):
-    """Estimation method of an error from samples."""
+    """Method by which an error is estimated from samples."""
 
     MEAN = member("mean")
     KALMAN = member("Kalman filter")
 
 
 class ControlLaw(Enumeration):
-    """Control law of an error."""
+    """Control law for an error."""
 
     LEAD = member("lead compensator")
     PROPORTIONAL_DERIVATIVE = member("PD law")

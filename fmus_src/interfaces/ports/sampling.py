@@ -1,4 +1,4 @@
-"""Shared declarations of blocks that sample or integrate."""
+"""Ports and parameters of blocks that sample or integrate."""
 
 from ...block import Parameter
 from ...ports import Port
@@ -16,7 +16,7 @@ START_TIME = Port(0.0, unit="s", description="start time of the simulation")
 
 
 def random_stream() -> tuple[Parameter, Parameter]:
-    """Return seed and stream of a block's random numbers."""
+    """Return the parameters seed and stream of a block's random number generator."""
     seed = Parameter(1, minimum=0, description="seed of the random numbers")
     stream = Parameter(0, minimum=0, description="stream of the random numbers within the seed")
     return seed, stream

@@ -1,4 +1,4 @@
-"""A satellite with four reaction wheels: its wheels, and the attitude that it is to follow."""
+"""Ports of a satellite with four reaction wheels: wheels and reference attitude."""
 
 from ...bundles import Bundle
 from ...ports import Port

@@ -1,4 +1,4 @@
-"""A spacecraft about Earth or Moon: its motion, and what surrounds it."""
+"""Ports of a spacecraft about Earth or Moon: motion and environment."""
 
 from ...bundles import Bundle
 from ...kernel.enumerations import Enumeration, member
@@ -46,7 +46,7 @@ class Orbit(Bundle):
 
 
 class Attitude(Bundle):
-    """Attitude relative to inertial axes."""
+    """Attitude and angular velocity relative to the inertial frame."""
 
     quaternion = Port(
         [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude quaternion from body to inertial, scalar first"
