@@ -155,7 +155,7 @@ def _bundles_of(owner: type) -> dict[str, Connectors]:
 
 
 def _variables_of(owner: type) -> Iterator[tuple[str, Variable]]:
-    """Yield name and variable of each declaration of a class itself, in order, with those of bundles in their places."""
+    """Yield name and variable of each declaration of a class itself, in order; those of bundles in their places."""
     bundles = _bundles_of(owner)
     for name in vars(owner):
         for each in bundles[name].names.values() if name in bundles else [name]:

@@ -279,7 +279,7 @@ class Component:
             )
 
     def get_state(self) -> dict[str, Any]:
-        """Return the complete state: every variable and the life-cycle counters. Raises StateError for external state."""
+        """Return the complete state: all variables and life-cycle counters. Raises StateError for external state."""
         if self.block.external:
             names = ", ".join(self.block.external)
             raise StateError(f"{names} of {self.block.fmu_name} is external state, which cannot be saved")

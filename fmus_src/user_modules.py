@@ -33,7 +33,7 @@ def module_name(path: Path) -> str:
 
 
 def is_sibling(name: str, folder: Path) -> bool:
-    """Return True if `import name` in a file of the folder refers to a file of the folder. Libraries take precedence."""
+    """Return True if `import name` in a file of the folder refers to a file there. Libraries take precedence."""
     return name not in LIBRARIES and (folder / f"{name}.py").is_file()
 
 

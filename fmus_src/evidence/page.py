@@ -27,7 +27,7 @@ SECTIONS = (("Inputs", Input), ("Outputs", Output), ("Parameters", Parameter))
 
 
 def block_page(block_class: type[Block]) -> bytes:
-    """Return the page: purpose, equations and source from the docstring, and tables of inputs, outputs and parameters."""
+    """Return the page: purpose, equations and source from the docstring, tables of the variables."""
     body = [builder.H1(block_class.fmu_name), *_prose(block_class)]
     for base in block_class.__mro__[1:]:
         if issubclass(base, Block) and base is not Block:

@@ -1,4 +1,4 @@
-"""Recorded outputs of a block for the inputs of its check, with all bits, as its FMU computes them on every processor."""
+"""Recorded outputs of a block for its check, with all bits, as its FMU computes them on every processor."""
 
 from __future__ import annotations
 
