@@ -1,4 +1,4 @@
-"""Modules of both components and analyses: where things lie, errors, files, archives, progress, processes."""
+"""Modules shared by components and analyses: paths, errors, files, archives, progress, processes."""
 
 if __name__ == "common":  # a second copy of every class, whose errors nobody would catch
     raise ImportError("common is a room of the package perilune: import perilune.common")

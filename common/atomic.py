@@ -1,4 +1,4 @@
-"""Atomic files, whole or absent: written next to their path, then moved to it."""
+"""Atomic files, complete or absent: written next to their path, then moved to it."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ PARTIAL = ".partial"
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """Yield a temporary path, which replaces ``path`` when all is written; its folder is created.
+    """Yield a temporary path whose file replaces ``path`` at the end of the block; create its folder.
 
-    A reader of ``path``, now or after a crash, finds the old content or the new one. Raises OSError naming
-    ``path`` where it cannot be written, a full disk for instance, with nothing left of it.
+    A reader of ``path``, now or after a crash, finds the old content or the new one. Raises OSError with ``path`` if it
+    cannot be written, for instance on a full disk, and leaves nothing there.
     """
     partial = path.with_name(f".{path.name}.{os.getpid()}{PARTIAL}")
     try:
@@ -33,12 +33,12 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 
 def write_atomically(path: Path, content: bytes) -> None:
-    """Write a file, whole or not at all; see `whole_file`."""
+    """Write a file completely or not at all; see `whole_file`."""
     with whole_file(path) as partial:
         partial.write_bytes(content)
 
 
 def remove_partial(folder: Path) -> None:
-    """Remove what writers that were killed left in a folder, in which nobody writes any more."""
+    """Remove the temporary files of killed writers from a folder in which nobody writes any more."""
     for path in folder.glob(f".*.*{PARTIAL}"):
         path.unlink(missing_ok=True)

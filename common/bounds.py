@@ -1,6 +1,6 @@
-"""Bounds on the size of files and simulations before memory is allocated, and their environment variables.
+"""Bounds on the size of files and simulations, checked before memory is allocated.
 
-A bound is changed by its environment variable, PERILUNE_ and its name in capitals.
+The environment variable of a bound, PERILUNE_ and its name in capitals, changes it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ PREFIX = "PERILUNE_"
 
 
 class ExcessError(InputError):
-    """Input that would take more than a bound permits, and is not tried."""
+    """Input that exceeds a bound, and is not processed."""
 
 
 @dataclass(frozen=True)
@@ -28,12 +28,12 @@ class Bound:
 
     @property
     def variable(self) -> str:
-        """The name of its environment variable."""
+        """Name of the environment variable."""
         return f"{PREFIX}{self.name.upper()}"
 
     @property
     def limit(self) -> float:
-        """The bound as it holds here. Raises InputError where the environment has no positive number."""
+        """Bound in effect. Raises InputError if the environment variable is not a positive number."""
         text = os.environ.get(self.variable)
         if text is None:
             return self.default
@@ -46,7 +46,7 @@ class Bound:
         return number
 
     def check(self, number: float, file: str | os.PathLike[str], element: str) -> None:
-        """Raise ExcessError where a number is above the bound."""
+        """Raise ExcessError if a number exceeds the bound."""
         if number > self.limit:
             problem = f"{self.subject}: {number:.6g} {self.unit}, at most {self.limit:.6g} are accepted"
             raise ExcessError(file, element, problem, f"if you trust it, set {self.variable}")
@@ -87,7 +87,7 @@ DOCUMENTS = (".ssd", ".ssv", ".ssm", ".ssb", ".xml")
 
 
 def bound_of(name: str) -> Bound:
-    """Return the bound of a file by the ending of its name."""
+    """Return the bound for a file according to the suffix of its name."""
     if name.endswith(DOCUMENTS):
         return XML_BYTES
     return CAMPAIGN_BYTES if name.endswith(".toml") else ARCHIVE_BYTES

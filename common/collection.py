@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def no_collection() -> Iterator[None]:
-    """Disable the collector: objects created inside have no cycles, and it would traverse all of them repeatedly."""
+    """Disable the collector in a block that creates many objects without cycles."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:

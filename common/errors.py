@@ -1,4 +1,4 @@
-"""Errors of wrong input, one line that says where, what and what to do, and exit statuses."""
+"""Errors of wrong input, in one line that states place, problem and remedy; exit statuses."""
 
 from __future__ import annotations
 
@@ -23,12 +23,11 @@ PARAMETER = re.compile(r"`(\w+)`")  # how a message marks the name of a paramete
 
 
 class InputError(ValueError):
-    """Input that is wrong: a file, an option, a name.
+    """Wrong input: a file, an option, a name.
 
-    ``file`` is where the input came from (a path, or a parameter such as `` `require` ``), ``element`` the wrong
-    element of it, ``problem`` what is wrong and ``remedy`` what to do. Parameters stand between backquotes, in all
-    four: Python shows their names, the command line its options. The command line prints the error as one line and
-    exits with status 2.
+    ``file`` is the origin of the input (a path, or a parameter such as `` `require` ``), ``element`` the wrong element
+    of it, ``problem`` what is wrong and ``remedy`` what to do. In all four, parameters are in backquotes: Python shows
+    their names, the command line its options. The command line prints the error as one line and exits with status 2.
     """
 
     def __init__(self, file: str | os.PathLike[str], element: str, problem: str, remedy: str) -> None:
@@ -43,16 +42,16 @@ class InputError(ValueError):
         return self.line({})
 
     def line(self, flags: Mapping[str, str]) -> str:
-        """Return the error in one line, each parameter called as ``flags`` say, or by its name."""
+        """Return the error in one line, each parameter with its name in ``flags``, or its own name."""
         return call_by_flags(self.text, flags)
 
     def lines(self, flags: Mapping[str, str]) -> list[str]:
-        """Return the lines that the command line prints: one, of `SeveralProblemsError` one for each."""
+        """Return the lines that the command line prints: one, or for `SeveralProblemsError` one per problem."""
         return [self.line(flags)]
 
     @property
     def text(self) -> str:
-        """The error in one line, parameters between backquotes."""
+        """The error in one line, with parameters in backquotes."""
         location = ": ".join(_shorten(part) for part in (self.file, self.element, self.problem) if part)
         # others' texts may end with a full stop
         ended = location if location.endswith("..") else location.removesuffix(".")
@@ -67,7 +66,7 @@ def _shorten(text: str) -> str:
 
 
 class SeveralProblemsError(InputError):
-    """Several things that are wrong with one input, a line each."""
+    """Several problems with one input, a line each."""
 
     def __init__(self, *texts: str) -> None:
         ValueError.__init__(self, *texts)
@@ -75,21 +74,21 @@ class SeveralProblemsError(InputError):
 
     @property
     def text(self) -> str:
-        """All lines, parameters between backquotes."""
+        """All lines, with parameters in backquotes."""
         return "\n".join(self.texts)
 
     def lines(self, flags: Mapping[str, str]) -> list[str]:
-        """Return a line for each."""
+        """Return a line for each problem."""
         return [call_by_flags(text, flags) for text in self.texts]
 
 
 def call_by_flags(text: str, flags: Mapping[str, str]) -> str:
-    """Return a message with each parameter called as ``flags`` say, or by its name."""
+    """Return a message with each parameter replaced by its name in ``flags``, or by its own name."""
     return PARAMETER.sub(lambda match: flags.get(match[1], match[1]), text)
 
 
 class EndedError(RuntimeError):
-    """Work that ended early for no fault of its input: an interruption, a full disk. ``status`` is the exit status."""
+    """Early end of work for a reason other than its input, such as an interruption; ``status`` is the exit status."""
 
     def __init__(self, message: str, status: int) -> None:
         super().__init__(message, status)
@@ -101,7 +100,7 @@ class EndedError(RuntimeError):
 
 
 class UnwrittenError(OSError):
-    """A result that could not be written to the folder of `output`; ``result`` is in memory."""
+    """Result that could not be written to the folder of `output`; ``result`` is in memory."""
 
     def __init__(self, error: OSError, result: Any) -> None:
         super().__init__(error.errno, error.strerror or str(error), error.filename)
@@ -113,7 +112,7 @@ def _flag(match: re.Match[str]) -> str:
 
 
 def warn_in_one_line() -> None:
-    """Let warnings of this process be a line each, as errors are, without the place in the source."""
+    """Print warnings of this process in one line each, like errors, without the place in the source."""
     warnings.formatwarning = lambda message, *_: f"perilune: {PARAMETER.sub(_flag, str(message))}\n"
 
 
@@ -122,8 +121,7 @@ NEAR = 0.6  # of difflib's ratio, 1 for the same
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
-    """Return a remedy for an unknown name: the nearest of the known ones first, or all where
-    there are few or none is near."""
+    """Return a remedy for an unknown name: the most similar known names, or all if there are few or none is similar."""
     names = sorted(set(known), key=_natural)
     if not names:
         return "there is none to choose from here"
@@ -143,5 +141,5 @@ def suggestion(name: str, known: Iterable[str]) -> str:
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
-    """Return the sort key of names: x[2] before x[10]."""
+    """Return a sort key that puts x[2] before x[10]."""
     return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", name)]

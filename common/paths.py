@@ -1,7 +1,6 @@
-"""Paths: systems, laws, built FMUs next to the rooms in a checkout, inside the package where it is installed.
+"""Paths of systems, laws and built FMUs, in a checkout or inside the installed package.
 
-Files built or compiled on the way go to `CACHE`, a user's builds to the working folder: an installed package is never
-written to.
+Compiled files go to `CACHE`, a user's builds to the working folder: an installed package is never written to.
 """
 
 from __future__ import annotations
@@ -44,5 +43,5 @@ def own_fmus(name: str, flavour: str, system: Path | None) -> list[Path]:
 
 
 def names_fmu(name: str | os.PathLike[str]) -> bool:
-    """Return True if a name is that of an FMU's file; some tools write the suffix in capitals."""
+    """Return True if a name is that of an FMU's file, also with its suffix in capitals, as some tools write it."""
     return os.fspath(name).lower().endswith(".fmu")

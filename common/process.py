@@ -1,7 +1,7 @@
-"""The process of a command: standard output and error that keep no work from being done, and its end.
+"""Process of a command: standard streams that do not abort its work, and its end.
 
-A reader that goes away, or a full disk, only cuts what is written. The library of pythonfmu FMUs can crash in its
-destructors, after everything is done (10 of 64 runs), and would spoil the exit status: a process that ran them leaves
+A reader that exits, or a full disk, only truncates the output. The library of pythonfmu FMUs can crash in its
+destructors, after all work is done (10 of 64 runs), and would change the exit status: a process that ran them exits
 without them.
 """
 
@@ -21,11 +21,10 @@ CLOSED = (errno.EPIPE, errno.ESHUTDOWN)
 
 
 class Stream:
-    """A text stream that takes everything: from the first error on, which ``error`` keeps, what is written is dropped.
+    """Text stream that never raises: after the first error, kept as ``error``, further output is dropped.
 
-    Characters that control a terminal are written as `visible` does, those that its encoding has not as in Python.
-
-    ``stream`` is None where the process was started without it.
+    Terminal control characters are written as by `visible`, characters that the encoding lacks as by Python. ``stream``
+    is None if the process was started without it.
     """
 
     def __init__(self, stream: TextIO | None) -> None:
@@ -37,7 +36,7 @@ class Stream:
 
     @property
     def is_cut(self) -> bool:
-        """True if output was lost that had a reader: not where it has closed its end of a pipe."""
+        """True if output was lost, other than by a reader that closed its end of a pipe."""
         return self.error is not None and self.error.errno not in CLOSED
 
     def write(self, text: str) -> int:
@@ -66,7 +65,7 @@ class Stream:
 
 @contextmanager
 def steady_streams() -> Iterator[Stream]:
-    """Let a command write to streams that raise nothing; gives standard output, flushed at the end."""
+    """Replace standard output and error by streams that do not raise; yield standard output, flushed at the end."""
     output, errors = Stream(sys.stdout), Stream(sys.stderr)
     with redirect_stdout(output), redirect_stderr(errors):  # type: ignore[type-var]
         try:
@@ -77,9 +76,9 @@ def steady_streams() -> Iterator[Stream]:
 
 
 def open_closed_streams() -> None:
-    """Open the null device in place of standard input, output or error that a process was started without.
+    """Open the null device as standard input, output or error if the process was started without it.
 
-    Files opened later would have their numbers, and what libraries print to them.
+    Otherwise files opened later would get its number, and with it the output that libraries print.
     """
     while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
         os.set_inheritable(descriptor, True)
@@ -90,15 +89,15 @@ _farewells: list[Callable[[], object]] = []
 
 
 def at_end(farewell: Callable[[], object]) -> None:
-    """Register a function to call when this process ends, by `leave` too; the last one first."""
+    """Register a function to call when this process ends, also by `leave`; the last one is called first."""
     _farewells.append(farewell)
     atexit.register(farewell)
 
 
 def leave(status: int) -> NoReturn:
-    """End the process at once with an exit status; what was written to standard output and error is not lost.
+    """End the process at once with an exit status, after flushing standard output and error.
 
-    Functions of `at_end` are called.
+    Functions registered with `at_end` are called.
     """
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:  # a process can be started without them

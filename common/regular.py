@@ -1,4 +1,4 @@
-"""Files that others may have left: regular ones alone, since opening a pipe waits and a link may lead anywhere."""
+"""Reading of untrusted files: regular ones only, since opening a pipe waits and a link may lead anywhere."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ KINDS = {
 
 
 def is_regular(path: Path) -> bool:
-    """Return True if a file exists, and is no link; its folder may be one."""
+    """Return True if a regular file exists and is not a link; its folder may be one."""
     try:
         return stat.S_ISREG(path.lstat().st_mode)
     except OSError:
@@ -28,18 +28,18 @@ def is_regular(path: Path) -> bool:
 
 
 def check_regular(path: Path, remedy: str) -> None:
-    """Refuse what is no regular file, or is not there. Raises InputError."""
+    """Reject a missing path or one that is not a regular file. Raises InputError."""
     _size(path, remedy, follow_links=False)
 
 
 def check_folder(path: Path, remedy: str) -> None:
-    """Refuse what is no folder where one is to be, or a link to one, which leads elsewhere. Raises InputError."""
+    """Reject a path that is not a folder, or is a link to one. Raises InputError."""
     if path.is_symlink() or (path.exists() and not path.is_dir()):
         raise InputError(path, "", f"{KINDS.get(stat.S_IFMT(path.lstat().st_mode), 'a file')}, not a folder", remedy)
 
 
 def names_file(path: str | os.PathLike[str]) -> bool:
-    """Return True if there is a regular file of a name, perhaps by a link; False for text that cannot be a name."""
+    """Return True if a regular file has this name, also through a link; False for text that cannot be a name."""
     try:
         return Path(path).is_file()
     except (OSError, ValueError):
@@ -47,7 +47,7 @@ def names_file(path: str | os.PathLike[str]) -> bool:
 
 
 def read_input(path: str | os.PathLike[str], remedy: str, bound: Bound) -> bytes:
-    """Read a file by its path, perhaps by a link; nothing else is opened. Raises InputError."""
+    """Read a file by its path, also through a link; only regular files are opened. Raises InputError."""
     bound.check(_size(Path(path), remedy, follow_links=True), path, "")
     return _read(Path(path), remedy)
 
@@ -61,7 +61,7 @@ def read_regular(path: Path, remedy: str, limit: float) -> bytes:
 
 
 def _size(path: Path, remedy: str, *, follow_links: bool) -> int:
-    """Return bytes of a regular file; raises InputError for anything else."""
+    """Return the size of a regular file in bytes. Raises InputError for anything else."""
     try:
         state = path.stat(follow_symlinks=follow_links)
     except (OSError, ValueError) as error:

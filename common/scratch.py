@@ -1,5 +1,4 @@
-"""Temporary folders: removed with the process that created them or, should it be killed, when the next one creates
-one."""
+"""Temporary folders, removed with their process or, if it is killed, when another process creates one."""
 
 from __future__ import annotations
 
@@ -21,7 +20,7 @@ YOUNG = 60.0  # s, in which a folder may not be locked yet
 
 
 def make_folder() -> Path:
-    """Create a temporary folder; its creator removes it, or it goes with the process."""
+    """Create a temporary folder; its creator removes it, or it is removed with the process."""
     return Path(tempfile.mkdtemp(dir=_folder()[0]))
 
 
@@ -33,7 +32,7 @@ def _remove_all() -> None:
 
 @cache
 def _folder() -> tuple[Path, FileLock]:
-    """Return the folder that has all of this process's, and its lock."""
+    """Return the folder that contains all of this process's folders, and its lock."""
     folder = Path(tempfile.mkdtemp(prefix=PREFIX))
     _sweep(folder.stat().st_uid)
     at_end(_remove_all)
@@ -43,7 +42,7 @@ def _folder() -> tuple[Path, FileLock]:
 
 
 def _sweep(user: int) -> None:
-    """Remove a user's folders of processes that are gone; a lock that is a link could lead to any file."""
+    """Remove the user's folders of ended processes; skip locks that are links, which could lead to any file."""
     for path in Path(tempfile.gettempdir()).glob(f"{PREFIX}*/{LOCK}"):
         with suppress(OSError, Timeout):
             state = path.lstat()

@@ -1,4 +1,4 @@
-"""Destinations of a command's results: checked before any simulation, each written separately at the end."""
+"""Output files and folders of a command: checked before any simulation, written independently at the end."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ RESULTS = (
 
 
 def check_encoding(option: str, name: str) -> None:
-    """Refuse a name whose bytes are not UTF-8: Arrow and libxml2 open no such file. Raises InputError."""
+    """Reject a name that is not UTF-8, since Arrow and libxml2 cannot open such files. Raises InputError."""
     try:
         name.encode()
     except UnicodeEncodeError:
@@ -30,9 +30,9 @@ def check_encoding(option: str, name: str) -> None:
 
 
 def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), new_folders: int = 1) -> None:
-    """Refuse a file that cannot be written, before any simulation: writing is tried. Raises InputError.
+    """Reject a file that cannot be written, by a trial before any simulation. Raises InputError.
 
-    ``new_folders`` are created at most, none of them in the root.
+    At most ``new_folders`` folders are created for it, none of them in the root.
     """
     if path is None:
         return
@@ -56,10 +56,10 @@ def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), n
 
 
 def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: str = "`overwrite`") -> None:
-    """Refuse a folder that cannot be written, or that holds results unless ``overwrite``. Raises InputError.
+    """Reject a folder that cannot be written, or that contains results unless ``overwrite``. Raises InputError.
 
-    The folder and the one that it is in may be new, but not in the root. ``otherwise`` is the option with which a
-    folder with results would not be refused.
+    The folder and its parent may be new, but not in the root. ``otherwise`` is the option that permits a folder with
+    results.
     """
     if path is None:
         return
@@ -72,7 +72,7 @@ def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: 
 
 
 def _check_folder(option: str, path: Path, folder: Path, new_folders: int) -> None:
-    """Refuse a path, a file in ``folder`` or this itself, that cannot be written; tried in the nearest that exists."""
+    """Reject a file in ``folder``, or the folder itself, that cannot be written; test in the nearest existing one."""
     here = folder.absolute()
     folders = [here, *here.parents]
     nearest = next(place for place in folders if os.path.exists(place))
@@ -100,7 +100,7 @@ def _check_folder(option: str, path: Path, folder: Path, new_folders: int) -> No
 
 
 class Results:
-    """Results of a command: one that cannot be written keeps no other from it.
+    """Output of a command; a file that cannot be written does not prevent others.
 
     Created before an FMU is loaded, since one may change the process's working folder, to which paths are relative.
     """
@@ -111,7 +111,7 @@ class Results:
         self.failed = False
 
     def write(self, path: Path | None, write: Callable[[Path], object]) -> None:
-        """Write one file or folder, if it is asked for."""
+        """Write one file or folder, if it is requested."""
         if path is None:
             return
         try:
@@ -123,6 +123,6 @@ class Results:
             self.written.append(path)
 
     def say(self) -> None:
-        """Print the paths of the files."""
+        """Print the paths of the written files."""
         if self.written:
             print(f"written: {', '.join(map(str, self.written))}")

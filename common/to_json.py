@@ -1,4 +1,4 @@
-"""Results as JSON: frozen dataclasses become objects, in the order of their fields."""
+"""Conversion of results to JSON: frozen dataclasses become objects, with fields in order."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ OMITTED = "omitted where empty"
 
 
 def optional(default: Any = None) -> Any:
-    """Declare a field of a dataclass that JSON omits where it is None or an empty mapping; {} by `optional({})`."""
+    """Declare a field of a dataclass that JSON omits if it is None or an empty mapping; {} by `optional({})`."""
     if isinstance(default, dict):
         return field(default_factory=dict, metadata={OMITTED: True})
     return field(default=default, metadata={OMITTED: True})
 
 
 def to_json(value: Any) -> Any:
-    """Convert dataclasses, mappings and sequences to JSON; infinite numbers, which it lacks, to "inf" and "-inf"."""
+    """Return dataclasses, mappings and sequences as JSON; infinite numbers become "inf" and "-inf"."""
     if is_dataclass(value):
         entries = {each: getattr(value, each.name) for each in fields(value)}
         return {

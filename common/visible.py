@@ -1,4 +1,4 @@
-"""Text of others on its way to a terminal, where none of its characters is an order, or to a spreadsheet's columns."""
+"""Untrusted text made safe for terminals, without control characters, and for columns of spreadsheets."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ BREAKS = re.compile("[\n\r\u2028\u2029]")
 
 
 def visible(text: str) -> str:
-    """Return the text with such characters as ``\\x1b`` or ``\\u202e``, which JSON reads, too."""
+    """Return the text with control characters as ``\\x1b`` or ``\\u202e``, which JSON can parse, too."""
     return CONTROLS.sub(_escape, text)
 
 
 def on_one_line(text: str) -> str:
-    """Return the text with its line breaks escaped, so that foreign names do not write separate lines."""
+    """Return the text with its line breaks escaped, so that foreign names cannot add lines."""
     return BREAKS.sub(_escape, text)
 
 
 def visible_line(text: str, longest: int) -> str:
-    """Return at most ``longest`` characters of it, on one line: lines and columns become blanks."""
+    """Return at most ``longest`` characters of the text on one line; line breaks and tabs become spaces."""
     line = visible(" ".join(text.split()))
     return line if len(line) <= longest else f"{line[:longest]} ..."
 
 
 def first_ones(lines: Sequence[str], limit: int, things: str = "") -> list[str]:
-    """Return at most ``limit`` lines, and one that counts the others, ``things``."""
+    """Return at most ``limit`` lines, and a line that counts the omitted ``things``."""
     more = f"and {len(lines) - limit} more {things}".rstrip()
     return [*lines[:limit], more] if len(lines) > limit else list(lines)
 
@@ -43,11 +43,11 @@ QUOTE = "'"  # what follows it is text to a spreadsheet
 
 
 def quote_formula(name: str) -> str:
-    """Return the name with a quote mark before it if it would be a formula, or would be read as a quoted one."""
+    """Return the name, preceded by a quote mark if a spreadsheet would read it as a formula or as quoted."""
     return f"{QUOTE}{name}" if name.lstrip(QUOTE).startswith(FORMULAS) else name
 
 
 def unquote_formula(text: str) -> str:
-    """Return the argument of `quote_formula`; a name that was never quoted is returned as it is."""
+    """Return the original name from the result of `quote_formula`; unquoted names are returned unchanged."""
     is_quoted = text.startswith(QUOTE) and text.lstrip(QUOTE).startswith(FORMULAS)
     return text[1:] if is_quoted else text

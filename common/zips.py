@@ -33,7 +33,7 @@ UNREADABLE = (
 
 
 def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
-    """Open a zip archive without unpacking it; raises InputError for anything else."""
+    """Open a zip archive without unpacking it. Raises InputError for anything else."""
     end = packed.rfind(END)
     if end >= 0:  # before zipfile makes an object of every entry; 65535 stands for as many or more
         ARCHIVE_ENTRIES.check(int.from_bytes(packed[end + 10 : end + 12], "little"), label, "archive")
@@ -59,7 +59,7 @@ def open_zip(packed: bytes, label: str) -> zipfile.ZipFile:
 
 
 def read_entry(archive: zipfile.ZipFile, name: str, label: str) -> bytes:
-    """Read one file of an archive; raises InputError where it is too large or damaged."""
+    """Return one file of an archive. Raises InputError if it is too large or damaged."""
     bound_of(name).check(archive.getinfo(name).file_size, label, name)
     try:
         return archive.read(name)
@@ -68,7 +68,7 @@ def read_entry(archive: zipfile.ZipFile, name: str, label: str) -> bytes:
 
 
 class ZippedFiles(Mapping[str, bytes]):
-    """The files of an archive by name, unpacked one by one whenever they are read."""
+    """Files of an archive by name, each unpacked when it is read."""
 
     def __init__(self, packed: bytes, label: str) -> None:
         self._packed = packed

@@ -1,1 +1,1 @@
-"""Processes that others start, which end with those, however these end."""
+"""Processes that end with the process that started them, however it ends."""

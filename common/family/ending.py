@@ -1,4 +1,4 @@
-"""The end of a process together with the one that started it, however that one ends."""
+"""End of a process together with the one that started it, however that one ends."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ IS_LINUX = sys.platform == "linux"
 
 
 def end_with_parent(parent: int) -> None:
-    """End this process when its ``parent``, a process number, ends; at once where that has ended before.
+    """End this process when its ``parent``, a process number, ends; at once if it has ended already.
 
-    Linux does so when the thread ends that started this process, which has to live as long as the process is to.
+    Linux ends it when the thread that started it ends, so that thread must live as long as this process.
     """
     if not IS_LINUX:
         end_after(parent)
@@ -29,7 +29,7 @@ def end_with_parent(parent: int) -> None:
 
 
 def end_after(process: int) -> None:
-    """Start a thread that ends this process when another one ends, whichever thread of that one started this."""
+    """Start a thread that ends this process when another process ends, whichever of its threads started this one."""
     threading.Thread(target=_wait_and_end, args=(process,), daemon=True).start()
 
 

@@ -1,6 +1,6 @@
-"""Keeper of the program of its arguments, which it kills with all that it has started once standard input ends.
+"""Keeper of the program in its arguments: kills it with all its descendants once standard input closes.
 
-A script for `programs`, in a separate session, which imports nothing of Perilune: it is to start in an instant.
+A script for `programs`, in a separate session. It imports nothing of Perilune, to start quickly.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ NOT_RUN = 126  # the exit status of a program that cannot be run, as shells have
 
 
 def main() -> None:
-    """Run the program, and end as it does."""
+    """Run the program, and exit with its status or signal."""
     try:
         process = subprocess.Popen(sys.argv[1:], stdin=subprocess.DEVNULL)
     except OSError as error:

@@ -1,4 +1,4 @@
-"""Programs of others, such as compilers: they end with this process, and so does what they have started."""
+"""Foreign programs, such as compilers, that end with this process, together with all that they have started."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ POLLING = 0.1  # s between looks whether a program is still needed
 
 
 class Ended(NamedTuple):
-    """Outcome of a program: its exit status, or a signal if negative, and its output."""
+    """Outcome of a program: its output and its exit status, or a signal if negative."""
 
     status: int
     output: str
@@ -25,9 +25,9 @@ class Ended(NamedTuple):
 def run_program(
     command: Sequence[str], folder: str | Path, is_needed: Callable[[], bool] = lambda: True
 ) -> Ended | None:
-    """Run a program in a folder to its end; None where it is killed because it is no longer needed (``is_needed``).
+    """Run a program in a folder to its end; return None if it is killed once ``is_needed`` returns False.
 
-    It has a separate session: Ctrl-C is for the process that waits for it. Raises OSError where it cannot be run.
+    It has a separate session, so that Ctrl-C only reaches the waiting process. Raises OSError if it cannot be run.
     """
     theirs, ours = os.pipe()  # is closed with this process, which ends the keeper and the program
     try:
@@ -59,7 +59,7 @@ def run_program(
 
 
 def _read(process: subprocess.Popen[bytes], is_needed: Callable[[], bool]) -> tuple[bytes, bytes]:
-    """Return what it writes until it ends. Raises TimeoutError where it is not needed any more."""
+    """Return the output of the program until it ends. Raises TimeoutError once it is not needed any more."""
     while True:
         try:
             return process.communicate(timeout=POLLING)

@@ -1,1 +1,1 @@
-"""Limits of the machine: a cache that cannot be used, errors of the operating system, memory."""
+"""Properties and limits of the machine: cache folder, errors of the operating system, memory."""

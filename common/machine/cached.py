@@ -1,7 +1,6 @@
-"""Files of the cache folder: read by their checksums, written whole, optional where they cannot be stored.
+"""Files of the cache folder: verified by checksum, written atomically, optional if they cannot be stored.
 
-A damaged file is written again, and a cache that cannot be used ends nothing: either is reported in one line for a
-process.
+A damaged file is written again, and an unusable cache is no error: either is reported once per process.
 """
 
 from __future__ import annotations
@@ -24,10 +23,10 @@ _writing = threading.Lock()  # of threads that make one file at once
 
 
 def cached_file(path: Path, make: Callable[[], bytes]) -> Path:
-    """Return a file of the cache, which ``make`` gives the content of where it is missing or damaged.
+    """Return a file of the cache; ``make`` returns its content if it is missing or damaged.
 
-    The same input has to give the same content. Where the cache cannot be written the file is a temporary one, for
-    this process. Raises OSError where that cannot be written either.
+    The same input must give the same content. If the cache is not writable, the file is a temporary one for this
+    process. Raises OSError if that cannot be written either.
     """
     if _has_checksum(path):
         return path
@@ -65,7 +64,7 @@ def warn_damaged(path: Path) -> None:
 
 
 def warn_unusable(folder: Path, error: OSError) -> None:
-    """Warn of a cache that cannot be used, once for all of its folders."""
+    """Warn of an unusable cache, once for all of its folders."""
     home = _cache_of(folder)
     warn_once(f"unusable {home}", f"cache {home}: {reason_of(error)}: done without; {remedy_of(error)}")
 
@@ -75,7 +74,7 @@ def _cache_of(folder: Path) -> Path:
 
 
 def warn_once(subject: str, text: str) -> None:
-    """Warn with a text, once in a process for a subject."""
+    """Warn with a text, once per process and subject."""
     if subject not in _warned:
         _warned.add(subject)
         warnings.warn(text, stacklevel=3)

@@ -1,4 +1,4 @@
-"""The commit that Perilune is of, where known: of a checkout, or of an installation by pip from a repository."""
+"""Commit of this Perilune, if known: of a checkout, or of an installation by pip from a repository."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ ORIGIN = "direct_url.json"  # what pip installed a package from (PEP 610)
 
 
 def known_commit() -> str:
-    """Return the commit of this Perilune, with ``, modified`` where the checkout differs from it; else nothing."""
+    """Return the commit of this Perilune, with ``, modified`` if the checkout differs from it; "" if unknown."""
     return commit_of_checkout(ROOT) if IS_CHECKOUT else commit_of_origin(distribution("perilune").read_text(ORIGIN))
 
 
 def commit_of_checkout(root: Path) -> str:
-    """Return the commit of a folder that is the top of a repository; nothing of others, and without git."""
+    """Return the commit of a folder that is the top of a repository; "" for others, and without git."""
     if not (root / ".git").exists():
         return ""
     command = ["git", "--no-optional-locks", "-C", str(root), "describe", "--always", "--exclude=*"]
@@ -33,6 +33,6 @@ def commit_of_checkout(root: Path) -> str:
 
 
 def commit_of_origin(origin: str | None) -> str:
-    """Return the commit in a document of `ORIGIN`; nothing where there is none, or it names no repository."""
+    """Return the commit in the content of an `ORIGIN` file; "" if it names no repository."""
     commit = json.loads(origin or "{}").get("vcs_info", {}).get("commit_id", "")
     return str(commit)[:DIGITS]

@@ -1,4 +1,4 @@
-"""Errors of the operating system in one line: the place, the reason by its own name, and a remedy that fits it."""
+"""Errors of the operating system in one line: place, the system's reason, and a suitable remedy."""
 
 from __future__ import annotations
 
@@ -29,21 +29,21 @@ OF_MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO, e
 
 
 def is_of_machine(error: OSError) -> bool:
-    """Return True if an error is one of the machine, whatever is written to it."""
+    """Return True if an error is caused by the machine, whatever is written to it."""
     return error.errno in OF_MACHINE
 
 
 def remedy_of(error: OSError) -> str:
-    """Return what to do about an error: by its number, for files."""
+    """Return the remedy for an error with files, according to its number."""
     return REMEDIES.get(error.errno or 0, OTHERWISE)
 
 
 def reason_of(error: OSError) -> str:
-    """Return the name that the system has for an error, without its number and its file."""
+    """Return the system's text for an error, without its number and its file."""
     return error.strerror or str(error)
 
 
 def line_of(error: OSError, subject: str | os.PathLike[str] = "") -> str:
-    """Return file, reason and remedy in one line; ``subject`` stands where an error names no file."""
+    """Return file, reason and remedy in one line; ``subject`` replaces a missing file name."""
     name = os.fsdecode(error.filename or subject)
     return f"{f'{name}: ' if name else ''}{reason_of(error)}; {remedy_of(error)}"
