@@ -1,1 +1,1 @@
-"""Linear stability of co-simulated systems: linearise, margins, describing functions, verdicts."""
+"""Linear stability of co-simulated systems: linearisation, margins, describing functions, verdicts."""

@@ -29,10 +29,10 @@ def disperse(
     replay: Callable[[str, int], str],
     tell: Callable[[int, int], None],
 ) -> dict[str, Dispersion]:
-    """Compute margins of every channel over the trials of a campaign, each linearised on its own flight.
+    """Compute margins of every channel over the trials of a campaign, each linearised about its own simulation.
 
-    The campaign's draws, seeds and streams are simulated at the point. ``cells`` is the memory that matters there;
-    ``replay`` gives the command that studies one trial of one loop again. Raises InputError, StudyError.
+    The campaign's draws, seeds and streams are used at the point. ``cells`` are the numbers of the relevant memory
+    cells; ``replay`` returns the command that studies one trial of one loop again. Raises InputError, StudyError.
     """
     tell(plan.campaign.trials, 0)
     (variant,) = plan.campaign.variants()
@@ -53,10 +53,9 @@ def disperse(
 
 
 def models_of_trial(study: PointStudy, plan: BatchPlan, trial: int, cells: Sequence[int]) -> dict[str, LoopModel]:
-    """Return the loop of every channel at the draws of one trial; ``study`` is of a system that has the campaign's
-    layer.
+    """Return the model of every channel's loop with the draws of one trial.
 
-    Raises InputError, StudyError.
+    ``study`` is of a system that has the campaign's layer. Raises InputError, StudyError.
     """
     study.bench.set(plan.parameters(study.prepared, trial))
     start = OperatingPoint(study.bench)
@@ -68,7 +67,7 @@ def models_of_trial(study: PointStudy, plan: BatchPlan, trial: int, cells: Seque
 
 
 def vary(plan: BatchPlan) -> list[str]:
-    """Return the parameters that trials of a campaign set."""
+    """Return the names of the parameters that trials of a campaign set."""
     (variant,) = plan.campaign.variants()
     prepared = plan.prepare(variant)
     return sorted(plan.parameters(prepared, 0))

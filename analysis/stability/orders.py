@@ -1,7 +1,7 @@
-"""Both orders of a study whose loops pass an FMU with undeclared dependencies: without its feedthrough, and with it.
+"""Both orders of a study whose loops contain an FMU with undeclared dependencies: without and with its feedthrough.
 
-A component without feedthrough is stepped with the inputs of t_n, one with it with those of t_(n+1). What an FMU makes
-of its inputs within a step lies between the two, so their margins bracket the truth as far as the step decides it.
+A component without feedthrough is stepped with the inputs of t_n, one with it with those of t_(n+1). The actual effect
+of inputs within a step is between the two, so their margins bracket the true ones as far as they depend on the step.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ Judgeable = LoopReport | JointReport | Dispersion
 
 
 def in_both_orders(request: Request, make: Callable[[Request], StabilityStudy]) -> StabilityStudy:
-    """Run the study ``make`` of a request, in both orders where a loop passes an undeclared FMU.
+    """Run the study ``make`` of a request, in both orders if a loop contains an undeclared FMU.
 
-    Of several such FMUs the extremes are studied: none of them with feedthrough, as simulated, and all. Where all would
+    With several such FMUs the extremes are studied: none of them with feedthrough, as simulated, and all. If all would
     close an algebraic loop, those at which the initialisation cuts it stay without: a component that cannot be direct
-    is stepped as it must be. Sweeps and nonlinear elements are those of the simulated order. Where no flight with
+    is stepped as it must be. Sweeps and nonlinear elements are those of the simulated order. If no simulation with
     feedthrough can be studied, verdicts without it are withheld. Raises as ``make`` does for the request.
     """
     report = make(request)
@@ -66,7 +66,7 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityStudy]) 
 
 
 def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> bool:
-    """Return True if components can have feedthrough together without closing an algebraic loop."""
+    """Return True if components can all have feedthrough without closing an algebraic loop."""
     options = subject.options.but(feedthrough=(*subject.options.chosen["feedthrough"], *names))
     trial = replace(subject, options=options)
     try:
@@ -78,7 +78,7 @@ def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> 
 
 
 def _on_loops(prepared: PreparedSystem) -> set[str]:
-    """Return the components whose outputs return to them over connections."""
+    """Return the components whose outputs return to them through connections."""
     readers: dict[str, set[str]] = {}
     for link in prepared.network.links():
         start = origin(prepared.network, link).component
@@ -99,7 +99,7 @@ def _on_loops(prepared: PreparedSystem) -> set[str]:
 
 
 def _merge_verdicts(report: StabilityStudy, orders: Orders) -> StabilityStudy:
-    """Return the report with the requirements of both orders, where there are two."""
+    """Return the report with the requirements of both orders, if there are two."""
     if orders.report is None:
         return replace(report, orders=orders)
     loops = {(loop.name, loop.point): loop for loop in orders.report.loops}
@@ -116,7 +116,7 @@ def _merge_verdicts(report: StabilityStudy, orders: Orders) -> StabilityStudy:
 
 
 def _withhold(lost: Unstudied, other: StabilityStudy) -> Unstudied:
-    """Withhold a loop that fails without figures in one order only."""
+    """Withhold the verdict on a loop that fails without figures in only one order."""
     here = (lost.name, lost.point)
     fails = any((each.name, each.point) == here and each.verdict is MarginVerdict.FAIL for each in other.unstudied)
     unstable = any((loop.name, loop.point) == here and loop.margins.unstable for loop in other.loops)
@@ -126,8 +126,10 @@ def _withhold(lost: Unstudied, other: StabilityStudy) -> Unstudied:
 
 
 def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
-    """Return a loop with the requirements of both orders; where the responses differ in the
-    other order, nothing passes."""
+    """Return a loop with the requirements of both orders.
+
+    If the linearised and measured responses differ in the other order, nothing passes.
+    """
     note = "" if other is None or not other.doubted else DIFFERENT
     judged = replace(loop, requirements=_both(loop, other, note))
     if loop.dispersion is not None:
@@ -137,7 +139,7 @@ def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
 
 
 def _both(one: Judgeable, another: Judgeable | None, note: str = "") -> tuple[MarginRequirement, ...]:
-    """Return the requirements of one order, each with that of the other."""
+    """Return the requirements of one order, each with that of the other order."""
     by_title = {} if another is None else {other.title: other for other in another.requirements}
     paired = []
     for item in one.requirements:

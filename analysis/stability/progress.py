@@ -1,4 +1,4 @@
-"""Progress of a study: counted in its steps, by this process and others, and shown on a terminal."""
+"""Progress of a study: counted in steps, of this process and others, and shown on a terminal."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _pipe: Connection | None = None  # of a worker process
 
 @contextmanager
 def show_progress() -> Iterator[Tell]:
-    """Yield a bar on standard error during a study, if that is a terminal."""
+    """Yield a progress bar on standard error during a study, if that is a terminal."""
     with progress_bar(total=0, unit="step") as bar:
 
         def tell(expected: int, done: int) -> None:
@@ -30,10 +30,9 @@ def show_progress() -> Iterator[Tell]:
 
 @contextmanager
 def listen(tell: Tell) -> Iterator[Connection]:
-    """Yield a pipe for worker processes, whose steps are passed on; each starts with `begin` and it, and ends in the
-    block.
+    """Yield a pipe for the steps of worker processes, each of which calls `begin` with it and ends in the block.
 
-    It has no lock, which a worker that is killed would keep: so few bytes are written at once.
+    It has no lock, which a killed worker would keep: writes of few bytes are atomic.
     """
     reader, writer = get_context("loky").Pipe(duplex=False)
 

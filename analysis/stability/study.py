@@ -1,4 +1,4 @@
-"""A whole study of a system's stability: its points, loops, sweeps and campaign, in one report."""
+"""Complete study of a system's stability: its points, loops, sweeps and campaign, in one report."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ Replay = Callable[[Request, str, int], str]  # the command that studies a loop a
 
 @dataclass
 class PointResult:
-    """Result of the study of one point; ``cells`` is the memory that matters there, None without a linear model."""
+    """Result of the study of one point; ``cells`` are the relevant memory cells, None without a linear model."""
 
     report: PointReport
     loops: list[LoopReport]
@@ -45,11 +45,11 @@ class PointResult:
 
 
 def study(request: Request, replay: Replay, workers: int | None = None) -> StabilityStudy:
-    """Study everything, points side by side in ``workers`` processes (None: one per processor), in both orders if need
-    be.
+    """Study everything, with points in parallel in ``workers`` processes (None: one per processor).
 
-    The report does not depend on their number. ``replay`` is a function that other processes can import. Raises
-    InputError, and StudyError where no flight reaches a point.
+    Both orders of FMUs with undeclared dependencies are studied if necessary. The report does not depend on the number
+    of workers. ``replay`` is a function that other processes can import. Raises InputError, and StudyError if no
+    simulation reaches a point.
     """
     with chdir(Path.cwd()), show_progress() as report:  # an FMU may change the folder
         count = worker_count(workers)
@@ -98,7 +98,7 @@ def _study(request: Request, replay: Replay, count: int, tell: Tell) -> Stabilit
 
 
 def study_point(request: Request, replay: Replay, point: PointDeclaration, tell: Tell) -> PointResult:
-    """Study one point with all its loops: a step each, one for the linear model. Raises InputError, StudyError."""
+    """Study one point with all its loops; progress counts each, and the linear model. Raises InputError, StudyError."""
     subject = Subject(request.system, request.options)
     loops, limits = request.loops_at(point), request.declaration.limits
     with PointStudy(subject, point, loops) as work:
@@ -140,7 +140,7 @@ def study_point(request: Request, replay: Replay, point: PointDeclaration, tell:
 
 
 def _loop(request: Request, subject: Subject, point: PointStudy, channel: Channel) -> LoopReport:
-    """Study one channel by linearisation and frequency-response test, with its amplitudes and elements."""
+    """Study one channel by linearisation and frequency-response test, with amplitudes and nonlinear elements."""
     work = point.loop_study(channel, request.declaration.limits)
     work.measure()
     work.refuse_what_is_no_loop()
@@ -174,7 +174,7 @@ def _vary(
     unstudied: list[Unstudied],
     tell: Tell,
 ) -> None:
-    """Add results that repeat the linearisation with a change: the step, the campaign."""
+    """Add results of repeated linearisations: other communication steps, the trials of the campaign."""
     loops = [loop for loop in request.loops_at(point) if any(report.loop == loop.name for report in reports)]
     steps = vary_step(subject, point, loops, step, cells, [report.name for report in reports], tell)
     spread: dict[str, Dispersion] = {}

@@ -36,9 +36,9 @@ def run_sweep(
     cells: Sequence[int],
     tell: Callable[[int, int], None],
 ) -> SweepReport:
-    """Compute margins of a loop's first channel, at values in geometric order where they are positive.
+    """Compute margins of a loop's first channel over a parameter, at geometrically spaced values if positive.
 
-    ``cells`` is the memory that matters at the point. Raises StudyError where a flight breaks off.
+    ``cells`` are the relevant memory cells at the point. Raises StudyError if a simulation fails.
     """
 
     @cache
@@ -65,7 +65,7 @@ def run_sweep(
 
 
 def _unit(prepared: PreparedSystem, parameter: str) -> str | None:
-    """Return the unit of ``component.variable``; None where there is no such parameter, which the settings refuse."""
+    """Return the unit of ``component.variable``; None for unknown names, which the settings reject."""
     for component, fmu in prepared.network.fmus.items():
         variable = fmu.variables.get(parameter.removeprefix(f"{component}."))
         if parameter.startswith(f"{component}.") and variable is not None:
@@ -76,8 +76,8 @@ def _unit(prepared: PreparedSystem, parameter: str) -> str | None:
 def _crossings(at: At, low: float, high: float, wanted: dict[MarginQuantity, float]) -> list[SweepCrossing]:
     """Return the limits crossed between two neighbouring values.
 
-    Where the loop becomes unstable in between, limits are searched on the stable side only: a margin that is still
-    above its limit there does not reach it, it ends.
+    If the loop becomes unstable in between, limits are searched on the stable side only: a margin still above its limit
+    there does not reach it, but ends.
     """
     crossings: list[SweepCrossing] = []
     if at(low).unstable and at(high).unstable:
@@ -100,7 +100,7 @@ def _crossings(at: At, low: float, high: float, wanted: dict[MarginQuantity, flo
 
 
 def _bisect(is_low: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
-    """Return neighbouring values between which a condition that holds at ``low`` and not at ``high`` changes."""
+    """Return neighbouring values between which a condition changes that is true at ``low`` but not at ``high``."""
     while high - low > CROSSING * max(abs(low), abs(high)):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if is_low(middle) else (low, middle)
@@ -118,7 +118,7 @@ def vary_step(
 ) -> dict[str, tuple[StepMargins, ...]]:
     """Compute margins of the channels ``names`` with half, the same and twice the communication step ``step`` (s).
 
-    ``cells`` is the memory that matters at this point. Where there are no margins the note says why.
+    ``cells`` are the relevant memory cells at this point. If there are no margins the note explains why.
     """
     tell(len(FACTORS), 0)
     by_factor = []

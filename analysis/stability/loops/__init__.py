@@ -1,1 +1,1 @@
-"""The mathematics of a control loop, free of FMI: responses, margins, describing functions, limit cycles."""
+"""Mathematics of a control loop, independent of FMI: responses, margins, describing functions, limit cycles."""

@@ -1,7 +1,7 @@
 """Frequency responses as functions: interpolated between measured lines, or sampled on a grid that resolves them.
 
-A response takes angular frequencies (rad/s, shape (n,)) and gives complex values of L, minus the loop's transfer,
-of shape (n,), or (n, m, m) for m channels.
+A response is a function of angular frequencies (rad/s, shape (n,)) that returns complex values of L, minus the loop's
+transfer, of shape (n,), or (n, m, m) for m channels.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _ROUNDING = 1e-9  # distance below which closest approaches are noise
 
 
 class Remembered:
-    """A response that asks another one for each frequency (rad/s) once."""
+    """Response that caches the values of another one by frequency (rad/s)."""
 
     def __init__(self, response: Response) -> None:
         self._response = response
@@ -40,28 +40,28 @@ class Remembered:
 
 
 def cache_response(response: Response) -> Response:
-    """Return the response with a memory, for several readers of the same curve; one that has a memory is left as it
-    is."""
+    """Return the response with a cache, for several uses of one curve; a cached response is returned unchanged."""
     return response if isinstance(response, Remembered) else Remembered(response)
 
 
 def quotient(value: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Return one response over another: 1 where both are 0, inf where the reference alone is."""
+    """Return one response over another: 1 where both are 0, inf where only the reference is."""
     silent = reference == 0.0
     same = np.where(value == 0.0, 1.0, np.inf)
     return np.where(silent, same, value / np.where(silent, 1.0, reference))
 
 
 def interpolate(frequency: np.ndarray, value: np.ndarray, sample_period: float) -> Response:
-    """Return a response through measured lines: at ``frequency`` (rad/s, increasing, below pi/T) it has ``value``.
+    """Return a response through measured lines: ``value`` at ``frequency`` (rad/s, increasing, below pi/T).
 
-    Log gain is a cubic spline of log tan(w T/2), the logarithm of Tustin's frequency, in which a sampled loop has the
-    straight asymptotes of a continuous one, the zero at z = -1 of a held plant included; unwrapped phase is one of log
-    w, in which a delay is as smooth near the Nyquist frequency as elsewhere. Of a double integrator with hold, lead and
-    one sample of delay, seen through 10 odd lines per decade, this loses at most 0.02 dB and 0.02 deg (20 lines: 0.003
-    dB, 0.001 deg); with both against log w 3 dB near Nyquist, with both against the other 8 deg, with monotone splines
-    (PCHIP) 0.01 dB and 0.14 deg. Neighbouring lines must turn less than pi, and a resonance needs lines within its
-    width. Raises ValueError for lines that cannot be joined, and when called outside of them.
+    Log gain is a cubic spline over log tan(w T/2), the logarithm of Tustin's frequency, in which a sampled loop has the
+    straight asymptotes of a continuous one, including the zero at z = -1 of a held plant. Unwrapped phase is a cubic
+    spline over log w, in which a delay is as smooth near the Nyquist frequency as elsewhere. For a double integrator
+    with hold, lead and one sample of delay, measured at 10 odd lines per decade, the error is at most 0.02 dB and 0.02
+    deg (20 lines: 0.003 dB, 0.001 deg). With both over log w it is 3 dB near Nyquist, with both over the other 8 deg,
+    with monotone splines (PCHIP) 0.01 dB and 0.14 deg. The phase must turn by less than pi between neighbouring lines,
+    and a resonance needs lines within its width. Raises ValueError for lines that cannot be interpolated, and for
+    frequencies outside them.
     """
     frequency, value = np.asarray(frequency, dtype=float), np.asarray(value, dtype=complex)
     if frequency.ndim != 1 or frequency.shape != value.shape or len(frequency) < 4:
@@ -109,10 +109,10 @@ def dense(
 ) -> FrequencyResponse:
     """Return the response of one channel on a grid from ``low`` to ``high`` (rad/s) that resolves it.
 
-    Between neighbours the complex logarithm changes by at most ``step`` (1: a factor e, or one rad), unless they are at
-    a pole or zero on the unit circle. Unless ``refine`` is off, the grid is much finer where L comes nearest to the
-    unit circle, the negative real axis or -1. A resonance narrower than the first grid, about 4 %, can be missed:
-    ``include`` the frequencies of lightly damped poles. Raises ValueError when ``most`` points do not resolve the
+    Between neighbours the complex logarithm changes by at most ``step`` (1: a factor e, or one rad), except next to a
+    pole or zero on the unit circle. Unless ``refine`` is off, the grid is much finer where L is closest to the unit
+    circle, the negative real axis or -1. A resonance narrower than the first grid, about 4 %, can be missed:
+    ``include`` the frequencies of lightly damped poles. Raises ValueError if ``most`` points do not resolve the
     response.
     """
     frequency = base_grid(low, high, include)
@@ -147,7 +147,7 @@ def _halve(
 
 
 def _refine(response: Response, frequency: np.ndarray, value: np.ndarray, most: int) -> FrequencyResponse:
-    """Refine the curve around every closest approach, which every crossing is, and so is a touch without a crossing."""
+    """Refine the curve around every closest approach, which includes crossings and contacts without a crossing."""
     for _ in range(_HALVINGS):
         gain = np.abs(np.log(np.maximum(np.abs(value), _SILENT)))
         phase = np.abs(np.angle(-value))

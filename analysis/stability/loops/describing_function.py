@@ -1,12 +1,12 @@
-"""Sinusoidal-input describing functions N(a) of the nonlinear elements of actuators.
+"""Sinusoidal-input describing functions N(a) of nonlinear elements of actuators.
 
-An element driven by a sin(wt) puts out a periodic signal; N(a) is the complex ratio of that signal's fundamental to the
-input. With y(theta) the output for the input a sin(theta), over one cycle
+An element with the input a sin(wt) has a periodic output; N(a) is the complex ratio of that output's fundamental to the
+input. With the output y(theta) for the input a sin(theta), over one cycle
 
     N(a) = 1/(pi a) integral of y(theta) (sin(theta) + j cos(theta)) d theta.
 
-None of them here depends on frequency. The imaginary part is negative where the output lags (hysteresis) and 0 where it
-depends on the present input alone. All are odd: the mean of the input is taken to be 0.
+None of the elements here depends on frequency. The imaginary part is negative if the output lags (hysteresis) and 0 if
+it depends on the current input alone. All are odd: the mean of the input is assumed to be 0.
 
 Source: Gelb and Vander Velde 1968, Multiple-Input Describing Functions and Nonlinear System Design, section 2.3
 (piecewise-linear elements and their saturation function f) and table B.1.
@@ -28,15 +28,15 @@ INTEGRAL = "unit of the input times s"
 
 @dataclass(frozen=True)
 class ElementKind:
-    """One kind of element.
+    """Kind of nonlinear element.
 
-    ``gain`` gives N (complex, shape (n,)) for amplitudes (shape (n,), positive) and complete parameters;
-    ``required`` and ``optional`` the parameters with the unit each has, ``defaults`` the values of the latter;
-    ``positive`` names those that may not be 0 (none may be negative). ``check`` says what is wrong with parameters
-    that are valid one by one, or "". ``kinks`` lists the amplitudes, ascending, at which N is not smooth, up to
-    ``farthest``, beyond which N is as good as that of a linear element (inf: N goes to 0). ``output`` is the
-    largest output, inf without limit, so that abs(N) <= 4 output/(pi a). ``of_integral``: the amplitude is that of the
-    input integrated over time. ``note`` says what is assumed.
+    ``gain`` returns N (complex, shape (n,)) for amplitudes (shape (n,), positive) and complete parameters. ``required``
+    and ``optional`` are the parameters with the unit of each, ``defaults`` the values of the latter; ``positive`` names
+    those that may not be 0 (none may be negative). ``check`` returns what is wrong with a combination of individually
+    valid parameters, or "". ``kinks`` lists the amplitudes, ascending, at which N is not smooth, up to ``farthest``,
+    beyond which N is practically constant (inf: N tends to 0). ``output`` is the largest output, inf without limit, so
+    that abs(N) <= 4 output/(pi a). ``of_integral``: the amplitude is that of the integral of the input over time.
+    ``note`` states the assumptions.
     """
 
     gain: Callable[[np.ndarray, Parameters], np.ndarray]
@@ -53,7 +53,7 @@ class ElementKind:
 
 
 def _share(threshold: float | np.ndarray, amplitude: np.ndarray) -> np.ndarray:
-    """Return sqrt(1 - (threshold/amplitude)^2) where the amplitude reaches the threshold, else 0."""
+    """Return sqrt(1 - (threshold/amplitude)^2) if the amplitude exceeds the threshold, else 0."""
     ratio = np.minimum(abs(threshold) / amplitude, 1.0)
     return np.sqrt((1.0 - ratio) * (1.0 + ratio))
 
@@ -77,7 +77,7 @@ def _quantiser(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     step = parameters["step"]
 
     def gain(a: float) -> float:
-        """Return a sum of relays, each one step high, that switch half-way between two levels."""
+        """Return N at one amplitude: a sum of relays, each one step high, that switch half-way between levels."""
         thresholds = (np.arange(math.floor(a / step + 0.5)) + 0.5) * step
         ratio = np.minimum(thresholds / a, 1.0)
         return 4.0 * step / (math.pi * a) * float(np.sum(np.sqrt((1.0 - ratio) * (1.0 + ratio))))
@@ -86,12 +86,14 @@ def _quantiser(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
 
 
 def _staircase(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
-    """Return N of pulses that follow the integral of the demand in steps of a least pulse, at most a whole one late: a
-    staircase of relays whose thresholds are a least pulse apart, each with half of one as its hysteresis."""
+    """Return N of pulses that follow the integral of the demand in steps of a least pulse, at most one step late.
+
+    It is a staircase of relays with thresholds one least pulse apart, each with a hysteresis of half a least pulse.
+    """
     minimum = parameters["least_pulse"]
 
     def gain(a: float) -> complex:
-        """Return half the sum over relays on both sides of the middle, switched at i - 1/2 and i + 1/2 least pulses."""
+        """Return N at one amplitude: half the sum over relays on both sides of 0, switched at i - 1/2 and i + 1/2."""
         steps = np.arange(-math.floor(a / minimum - 0.5), math.floor(a / minimum - 0.5) + 1) * minimum
         if not len(steps):
             return 0.0 + 0.0j
@@ -188,7 +190,7 @@ ELEMENTS: dict[str, ElementKind] = {
 
 
 def complete_parameters(kind: str, parameters: Parameters) -> dict[str, float]:
-    """Return the parameters of an element as floats, defaults included; ValueError says in one line what is wrong."""
+    """Return the parameters of an element as floats, including defaults. Raises ValueError with one line."""
     if kind not in ELEMENTS:
         raise ValueError(f"{kind!r} is not a kind of element; there are {', '.join(ELEMENTS)}")
     element = ELEMENTS[kind]
@@ -218,9 +220,9 @@ def complete_parameters(kind: str, parameters: Parameters) -> dict[str, float]:
 
 
 def describing_function(kind: str, amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
-    """Return N(a), complex, for amplitudes of the input (any shape, positive); 0 where the element has no output.
+    """Return N(a), complex, for amplitudes of the input (any shape, positive); 0 if the element has no output.
 
-    The unit is that of the output per unit of the input. ValueError for a wrong kind, parameter or amplitude.
+    The unit is that of the output per unit of the input. Raises ValueError for a wrong kind, parameter or amplitude.
     """
     complete = complete_parameters(kind, parameters)
     values = np.asarray(amplitude, dtype=float)
@@ -230,7 +232,7 @@ def describing_function(kind: str, amplitude: np.ndarray, parameters: Parameters
 
 
 def amplitude_range(kind: str, parameters: Parameters) -> tuple[float, float]:
-    """Return amplitudes between which N(a) is worth a figure: around its kinks (one level of output, without any)."""
+    """Return the least and the greatest amplitude for a figure of N(a), around its kinks (or one level of output)."""
     complete = complete_parameters(kind, parameters)
     element = ELEMENTS[kind]
     kinks = element.kinks(complete)

@@ -1,4 +1,4 @@
-"""Disk margin of several loops at once: how much all gains and phases may change together, each in its own way."""
+"""Disk margin of several loops at once: how far all gains and phases may change simultaneously and independently."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _MOST = 3000
 
 
 class JointDisk(NamedTuple):
-    """The least disk margin, what it guarantees in every channel at once, and the margin over frequency."""
+    """Least disk margin, the gain and phase that it permits in all channels at once, and the margin over frequency."""
 
     alpha: float
     gain: float  # the factor up, and 1/factor down
@@ -27,12 +27,12 @@ class JointDisk(NamedTuple):
 
 
 def disk_margins(value: np.ndarray) -> np.ndarray:
-    """Return the disk margin (skew 0) of each L in ``value`` (n, m, m): one over the structured singular value of S -
-    I/2.
+    """Return the disk margin (skew 0) of each L in ``value`` (n, m, m).
 
-    Every channel is scaled by a separate complex number. The singular value is its upper bound by scaling, exact up to
-    three channels, as in python-control's `disk_margins`, which does not take frequency data. Seiler, Packard and
-    Gahinet, "An introduction to disk margins", IEEE Control Systems Magazine 40 (2020).
+    It is the inverse structured singular value of S - I/2, with a separate complex scaling of every channel. The
+    singular value is its upper bound by scaling, exact up to three channels, as in python-control's `disk_margins`,
+    which does not accept frequency data. Seiler, Packard and Gahinet, "An introduction to disk margins", IEEE Control
+    Systems Magazine 40 (2020).
     """
     identity = np.eye(value.shape[-1])
     bounds = upper_bound(np.linalg.inv(identity + value) - 0.5 * identity)
@@ -43,8 +43,8 @@ def disk_margins(value: np.ndarray) -> np.ndarray:
 def joint_disk_margin(response: Response, low: float, high: float, *, include: Iterable[float] = ()) -> JointDisk:
     """Return the disk margin of the channels of ``response`` (n, m, m) between ``low`` and ``high`` (rad/s).
 
-    It bounds the permitted perturbations only where the closed loop is stable. ``include`` holds the frequencies of
-    lightly damped poles. Raises ValueError when the margin is not resolved over frequency.
+    It bounds the permitted perturbations only if the closed loop is stable. ``include`` are the frequencies of lightly
+    damped poles. Raises ValueError if the margin is not resolved over frequency.
     """
     margins = cache_response(lambda angular: disk_margins(response(angular)))
     frequency = base_grid(low, high, include)

@@ -23,17 +23,17 @@ def encirclements(
     undamped: Iterable[float] = (),
     include: Iterable[float] = (),
 ) -> int:
-    """Count counter-clockwise encirclements of -1 by L, or of 0 by det(I + L), as z runs along the whole unit circle.
+    """Count counter-clockwise encirclements of -1 by L, or of 0 by det(I + L), over the whole unit circle of z.
 
-    P open-loop poles outside of the unit circle and N encirclements leave P - N closed-loop poles outside. Open-loop
-    poles on the circle are passed on the outside, so they are not among P: integrators at z = 1, and ``undamped`` ones
-    at frequencies in rad/s (each as often as its multiplicity). ``poles_at_one`` is the number of poles of det(I + L)
-    at z = 1; without it, it is read off the slope of the gain at ``low`` (rad/s), which must lie where the loop gain of
-    every integrator is well above 1. ``high`` should be the Nyquist frequency. ``include`` holds the frequencies of
+    P open-loop poles outside the unit circle and N encirclements leave P - N closed-loop poles outside. The contour
+    passes open-loop poles on the circle on the outside, so they are not among P: integrators at z = 1, and ``undamped``
+    ones at frequencies in rad/s (each repeated by its multiplicity). ``poles_at_one`` is the number of poles of det(I +
+    L) at z = 1; by default it follows from the slope of the gain at ``low`` (rad/s), where the loop gain of every
+    integrator must be well above 1. ``high`` should be the Nyquist frequency. ``include`` are the frequencies of
     lightly damped poles.
 
-    Raises ValueError when the phase between ``low`` and ``high`` is not settled: the closed loop is marginal, ``low``
-    is not low enough, or there are other poles on the unit circle.
+    Raises ValueError if the phase between ``low`` and ``high`` is not settled: the closed loop is marginal, ``low`` is
+    not low enough, or there are other poles on the unit circle.
     """
     undamped = np.sort(np.asarray([*undamped], dtype=float))
     response = cache_response(response)
@@ -94,7 +94,7 @@ def _poles_at_one(response: Response, difference: Response, low: float, given: i
 
 
 def _slope(value: np.ndarray) -> float:
-    """Return the slope of the log gain over log frequency, from values one octave apart."""
+    """Return the slope of log gain over log frequency, from values one octave apart."""
     size = np.abs(value)
     if size[0] == 0.0 or size[1] == 0.0:
         return 0.0

@@ -1,4 +1,4 @@
-"""Growth of what a disturbance has changed, where it is steady: the sign of an unstable loop in a flight."""
+"""Steady growth of the effect of a disturbance, which indicates an unstable loop in a simulation."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ HUGE = 1e100  # the size of a deviation that overflows, whether or not it has gr
 
 
 def steady_growth(deviation: np.ndarray) -> float | None:
-    """Return the factor a sample by which a deviation (n,) has grown over its last three quarters.
+    """Return the factor per sample by which a deviation (n,) has grown over its last three quarters.
 
-    None where it has not grown, or not by the same factor from quarter to quarter.
+    None if it has not grown, or not by the same factor from quarter to quarter.
     """
     width = len(deviation) // WINDOWS
     if width < 1 or not np.all(np.isfinite(deviation)):
@@ -28,7 +28,7 @@ def steady_growth(deviation: np.ndarray) -> float | None:
 
 
 def growth_to_overflow(deviation: np.ndarray) -> float | None:
-    """Return the factor a sample of a deviation (n,) up to an overflow; None where it neither grew nor got huge."""
+    """Return the factor per sample by which a deviation (n,) grew until an overflow; None if it hardly changed."""
     finite = deviation[np.isfinite(deviation)]
     rate = steady_growth(finite)
     if rate is not None or not finite.size:

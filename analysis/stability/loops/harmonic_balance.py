@@ -1,12 +1,12 @@
 """Limit cycles by harmonic balance: the amplitudes and frequencies at which 1 + N(a) L(jw) = 0.
 
-L is the linear rest of the loop (minus its transfer without the element), for a sampled loop L(e^{jwT}). The method
-holds as far as L filters the harmonics of the element's output, and a sampled loop's period is many samples.
+L is the linear rest of the loop (minus its transfer without the element), for a sampled loop L(e^{jwT}). The method is
+valid as far as L filters the harmonics of the element's output, and a sampled loop's period is many samples.
 
-Stability has two parts. The pair of poles on the axis must move left when the amplitude grows (Loeb 1956; Gelb and
-Vander Velde 1968, chapter 3): with 1 + N(a) L(s) = 0 along a and s, ds/da = -(N'/N)/(L'(s)/L). And no other pole of
-the loop with the gain N(a) may be unstable, which Loeb's local rule does not see: that is counted from the gains at
-which a pair crosses the axis, taking that the loop is stable for some gain.
+Stability has two conditions. The pair of poles on the axis must move left when the amplitude grows (Loeb 1956; Gelb and
+Vander Velde 1968, chapter 3): with 1 + N(a) L(s) = 0 along a and s, ds/da = -(N'/N)/(L'(s)/L). And no other pole of the
+loop with the gain N(a) may be unstable, which Loeb's local rule does not detect: it is counted from the gains at which
+a pair crosses the axis, assuming that the loop is stable for some gain.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Response = Callable[[np.ndarray], np.ndarray]
 
 
 class Balance(NamedTuple):
-    """One solution: amplitude at the element's input (its unit), angular frequency (rad/s), stable or not."""
+    """Solution: amplitude at the element's input (in its unit), angular frequency (rad/s), and stability."""
 
     amplitude: float
     frequency: float
@@ -33,7 +33,7 @@ class Balance(NamedTuple):
 
 
 class _Loop:
-    """N and L as functions of one number, and L on a grid of frequencies."""
+    """N and L as functions of one variable, and L on a grid of frequencies."""
 
     def __init__(self, response: Response, frequency: np.ndarray, kind: str, parameters: dict[str, float]) -> None:
         self.response, self.frequency = response, frequency
@@ -52,7 +52,7 @@ class _Loop:
         return complex(self.gains(np.array([amplitude]))[0])
 
     def critical(self, turn: complex) -> list[tuple[float, complex]]:
-        """Return frequencies, and turn L there, at which turn L is real and negative."""
+        """Return the frequencies at which turn * L is real and negative, and turn * L there."""
         imaginary = (turn * self.curve).imag
         points = []
         for i in np.flatnonzero((imaginary[1:] < 0.0) != (imaginary[:-1] < 0.0)):
@@ -72,7 +72,7 @@ class _Loop:
         return complex(np.log(self.linear(upper) / self.linear(lower))) / (upper - lower)
 
     def amplitudes(self, least: float, largest: float) -> np.ndarray:
-        """Return amplitudes, ascending, with every kink and dense after it, where abs(L) is between the two values."""
+        """Return ascending amplitudes for abs(L) from ``least`` to ``largest``, with kinks and dense after each."""
         kinks = self.element.kinks(self.parameters)
         output = self.element.output(self.parameters)
         last = self.element.farthest(self.parameters)
@@ -109,7 +109,7 @@ class _Loop:
 
 
 def _real_balances(loop: _Loop) -> list[tuple[float, float]]:
-    """Solve for real N: the phase of L alone gives the frequencies, then the size of N the amplitudes."""
+    """Solve for real N: frequencies from the phase of L alone, then amplitudes from the size of N."""
     balances = []
     for frequency, value in loop.critical(1.0 + 0j):
         wanted = 1.0 / abs(value)
@@ -141,8 +141,7 @@ def _real_balances(loop: _Loop) -> list[tuple[float, float]]:
 
 
 def _crossing_segments(first: np.ndarray, second: np.ndarray) -> list[tuple[int, int]]:
-    """Return indices of intersecting segments of two complex polylines. A jump of the angle by over pi is no
-    segment."""
+    """Return indices of intersecting segments of two complex polylines; angle jumps of over pi are not segments."""
     p, r = first[:-1], np.diff(first)
     q, s = second[:-1], np.diff(second)
     segments = []
@@ -190,12 +189,12 @@ def _complex_balances(loop: _Loop) -> list[tuple[float, float]]:
 def predict(
     response: Response, low: float, high: float, element: str, parameters: Parameters, points: int = 4000
 ) -> list[Balance]:
-    """Return all solutions of 1 + N(a) L = 0 with low < w < high (rad/s), by amplitude; [] where there is none.
+    """Return all solutions of 1 + N(a) L = 0 with low < w < high (rad/s), by amplitude; [] if there are none.
 
-    ``response`` gives L for angular frequencies, ``element`` is a kind of ``ELEMENTS``. The grid has ``points``
-    frequencies in even ratios: two crossings between neighbours are missed. ``high`` itself is left out, since at the
-    Nyquist frequency a sample has one phase of the sine only and N has no meaning. ValueError for wrong parameters or
-    frequencies.
+    ``response`` returns L for angular frequencies, ``element`` is a kind in ``ELEMENTS``. The grid has ``points``
+    logarithmically spaced frequencies: two crossings between neighbours are missed. ``high`` itself is excluded, since
+    at the Nyquist frequency a sample has only one phase of the sine and N has no meaning. Raises ValueError for wrong
+    parameters or frequencies.
     """
     complete = complete_parameters(element, parameters)
     if not (0.0 < low < high and math.isfinite(high)):

@@ -1,8 +1,8 @@
-"""The margins of one loop as values that can be compared: unstable is worse than any number, unlimited better.
+"""Comparable values of the margins of one loop: unstable is worse than any number, unlimited is better.
 
 Sizes are in the unit in which margins are limited and shown: dB up or down, deg lag or lead, s, 1. The size of every
-margin of an unstable loop is `UNSTABLE`, that of a margin without a crossing `UNLIMITED`; both are floats that compare,
-sort and enter minima and order statistics as they should.
+margin of an unstable loop is `UNSTABLE`, that of a margin without a crossing `UNLIMITED`; both are floats that can be
+compared, sorted, and used in minima and order statistics.
 """
 
 from __future__ import annotations
@@ -90,6 +90,5 @@ class LoopMargins:
 
 
 def order_statistic(sizes: Sequence[float], level: float) -> float:
-    """Return the least size that a share ``level`` of all do not exceed (0: the least), `UNSTABLE` before all
-    numbers."""
+    """Return the least size that a share ``level`` of all does not exceed (0: the least), with `UNSTABLE` lowest."""
     return sorted(sizes)[quantile_rank(level, len(sizes))]

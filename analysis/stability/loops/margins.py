@@ -1,7 +1,7 @@
-"""Margins of one loop from its frequency response: classical, and distances from the critical point.
+"""Margins of one loop from its frequency response: classical ones, and distances from the critical point.
 
-Åström and Murray, "Feedback Systems" (2008), chapter 9; disk margins: Seiler, Packard and Gahinet, "An introduction
-to disk margins", IEEE Control Systems Magazine 40 (2020), with skew 0.
+Åström and Murray, "Feedback Systems" (2008), chapter 9; disk margins: Seiler, Packard and Gahinet, "An introduction to
+disk margins", IEEE Control Systems Magazine 40 (2020), with skew 0.
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ def classical(
     undamped: Iterable[float] = (),
     include: Iterable[float] = (),
 ) -> Classical:
-    """Find all gain, phase and delay margins between ``low`` and ``high`` (rad/s), sampled with ``sample_period`` (s).
+    """Return all gain, phase and delay margins between ``low`` and ``high`` (rad/s) of a sampled loop.
 
-    Where L is real without crossing the axis it has a gain margin too: at the Nyquist frequency when ``high`` is that,
-    and at frequency 0 (returned as such) when L without integrators levels off below ``low``. Encirclements are counted
-    when the number of open-loop poles outside of the unit circle is known; ``poles_at_one`` and ``undamped`` (rad/s)
-    are those of `encirclements`, ``include`` that of `dense`.
+    ``sample_period`` is in s. If L is real without crossing the axis it has a gain margin too: at the Nyquist frequency
+    if ``high`` is that, and at frequency 0 (returned as such) if L without integrators levels off below ``low``.
+    Encirclements are counted if the number of open-loop poles outside the unit circle is known; ``poles_at_one`` and
+    ``undamped`` (rad/s) are those of `encirclements`, ``include`` that of `dense`.
 
     Crossings are bracketed on the grid and solved for on the response itself (Brent). Between the ends python-control's
-    `stability_margins` of an FRD on the same grid gives the same to 1e-6 dB and deg, as the tests hold, but version
-    0.10.2 gives none at either end, and its polynomial route loses resonant loops (1.14 for 1.05).
+    `stability_margins` of an FRD on the same grid agrees within 1e-6 dB and deg, as the tests verify, but version
+    0.10.2 has no margins at either end, and its polynomial route loses resonant loops (1.14 for 1.05).
     """
     include = [*include]
     undamped = [*undamped]
@@ -82,9 +82,9 @@ def classical(
 
 
 def robust(response: Response, low: float, high: float, *, include: Iterable[float] = ()) -> Robust:
-    """Find peaks of S = 1/(1+L) and T = L/(1+L) and the disk margin, between ``low`` and ``high`` (rad/s).
+    """Return peaks of S = 1/(1+L) and T = L/(1+L) and the disk margin, between ``low`` and ``high`` (rad/s).
 
-    They bound the permitted perturbations only where the closed loop is stable.
+    They bound the permitted perturbations only if the closed loop is stable.
     """
     response = cache_response(response)
     frequency = dense(response, low, high, include=include).frequency
@@ -109,28 +109,27 @@ def robust(response: Response, low: float, high: float, *, include: Iterable[flo
 
 
 def disk_gain(alpha: float) -> float:
-    """Return the factor on the gain, and one over it, that a disk margin with skew 0 guarantees; inf from 2 on."""
+    """Return the factor by which the gain may rise or fall within a disk margin with skew 0; inf from 2 on."""
     return (1.0 + 0.5 * alpha) / (1.0 - 0.5 * alpha) if alpha < 2.0 else np.inf
 
 
 def disk_phase(alpha: float) -> float:
-    """Return the change of phase (rad, either way) that a disk margin with skew 0 guarantees."""
+    """Return the change of phase (rad, either way) that a disk margin with skew 0 permits."""
     return 2.0 * float(np.arctan(0.5 * alpha))
 
 
 def disk_of_gain(factor: float) -> float:
-    """Return the disk margin with skew 0 that guarantees a factor on the gain, and one over it."""
+    """Return the disk margin with skew 0 that permits the gain to rise or fall by a factor."""
     return 2.0 * (factor - 1.0) / (factor + 1.0)
 
 
 def disk_of_phase(angle: float) -> float:
-    """Return the disk margin with skew 0 that guarantees a change of phase (rad, either way)."""
+    """Return the disk margin with skew 0 that permits a change of phase (rad, either way)."""
     return 2.0 * float(np.tan(0.5 * angle))
 
 
 def highest(size: Callable[[np.ndarray], np.ndarray], frequency: np.ndarray) -> tuple[float, float]:
-    """Return the highest value and its frequency (rad/s), refined between the points of a grid that shows every
-    peak."""
+    """Return the highest value and its frequency (rad/s), refined between points of a grid that resolves all peaks."""
     values = size(frequency)
     best = int(np.argmax(values))
     candidates = [(float(values[best]), float(frequency[best]))]
@@ -161,7 +160,7 @@ def _roots(
     values: np.ndarray,
     crossing: Callable[[float, float], bool],
 ) -> list[float]:
-    """Find zeros of ``function`` between points of different sign; points within rounding of zero have none."""
+    """Return the zeros of ``function`` between points of different sign, without points within rounding of zero."""
     retained = np.abs(values) > _ROUNDING
     frequency, values = frequency[retained], values[retained]
     roots = []
@@ -181,7 +180,7 @@ def _at_nyquist(response: Response, high: float, sample_period: float) -> Crossi
 
 
 def _at_zero(response: Response, low: float, high: float) -> Crossing | None:
-    """Return the gain margin at frequency 0, where L(0) = a < 0. Close to it L = a + j b w - c w**2."""
+    """Return the gain margin at frequency 0, where L(0) = a < 0; close to it L = a + j b w - c w**2."""
     if 2.0 * low > high:
         return None
     one, two = _at(response, low), _at(response, 2.0 * low)

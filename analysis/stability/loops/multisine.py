@@ -1,9 +1,8 @@
-"""Odd random-phase multisines: periodic signals that measure a frequency response and show nonlinearity at once.
+"""Odd random-phase multisines: periodic signals that measure a frequency response and its nonlinearity at once.
 
-Only odd harmonics are excited, and of those not all. Even-order nonlinearity answers at even lines, odd-order at all
-odd ones, so what comes back at lines that were not excited is nonlinearity or noise. Pintelon and Schoukens, "System
-Identification: A Frequency Domain Approach" (2nd ed. 2012). Line k of a period of N samples has
-the angular frequency 2 pi k/(N T).
+Only some odd harmonics are excited. Even-order nonlinearity responds at even lines, odd-order at all odd ones, so the
+response at lines that are not excited is nonlinearity or noise. Pintelon and Schoukens, "System Identification: A
+Frequency Domain Approach" (2nd ed. 2012). Line k of a period of N samples has the angular frequency 2 pi k/(N T).
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ _CLIPPED = 0.8
 class Multisine:
     """One period of the signal: sum over ``lines`` k of amplitude * cos(2 pi k n/N + phase_k).
 
-    ``unexcited`` are the other lines from 1 to the highest that was asked for, even and odd. ``phases`` in rad.
+    ``unexcited`` are the other lines, even and odd, from 1 to the highest one requested. ``phases`` are in rad.
     """
 
     signal: np.ndarray
@@ -40,10 +39,10 @@ class Multisine:
 def multisine(
     samples: int, amplitude: float, highest_line: int, seed: int, *, per_decade: float | None = None
 ) -> Multisine:
-    """Return a multisine of ``samples`` per period, each line of ``amplitude``, excited up to ``highest_line``.
+    """Return a multisine with ``samples`` per period and lines of ``amplitude``, excited up to ``highest_line``.
 
-    ``per_decade`` spaces the lines quasi-logarithmically: about as many per decade, or all odd ones where these are
-    fewer. The lowest line is always excited. Raises ValueError for a line at or above half the ``samples``.
+    ``per_decade`` spaces the lines quasi-logarithmically: about as many per decade, or all odd ones if there are fewer.
+    The lowest line is always excited. Raises ValueError for a line at or above half the ``samples``.
     """
     if not 1 <= highest_line < samples / 2:
         raise ValueError(f"the highest line, {highest_line}, must lie between 1 and half of {samples} samples")
@@ -64,7 +63,7 @@ def multisine(
 
 
 def single_line(samples: int, line: int) -> Multisine:
-    """Return one period of a cosine of amplitude 1 at one line; no line counts as unexcited."""
+    """Return one period of a cosine of amplitude 1 at one line, without unexcited lines."""
     phase, unexcited = np.zeros(1), np.zeros(0, dtype=int)
     return Multisine(_unit_signal(samples, np.array([line]), phase), 1.0, np.array([line]), unexcited, phase)
 
@@ -76,7 +75,7 @@ def _unit_signal(samples: int, lines: np.ndarray, phases: np.ndarray) -> np.ndar
 
 
 def _low_crest(samples: int, lines: np.ndarray, random: np.random.Generator) -> np.ndarray:
-    """Return phases (rad) with a low peak: the best of some random ones, then swapping between time and frequency.
+    """Return phases (rad) with a low peak: the best random ones, improved by swapping between time and frequency.
 
     Van der Ouderaa, Schoukens and Renneboog, "Peak factor minimization using a time-frequency domain swapping
     algorithm", IEEE Trans. Instrumentation and Measurement 37 (1988).
@@ -97,11 +96,10 @@ def _low_crest(samples: int, lines: np.ndarray, random: np.random.Generator) -> 
 
 
 def line_spectrum(record: np.ndarray, samples: int, lines: np.ndarray) -> np.ndarray:
-    """Return complex amplitudes (len(lines), ...) of a record (n, ...) of whole periods of ``samples``, averaged over
-    them.
+    """Return complex amplitudes (len(lines), ...) of a record (n, ...), averaged over periods of ``samples`` rows.
 
-    A line amplitude * cos(2 pi k n/N + phase) gives amplitude * exp(1j * phase). Raises ValueError when the record is
-    not a whole number of periods.
+    A line amplitude * cos(2 pi k n/N + phase) gives amplitude * exp(1j * phase). Raises ValueError if the record is not
+    a whole number of periods.
     """
     record = np.asarray(record, dtype=float)
     periods, remainder = divmod(len(record), samples)
@@ -112,9 +110,10 @@ def line_spectrum(record: np.ndarray, samples: int, lines: np.ndarray) -> np.nda
 
 
 def fraction_unexcited(record: np.ndarray, signal: Multisine) -> float:
-    """Return the largest response on a line not excited, relative to the larger one on the excited lines next to it.
+    """Return the largest response on an unexcited line, relative to the larger one on the excited lines next to it.
 
-    ``record`` (n,) is a response over whole periods in the steady state: 0 where it is linear and without noise.
+    ``record`` (n,) is a response over whole periods in the steady state. The result is 0 for a linear one without
+    noise.
     """
     samples = len(signal.signal)
     size = np.abs(line_spectrum(record, samples, signal.lines))

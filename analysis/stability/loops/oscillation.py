@@ -1,16 +1,16 @@
-"""Detection of a lasting oscillation in a recorded signal, with its amplitude and period.
+"""Detection of a sustained oscillation in a recorded signal, with its amplitude and period.
 
-The last part of the record is cut into whole cycles at the upward crossings of its mean; a crossing counts only when
-the signal was below the mean by a quarter of the half peak to peak since the last one, so that ripple makes none. To
-each cycle a sine of its length is fitted by least squares. The oscillation lasts when
+The end of the record is cut into whole cycles at upward crossings of its mean; a crossing counts only if the signal was
+below the mean by a quarter of the half peak to peak since the last one, so that ripple adds none. A sine with the
+length of the cycle is fitted to each by least squares. The oscillation is sustained if
 
-- the last part has at least ``cycles`` whole cycles (a settled or drifting signal has none);
-- it stands out from the rounding of the record (1e-9 of its largest value);
+- there are at least ``cycles`` whole cycles (a settled or drifting signal has none);
+- it exceeds the rounding of the record (1e-9 of its largest value);
 - the mean amplitudes of the earlier and the later half of the cycles agree within ``agreement``, as do the mean
   periods (else it decays, grows or has not settled);
 - the two halves' means differ by less than a fifth of the amplitude (else it drifts);
-- lengths and amplitudes of the cycles scatter by less than a fifth (standard deviation), and the sines explain more
-  than half of the mean square about the mean (else it is noise, or no one frequency).
+- lengths and amplitudes of the cycles scatter by less than a fifth (standard deviation), and the sines explain
+  more than half of the mean square about the mean (else it is noise, or has no single frequency).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _EXPLAINED = 0.5
 
 @dataclass(frozen=True)
 class Oscillation:
-    """``amplitude`` of the fundamental, ``half_peak_to_peak`` as the mean over the cycles, ``period`` in s."""
+    """Oscillation: ``amplitude`` of the fundamental, ``half_peak_to_peak`` (mean over the cycles), ``period`` (s)."""
 
     amplitude: float
     half_peak_to_peak: float
@@ -39,8 +39,7 @@ class Oscillation:
 
 
 def _upward_crossings(values: np.ndarray, ripple: float) -> np.ndarray:
-    """Return upward zero crossings, in samples, interpolated; only those after which ``ripple``
-    is reached from -ripple."""
+    """Return interpolated upward zero crossings, in samples, after which ``ripple`` is reached from -``ripple``."""
     state = np.where(values > ripple, 1, np.where(values < -ripple, -1, 0))
     decided = np.flatnonzero(state)
     turns = decided[1:][(state[decided[1:]] == 1) & (state[decided[:-1]] == -1)]
@@ -50,7 +49,7 @@ def _upward_crossings(values: np.ndarray, ripple: float) -> np.ndarray:
 
 
 def _sine(values: np.ndarray, period: float) -> tuple[float, float, float]:
-    """Fit one sine and a constant by least squares: amplitude, constant, share of the variance explained."""
+    """Return amplitude, constant and explained share of the variance of a sine and constant fitted by least squares."""
     angle = 2.0 * np.pi / period * np.arange(len(values))
     basis = np.column_stack([np.cos(angle), np.sin(angle), np.ones(len(values))])
     solution = np.linalg.lstsq(basis, values, rcond=None)[0]
@@ -62,10 +61,10 @@ def _sine(values: np.ndarray, period: float) -> tuple[float, float, float]:
 def find_oscillation(
     time: np.ndarray, values: np.ndarray, share: float = 0.5, cycles: int = 6, agreement: float = 0.03
 ) -> Oscillation | None:
-    """Return the oscillation in the last ``share`` of the record, or None where there is none that lasts.
+    """Return the sustained oscillation in the last ``share`` of the record, or None.
 
-    ``time`` (s) is uniform and ascending, ``values`` in any unit, both of shape (n,). A cycle has at least four
-    samples. ValueError for a record that is not uniform, not finite or too short to say anything (16 samples).
+    ``time`` (s) is uniform and ascending, ``values`` are in any unit, both of shape (n,). A cycle has at least four
+    samples. Raises ValueError for a record that is not uniform, not finite or shorter than 16 samples.
     """
     time, values = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if time.ndim != 1 or time.shape != values.shape or len(time) < 16:

@@ -1,6 +1,6 @@
-"""Readings of a loop's frequency response: gains as factors, angles in rad, times in s, frequencies in rad/s.
+"""Margins and curves of a loop's frequency response: gains as factors, angles in rad, times in s, frequency rad/s.
 
-Margins are shown and limited in dB and deg, by the functions at the end.
+Margins are shown and limited in dB and deg, computed by the functions at the end.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Crossing:
-    """A gain or phase margin where the loop's frequency response crosses the critical ray or the unit circle.
+    """Gain or phase margin where the loop's frequency response crosses the critical ray or the unit circle.
 
-    ``value`` is the factor on the gain that makes the loop marginal (above 1: a margin upwards, below 1:
-    downwards), or the phase lag (rad, positive; negative: a lead) that does; ``frequency`` in rad/s.
+    ``value`` is the factor on the gain that makes the loop marginal (above 1: a margin upwards, below 1: downwards), or
+    the phase lag (rad, positive; negative: a lead) that does; ``frequency`` is in rad/s.
     """
 
     value: float
@@ -25,7 +25,7 @@ class Crossing:
 
 @dataclass(frozen=True)
 class Classical:
-    """Every crossing of one loop. Infinite margins are empty tuples. Encirclements of -1 are counter-clockwise."""
+    """All crossings of one loop; empty tuples for infinite margins. Encirclements of -1 are counter-clockwise."""
 
     gain: tuple[Crossing, ...]
     phase: tuple[Crossing, ...]
@@ -35,18 +35,18 @@ class Classical:
 
     @property
     def gain_margin(self) -> Crossing | None:
-        """The crossing nearest to 1 in dB, up or down."""
+        """Gain crossing nearest to a factor of 1 in dB, up or down; None if there is none."""
         return min(self.gain, key=lambda crossing: abs(np.log(crossing.value)), default=None)
 
     @property
     def phase_margin(self) -> Crossing | None:
-        """The crossing nearest to 0, lag or lead."""
+        """Phase crossing nearest to 0, lag or lead; None if there is none."""
         return min(self.phase, key=lambda crossing: abs(crossing.value), default=None)
 
 
 @dataclass(frozen=True)
 class Robust:
-    """Distances from -1. Peaks of |S| and |T| with their frequencies (rad/s); disk margin alpha with skew 0."""
+    """Distances from -1: peaks of |S| and |T| with their frequencies (rad/s); disk margin alpha with skew 0."""
 
     modulus_margin: float
     sensitivity_peak: float
@@ -61,7 +61,7 @@ class Robust:
 
 @dataclass(frozen=True)
 class FrequencyResponse:
-    """A frequency response: angular frequencies (rad/s) and complex values of L, minus the loop's transfer."""
+    """Frequency response: angular frequencies (rad/s) and complex values of L, minus the loop's transfer."""
 
     frequency: np.ndarray
     value: np.ndarray
@@ -72,7 +72,7 @@ def decibels(factor: complex) -> float: ...
 @overload
 def decibels(factor: np.ndarray) -> np.ndarray: ...
 def decibels(factor: complex | np.ndarray) -> float | np.ndarray:
-    """Return the size of a gain, real or complex, in dB; 0 is minus infinity."""
+    """Return the size of a real or complex gain in dB; minus infinity for 0."""
     with np.errstate(divide="ignore"):
         level = 20.0 * np.log10(np.abs(factor))
     return level if isinstance(factor, np.ndarray) else float(level)
@@ -84,7 +84,7 @@ def decibel_size(factor: float) -> float:
 
 
 def factor_of(decibel: float) -> float:
-    """Return the factor that is ``decibel`` dB."""
+    """Return the factor of ``decibel`` dB."""
     return float(10.0 ** (decibel / 20.0))
 
 

@@ -1,4 +1,4 @@
-"""Margins between measured lines: the crossings themselves become test frequencies, until they stay where they are."""
+"""Margins between measured lines: the response is measured at the crossings until they no longer move."""
 
 from __future__ import annotations
 
@@ -19,8 +19,10 @@ ENDS = 1e-3  # likewise, from the end of the lines
 
 @dataclass(frozen=True)
 class Refined:
-    """A curve with lines at its crossings. ``gain`` (dB) and ``phase`` (deg) are what its margins still moved in the
-    last of ``rounds`` rounds."""
+    """Curve with lines at its crossings, after a number of ``rounds``.
+
+    ``gain`` (dB) and ``phase`` (deg) are the changes of its margins in the last round.
+    """
 
     curve: FrequencyResponse
     rounds: int
@@ -29,12 +31,12 @@ class Refined:
 
     @property
     def settled(self) -> bool:
-        """True if the margins stay where they are."""
+        """True if the margins no longer change."""
         return self.gain < GAIN_STAYS and self.phase < PHASE_STAYS
 
     @property
     def remainder(self) -> str:
-        """Remaining change, in words; empty where the margins are settled."""
+        """Remaining change as text, "" if the margins are settled."""
         if self.settled:
             return ""
         if not (np.isfinite(self.gain) and np.isfinite(self.phase)):
@@ -48,7 +50,7 @@ def refine(
     margins_of: Callable[[FrequencyResponse], tuple[Classical, Robust]],
     measure: Callable[[float], tuple[float, complex]],
 ) -> Refined:
-    """Return the curve with further lines where its margins are decided: at crossings and nearest to -1.
+    """Return the curve with further lines where its margins are determined: at crossings and nearest to -1.
 
     ``measure`` takes a frequency (rad/s) and returns that of a line next to it with its value of L. Raises as it does.
     """
@@ -78,7 +80,7 @@ def _decisive(classical: Classical, robust: Robust) -> list[float]:
 
 
 def _is_new(curve: FrequencyResponse, frequency: float) -> bool:
-    """Return True if a frequency is between the lines, and next to none of them."""
+    """Return True if a frequency is between the lines, and close to none of them."""
     low, high = curve.frequency[0] * (1.0 + ENDS), curve.frequency[-1] * (1.0 - ENDS)
     return bool(low < frequency < high and np.min(abs(curve.frequency / frequency - 1.0)) > SAME)
 
@@ -89,7 +91,7 @@ def _with_line(curve: FrequencyResponse, frequency: float, response: complex) ->
 
 
 def _shift(before: Classical, after: Classical) -> tuple[float, float]:
-    """Return the largest change of the crossings (dB, deg): inf where one has appeared or vanished."""
+    """Return the largest change of the crossings (dB, deg); inf if one has appeared or vanished."""
     gain = _largest(before.gain, after.gain, lambda old, new: abs(decibels(old.value) - decibels(new.value)))
     phase = _largest(before.phase, after.phase, lambda old, new: abs(np.degrees(old.value - new.value)))
     return gain, phase

@@ -1,10 +1,10 @@
-"""Structured singular value of complex matrices, one complex uncertainty per channel: its upper bound by scaling.
+"""Structured singular value of complex matrices with one complex uncertainty per channel: upper bound by scaling.
 
 The bound is the least largest singular value of D M D^-1 over positive diagonal D; up to three channels it is the
 structured singular value itself (Packard and Doyle, "The complex structured singular value", Automatica 29 (1993),
-sections 5 and 9). The logarithm of any Schatten norm of D M D^-1 is convex in log D (three lines theorem), smooth
-while the norm's order is finite, and for m channels at most log(m)/order above that of the largest singular value.
-So Newton's method minimises norms of growing order, each from the minimum before, all matrices at once.
+sections 5 and 9). The logarithm of any Schatten norm of D M D^-1 is convex in log D (three lines theorem), smooth for
+finite order of the norm, and for m channels exceeds that of the largest singular value by at most log(m)/order. So
+Newton's method minimises norms of growing order, each from the previous minimum, for all matrices at once.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ _SWEEPS = 4
 
 
 def upper_bound(matrix: np.ndarray) -> np.ndarray:
-    """Return the least largest singular value of D M D^-1 for each M of ``matrix`` (n, m, m), within some billionths.
+    """Return the least largest singular value of D M D^-1 for each M of ``matrix`` (n, m, m), within about 1e-9.
 
-    Raises ValueError where it is not found.
+    Raises ValueError if it is not found.
     """
     bounds = np.zeros(len(matrix))
     for pattern in np.unique(matrix != 0.0, axis=0):
@@ -48,7 +48,7 @@ def _of_group(matrix: np.ndarray) -> np.ndarray:
 
 
 def _two(matrix: np.ndarray) -> np.ndarray:
-    """Return both singular values from the determinant, which D leaves, and the sum of squares: balance is best."""
+    """Return both singular values at the optimal (balanced) scaling, from the determinant and the sum of squares."""
     across, back = np.abs(matrix[:, 0, 1]), np.abs(matrix[:, 1, 0])
     balanced = matrix.copy()
     balanced[:, 0, 1] = np.sqrt(across * back) * np.exp(1j * np.angle(matrix[:, 0, 1]))
@@ -86,7 +86,7 @@ def _several(matrix: np.ndarray) -> np.ndarray:
 
 
 def _balance(squares: np.ndarray) -> np.ndarray:
-    """Log D (n, m) that nearly makes the rows of D M D^-1 as long as its columns (Osborne 1960)."""
+    """Return log D (n, m) that makes rows and columns of D M D^-1 nearly equal in norm (Osborne 1960)."""
     channels = squares.shape[-1]
     minimum = 1e-20 * np.sum(squares, axis=(1, 2), keepdims=True)  # else a row of zeros has no balance
     squares = (squares + minimum) * (1.0 - np.eye(channels))
@@ -106,7 +106,7 @@ def _scale(matrix: np.ndarray, logarithm: np.ndarray) -> np.ndarray:
 
 
 def _norm(sizes: np.ndarray, half: np.ndarray) -> np.ndarray:
-    """Log of the Schatten norm of order 2 ``half`` from singular values, the largest first."""
+    """Return the log of the Schatten norm of order 2 ``half`` from singular values, the largest first."""
     fractions = (sizes / sizes[:, :1]) ** (2.0 * half[:, None])
     return np.log(sizes[:, 0]) + np.log(np.sum(fractions, axis=1)) / (2.0 * half)
 
@@ -114,7 +114,7 @@ def _norm(sizes: np.ndarray, half: np.ndarray) -> np.ndarray:
 def _descend(
     matrix: np.ndarray, start: np.ndarray, half: np.ndarray, step: np.ndarray, value: np.ndarray, slope: np.ndarray
 ) -> np.ndarray:
-    """Log D at the end of the steps, each shortened until the norm falls by a tenth of what its slope promises."""
+    """Return log D after the steps, each shortened until the norm falls by a tenth of what its slope predicts."""
     length = np.ones(len(matrix))
     while True:
         trial = start.copy()
@@ -131,11 +131,11 @@ def _descend(
 def _expansion(
     matrix: np.ndarray, logarithm: np.ndarray, half: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Log norm of order 2 ``half``, its gradient and Hessian in log D, and the singular values.
+    """Return the log norm of order 2 ``half``, its gradient and Hessian in log D, and the singular values.
 
     With B = D M D^-1 = U S V* and A = B* B the norm's log is log(tr A^q)/(2 q); E is one on the diagonal at a channel:
-    dB = E B - B E, dA = 2 B* E B - E A - A E. Second derivatives of traces by divided differences of q r^(q-1)
-    (Lewis and Sendov, "Twice differentiable spectral functions", SIAM J. Matrix Anal. Appl. 23 (2001)).
+    dB = E B - B E, dA = 2 B* E B - E A - A E. Second derivatives of traces by divided differences of q r^(q-1) (Lewis
+    and Sendov, "Twice differentiable spectral functions", SIAM J. Matrix Anal. Appl. 23 (2001)).
     """
     left, sizes, right = np.linalg.svd(_scale(matrix, logarithm))
     value = _norm(sizes, half)

@@ -1,1 +1,1 @@
-"""One operating point and its loops: linearisation and frequency-response test put together and judged."""
+"""One operating point and its loops: linearisation and frequency-response test, combined into verdicts."""

@@ -1,4 +1,4 @@
-"""Margins of one loop from its frequency response, and what the limits say of them."""
+"""Margins of one loop from its frequency response, compared with the limits."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ LOWER = 0.2  # step down where encirclements cannot be counted from there
 
 @dataclass(frozen=True)
 class Assessment:
-    """Margins with the curve that they were read from; ``notes`` say what could not be counted, and why."""
+    """Margins with the curve that they were read from; ``notes`` report what could not be counted, and why."""
 
     curve: FrequencyResponse
     classical: Classical
@@ -31,7 +31,7 @@ class Assessment:
 
 
 def lowest_frequency(response: Response, sample_period: float) -> float:
-    """Return the lowest frequency (rad/s): well below the lowest gain crossover, as far as a model resolves it."""
+    """Return the lowest frequency (rad/s) to study: well below the lowest gain crossover, if the model resolves it."""
     nyquist = np.pi / sample_period
     grid = np.geomspace(LOWEST * nyquist, nyquist, COARSE)
     gain = abs(response(grid))
@@ -51,10 +51,10 @@ def assess(
     include: Sequence[float] = (),
     slower: Callable[[float], int] = lambda _: 0,
 ) -> Assessment:
-    """Find all margins between ``low`` and ``high`` (rad/s); ``undamped`` and ``include`` as in `classical`.
+    """Return all margins between ``low`` and ``high`` (rad/s); ``undamped`` and ``include`` as in `classical`.
 
-    ``slower`` counts unstable open-loop poles below a frequency: encirclements counted from there on take them as
-    integrators, so it is begun below them where that can be resolved.
+    ``slower`` returns the number of unstable open-loop poles slower than a frequency. Encirclements counted from there
+    on would take them as integrators, so the count begins below them if that can be resolved.
     """
     response = cache_response(response)
     notes: dict[str, str] = {}
@@ -83,7 +83,7 @@ def assess(
 def requirements(
     margins: LoopMargins, limits: MarginLimits, outside: Sequence[str] = ()
 ) -> tuple[MarginRequirement, ...]:
-    """Return the project's limits against one loop; ``outside`` names growing memory that is not in it."""
+    """Return the project's limits applied to one loop; ``outside`` names growing memory outside of it."""
     if margins.stable is None:
         note = "poles are not known without a linearisation"
         stability = MarginRequirement(Scope.NOMINAL, MarginQuantity.STABILITY, None, 1.0, None, note)

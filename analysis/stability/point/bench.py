@@ -1,4 +1,4 @@
-"""A system at an operating point, ready to be excited: its simulations, its saved memory and the size of each state."""
+"""System at an operating point, ready for excitation: its simulation, saved memory, and the size of each state."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ NOTHING = 1e-9  # in SI: what has a unit and is smaller has not been used yet, a
 
 
 class StudyError(RuntimeError):
-    """A flight that a study needs broke off; the message says how."""
+    """Failure of a simulation that a study needs; the message explains it."""
 
 
 class OverflowedError(StudyError):
-    """A flight whose numbers grew beyond all bounds; ``signals`` are those up to there."""
+    """Overflow of a simulation; ``signals`` are those up to the overflow."""
 
     def __init__(self, message: str, signals: dict[str, np.ndarray]) -> None:
         super().__init__(message)
@@ -48,12 +48,12 @@ class LoopError(StudyError):
 
 
 class Bench:
-    """One operating point's simulation with everything that can be excited or is read.
+    """Simulation of one operating point, with all connectors that are excited or read. Must be closed.
 
-    ``period`` is the hyperperiod in communication points: the least common multiple of the channels' and of the
-    FMUs' sample periods. ``origin`` is the communication point just before the operating point, which is a
-    multiple of it. ``varied`` names parameters that `set` may change, ``recorded`` further variables to
-    return with those of the channels. To be closed.
+    ``period`` is the hyperperiod in communication points: the least common multiple of the channels' and the FMUs'
+    sample periods. ``origin`` is the communication point before the operating point, which is a multiple of it.
+    ``varied`` names parameters that `set` may change, ``recorded`` further variables to return with those of the
+    channels.
     """
 
     def __init__(
@@ -87,11 +87,11 @@ class Bench:
 
     @property
     def seconds(self) -> float:
-        """The hyperperiod (s)."""
+        """Hyperperiod (s)."""
         return self.period * self.prepared.step
 
     def fly(self, first: int, last: int, excitation: np.ndarray | None = None) -> dict[str, np.ndarray]:
-        """Simulate signals at points first + 1 to last (from 0 on with ``first`` -1). Raises StudyError.
+        """Return signals at points ``first`` + 1 to ``last`` (from 0 on with ``first`` -1). Raises StudyError.
 
         ``excitation`` [r, connectors] begins at the operating point or, after it, at ``first`` + 1.
         """
@@ -109,7 +109,7 @@ class Bench:
         return {name: values.copy() for name, values in flight.signals.items()}
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
-        """Give varied parameters other values for the flights that follow, and find the operating point again."""
+        """Set varied parameters for later simulations, and find the operating point again."""
         self.simulation.set(values)
         self.origin = self._origin()
 
@@ -159,13 +159,12 @@ class Bench:
 
 
 class OperatingPoint:
-    """A bench flown to its operating point and saved there.
+    """Bench simulated to its operating point, with its memory saved there.
 
-    ``scale`` [cells] is what a change of each cell is measured by: the largest number that the cell, or another one of
-    its vector, has held on the way, at least LEAST of the largest with its unit (NEVER, where the vector has held
-    nothing yet), and 1 where nothing tells a scale. Vectors without a unit, such as covariances, mix quantities:
-    there each cell is measured by itself.
-    ``sizes``: likewise of the signals at the cuts, by loop.
+    ``scale`` [cells] is the unit in which changes of each cell are measured: the largest absolute value of the cell, or
+    of another one in its vector, on the way, but at least LEAST of the largest with its unit (NEVER, if the vector has
+    been 0 so far), and 1 if nothing determines a scale. Vectors without a unit, such as covariances, mix quantities:
+    their cells have individual scales. ``sizes`` are likewise those of the signals at the cuts, by loop.
     """
 
     def __init__(self, bench: Bench) -> None:
@@ -186,8 +185,7 @@ class OperatingPoint:
         self.scale = _scales(self.memory.cells, largest, self.memory.read())
 
     def one_period_on(self) -> OperatingPoint:
-        """Return the same point one hyperperiod later, measured by the same sizes; this one's snapshot stays as it
-        is."""
+        """Return the operating point one hyperperiod later, with the same scales; this one's snapshot is unchanged."""
         later = copy.copy(self)
         self.memory.put_back(self.snapshot)
         last = self.snapshot.point + self.bench.period

@@ -1,4 +1,4 @@
-"""Plans that an operating point holds: a parameter frozen_NAME above 0 fixes the output NAME of its component."""
+"""Plans held at an operating point: a parameter frozen_NAME above 0 fixes the output NAME of its component."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ SAME = 1e-6  # relative, of a value that is held
 
 
 def frozen_outputs(prepared: PreparedSystem) -> dict[str, tuple[str, float]]:
-    """Return the outputs that parameters of a system fix, each with its parameter and setting."""
+    """Return the outputs that parameters of a system fix, each with its parameter and value."""
     frozen: dict[str, tuple[str, float]] = {}
     for component, fmu in prepared.network.fmus.items():
         for name, variable in fmu.variables.items():
@@ -26,9 +26,9 @@ def frozen_outputs(prepared: PreparedSystem) -> dict[str, tuple[str, float]]:
 
 
 def check_frozen_plan(prepared: PreparedSystem, point: PointDeclaration) -> None:
-    """Fly to the operating point and refuse a component that does not hold its plan on the way.
+    """Simulate to the operating point, and reject a component that does not hold its plan on the way.
 
-    Raises InputError, and StudyError where the point is not found.
+    Raises InputError, and StudyError if the point is not reached.
     """
     frozen = frozen_outputs(prepared)
     if not frozen:

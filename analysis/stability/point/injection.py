@@ -1,10 +1,11 @@
-"""Frequency-response test: a multisine is added at the cut while the loop is closed, and the response measured.
+"""Frequency-response test: a multisine is added at the cut of the closed loop, and the response is measured.
 
-It needs no memory, only inputs and outputs, so it serves anyone's FMUs. Every flight starts at the beginning; the
-same flight without the multisine is subtracted, so that the motion along the trajectory and the sensors' noise, which
-is the same in both, leave nothing but the answer to the multisine. L = -V/U on whole periods after the transient.
-Source: Pintelon and Schoukens 2012, System Identification, chapters 2 and 5 (multisines, and unexcited lines that
-show what is not linear).
+It only needs inputs and outputs, not memory, and so works with any FMUs. Every simulation begins at the start; the same
+simulation without the multisine is subtracted, so that the motion along the trajectory and the sensors' noise, which
+are the same in both, cancel. L = -V/U on whole periods after the transient.
+
+Source: Pintelon and Schoukens 2012, System Identification, chapters 2 and 5 (multisines, and unexcited lines that show
+nonlinearity).
 """
 
 from __future__ import annotations
@@ -38,11 +39,11 @@ FLIGHT_POINTS = 2_000_000  # communication points of one flight at most
 
 
 class NotMeasurableError(RuntimeError):
-    """A loop cannot be measured here; the message says why."""
+    """Loop that cannot be measured; the message explains why."""
 
 
 class UnstableError(LoopError):
-    """Growth without bound of the change that a disturbance makes, by ``growth`` a sample."""
+    """Unbounded growth of the effect of a disturbance, by the factor ``growth`` per sample."""
 
     def __init__(self, growth: float) -> None:
         super().__init__(f"unstable, grows {growth:.5g}-fold a sample", MarginVerdict.FAIL)
@@ -51,7 +52,7 @@ class UnstableError(LoopError):
 
 @dataclass
 class Injector:
-    """Measures one channel of a bench. ``lowest`` is the least frequency required (rad/s)."""
+    """Measurement of one channel of a bench. ``lowest`` is the lowest required frequency (rad/s)."""
 
     bench: Bench
     channel: Channel
@@ -76,8 +77,10 @@ class Injector:
         self._base: dict[str, np.ndarray] = {}
 
     def measure(self) -> Measured:
-        """Measure L with the declared amplitude and with half of it. Raises NotMeasurableError,
-        StudyError, UnstableError."""
+        """Measure L with the declared amplitude and with half of it.
+
+        Raises NotMeasurableError, StudyError, UnstableError.
+        """
         peak = self.peak()
         value, unexcited = self.spectrum(peak)
         half, _ = self.spectrum(0.5 * peak)
@@ -93,19 +96,19 @@ class Injector:
         )
 
     def peak(self) -> float:
-        """Return the largest value of the multisine: the declared amplitude or a fraction of the signal's own size."""
+        """Return the peak of the multisine: the declared amplitude, or a fraction of the signal's size."""
         if self.channel.amplitude is not None:
             return self.channel.amplitude
         size = float(np.max(abs(self.channel.injection_for(self._simulate_undisturbed()))))
         return DEFAULT_SHARE * (size or 1.0)
 
     def wave(self, peak: float | None = None) -> tuple[np.ndarray, float]:
-        """Return one period of the signal [samples] and its largest value, by default `peak`. Raises as `measure`."""
+        """Return one period of the signal [samples] and its peak, by default `peak`. Raises as `measure`."""
         size = self.peak() if peak is None else peak
         return self.signal.signal * (size / float(np.max(abs(self.signal.signal)))), size
 
     def spectrum(self, peak: float) -> tuple[np.ndarray, float]:
-        """Measure L on the lines with a multisine of this largest value, and the largest answer on unexcited lines."""
+        """Measure L on the lines with a multisine of this peak, and the largest response on unexcited lines."""
         wave, _ = self.wave(peak)
         window = self.periods * self.samples
         while True:
@@ -131,7 +134,7 @@ class Injector:
         return -back / inside, fraction_unexcited(u[-window:], self.signal)
 
     def near(self, frequency: float) -> tuple[float, complex]:
-        """Return a frequency (rad/s) next to the one that is asked for, and L there, by a sine of the same peak.
+        """Return the frequency (rad/s) of a line near the requested one, and L there, measured with a sine.
 
         Raises as `measure`.
         """
@@ -152,7 +155,7 @@ class Injector:
         return float(2.0 * np.pi * lines[best] / (probe.samples * self.seconds)), complex(response[0])
 
     def _points(self) -> int:
-        """Return the communication points after the operating point that a measurement takes."""
+        """Return the number of communication points after the operating point that a measurement takes."""
         points = (self._transient + self.periods + 1) * self.samples * self.channel.period
         until = self.bench.point.until
         end = self.bench.time + points * self.bench.prepared.step
@@ -165,7 +168,7 @@ class Injector:
         return points
 
     def _simulate_undisturbed(self) -> dict[str, np.ndarray]:
-        """Simulate signals from the operating point on without any addition."""
+        """Return signals from the operating point on, simulated without excitation."""
         points = self._points()
         if not self._base or len(next(iter(self._base.values()))) < points:
             try:
@@ -178,7 +181,7 @@ class Injector:
         return {name: values[self.bench.origin + 1 :] for name, values in signals.items()}
 
     def _answer(self, samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the input and the return signal at the channel's samples, the undisturbed simulation subtracted."""
+        """Return input and return signal at the channel's samples, with the undisturbed simulation subtracted."""
         channel, base = self.channel, self._simulate_undisturbed()
         added = np.repeat(samples, channel.period)
         mine = channel.excitation(base, added)
@@ -195,9 +198,9 @@ class Injector:
         return u[rows], v[rows]
 
     def _overflow(self, error: OverflowedError, base: dict[str, np.ndarray]) -> Exception:
-        """Return the verdict of an overflow: growth of the disturbance, or of the flight where no ``base`` is known.
+        """Return the verdict on an overflow: growth of the disturbance, or of the simulation if ``base`` is None.
 
-        The error itself where nothing grew.
+        Returns the error itself if nothing grew.
         """
         signals = self._behind(error.signals)
         reached = len(next(iter(signals.values())))

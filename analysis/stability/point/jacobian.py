@@ -1,4 +1,4 @@
-"""Central differences of a flight over one hyperperiod: to the memory at its start, to what is added at the cuts."""
+"""Central differences of a simulation over one hyperperiod, for changes of its initial memory and signals at cuts."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ GOOD = 1e-3  # relative change between neighbouring steps below which a derivati
 
 
 class Jacobian:
-    """Derivatives about the flight of one hyperperiod from an operating point.
+    """Derivatives about the simulation of one hyperperiod from an operating point.
 
-    Memory is changed at the communication point before the operating point; a signal is added over one sample of
-    its channel. A column is the memory after the period, in units of its scale, then u and v of all channels, each
-    at its samples. ``start`` and ``end`` are the memory before and after, unchanged.
+    Memory is changed at the communication point before the operating point; an excitation lasts one sample of its
+    channel. A column consists of the memory after the period, in units of its scale, followed by u and v of all
+    channels, each at its samples. ``start`` and ``end`` are the undisturbed memory before and after.
     """
 
     def __init__(self, operating_point: OperatingPoint) -> None:
@@ -40,7 +40,7 @@ class Jacobian:
         self.ports = tuple(ports)
 
     def _after(self, excitation: np.ndarray | None = None) -> np.ndarray:
-        """Return memory, u and v of one simulation from the memory as it is now."""
+        """Return memory, u and v after a simulation from the current memory."""
         bench = self.bench
         signals = bench.fly(self.first, self.last, excitation)
         added = np.zeros((bench.period, len(bench.connectors))) if excitation is None else excitation
@@ -52,7 +52,7 @@ class Jacobian:
         return np.concatenate([self.memory.read() / self.scale, *inside, *back])
 
     def cell_column(self, cell: int, step: float) -> np.ndarray:
-        """Return the derivative to one cell in units of its scale, of which ``step`` is the change."""
+        """Return the derivative with respect to one cell; it and ``step`` are in units of the cell's scale."""
         high = self.start[cell] + step * self.scale[cell]
         low = self.start[cell] - step * self.scale[cell]
         self.memory.put_back(self.snapshot, self.memory.cells[cell], high)
@@ -61,8 +61,10 @@ class Jacobian:
         return (above - self._after()) * (self.scale[cell] / (high - low))
 
     def input_column(self, port: SampledChannel, sample: int, step: float) -> np.ndarray:
-        """Return the derivative to an addition at one sample of a channel; ``step`` is in units of the signal's
-        size."""
+        """Return the derivative with respect to an excitation at one sample of a channel.
+
+        ``step`` is in units of the signal's size.
+        """
         channel = port.channel
         size = step * (channel.amplitude or self.sizes[channel.loop])
         ends = []
@@ -76,8 +78,10 @@ class Jacobian:
         return (ends[0] - ends[1]) / (2.0 * size)
 
     def screen(self, cell: int) -> np.ndarray:
-        """Return the derivative to a cell with one step, for the cells that it reaches; smaller
-        where the simulation would fail."""
+        """Return the derivative with respect to a cell from one step, to find the cells that it affects.
+
+        The step is smaller if the simulation would fail.
+        """
         for step in SCREEN[:-1]:
             try:
                 return self.cell_column(cell, step)
@@ -87,11 +91,11 @@ class Jacobian:
 
 
 def plateau(column: Callable[[float], np.ndarray], steps: Sequence[float] = STEPS) -> tuple[np.ndarray, np.ndarray]:
-    """Return each element of a column at the step where it changes least to the next smaller one, and its value there.
+    """Return each element of a column at the step where it changes least to the next smaller step, and at that one.
 
-    Steps that are too large bend, steps that are too small drown in rounding; in between is a plateau. A pair that is 0
-    twice counts only where there is no plateau elsewhere: rounding can swallow a change altogether. Of a single step it
-    is the same value twice. Raises StudyError where no step leaves the flight whole.
+    Large steps are nonlinear, small ones are dominated by rounding; in between is a plateau. A pair of zeros only
+    counts if there is no plateau elsewhere, since rounding can swallow a change completely. With a single step both
+    results are the same. Raises StudyError if the simulation fails for every step.
     """
     values: list[np.ndarray] = []
     for step in steps:

@@ -1,12 +1,13 @@
-"""The linear model of a periodic system over one hyperperiod, and the loops' frequency responses in it.
+"""Linear model of a periodic system over one hyperperiod, and the loops' frequency responses.
 
 A loop that passes its cut M times in a hyperperiod has M inputs and M outputs there. Driven with the samples of
-exp(jwt), a channel answers at w and, where the system is truly periodic, at frequencies apart by whole multiples of
-2 pi/hyperperiod. Its loop gain at w is minus the ratio of what comes back at w to what goes in at w, both with the
-loop closed, which is what an injection measures; where the system does not change from sample to sample it is
-the loop's transfer function.
-Source: Bittanti and Colaneri 2009, Periodic Systems, sections 2.2 (lifting) and 2.3 (exponentially modulated
-periodic responses).
+exp(jwt), a channel responds at w and, if the system is truly periodic, at frequencies that differ by multiples of 2
+pi/hyperperiod. Its loop gain at w is minus the ratio of the return signal at w to the input at w, both with the loop
+closed, which is what an injection measures; if the system does not change from sample to sample it is the loop's
+transfer function.
+
+Source: Bittanti and Colaneri 2009, Periodic Systems, sections 2.2 (lifting) and 2.3 (exponentially modulated periodic
+responses).
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ class SampledChannel:
 
 @dataclass(frozen=True)
 class StateVariable:
-    """Memory cell of a state of the model: ``scale`` cells' units, which are ``unit`` (None: without)."""
+    """Memory cell of a state of the model; one unit of the state is ``scale`` times ``unit`` (None: dimensionless)."""
 
     scale: float
     unit: str | None
@@ -55,8 +56,9 @@ class StateVariable:
 class LiftedModel:
     """Closed loop over one hyperperiod: x' = a x + b d, u = cu x + du d, v = cv x + dv d.
 
-    d is added at the cuts, u goes in behind them, v comes back; all are stacked over the channels' samples.
-    ``names`` are the memory cells behind x, in units that balance a; ``variables`` says by name which. ``period`` in s.
+    d is the excitation at the cuts, u the signal after them, v the return signal; all are stacked over the channels'
+    samples. ``names`` are the memory cells of x, in units that balance a; ``variables`` describes them by name.
+    ``period`` is in s.
     """
 
     a: np.ndarray
@@ -71,10 +73,10 @@ class LiftedModel:
     variables: Mapping[str, StateVariable] = field(default_factory=dict)
 
     def reduce(self, ports: tuple[SampledChannel, ...]) -> LiftedModel:
-        """Return the model of the memory that the ports both move and are moved by, directly or not.
+        """Return the model of the memory that both affects the ports and is affected by them, directly or not.
 
-        Of that, cells whose share of the return signal is below SHARE at all frequencies are left out: they are moved
-        by rounding, or move by rounding, as the covariance of a filter does where its innovations vanish.
+        Cells whose share of the return signal is below SHARE at all frequencies are omitted: only rounding connects
+        them, as for the covariance of a filter whose innovations vanish.
         """
         rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
         moved = reachable(self.a != 0.0, np.any(self.b[:, rows] != 0.0, axis=1))
@@ -97,8 +99,7 @@ class LiftedModel:
         )
 
     def _shares(self, port: SampledChannel) -> np.ndarray:
-        """Return by cell the largest relative change of the return signal, at any frequency, per relative change of
-        it."""
+        """Return the largest relative change of the return signal over frequency, per relative change of each cell."""
         fractions = np.zeros(len(self.a))
         identity = np.eye(len(self.a))
         for w in np.geomspace(LOWEST, 1.0, LOOKS) * np.pi / port.seconds:
@@ -113,10 +114,11 @@ class LiftedModel:
 
     @cached_property
     def lasting(self) -> LiftedModel:
-        """The same model without the directions that are forgotten within some periods (poles at z = 0).
+        """The same model without the directions that vanish within some periods (poles at z = 0).
 
-        Orthogonal steps: the range of a, then the range of a within it, until nothing is lost. What a period
-        forgets still passes from d to u and v within it and over the periods it takes, so this is for poles only.
+        Orthogonal steps: the range of a, then the range of a within it, until no direction is lost. A direction that
+        vanishes still transfers d to u and v within the period and over the periods it takes, so this is for poles
+        only.
         """
         if not self.a.size:
             return self
@@ -131,7 +133,7 @@ class LiftedModel:
         return replace(self, a=a, b=b, cu=cu, cv=cv, names=(), variables={})
 
     def poles(self) -> np.ndarray:
-        """Return closed-loop multipliers over the hyperperiod, those at 0 left out, largest first."""
+        """Return closed-loop multipliers over the hyperperiod, without those at 0, largest first."""
         values = np.linalg.eigvals(self.lasting.a)
         return values[np.argsort(-abs(values), kind="stable")]
 
@@ -140,7 +142,7 @@ class LiftedModel:
         return int(np.sum(abs(self.poles()) > 1.0 + UNIT_CIRCLE))
 
     def open_loops(self, ports: tuple[SampledChannel, ...]) -> np.ndarray:
-        """Return multipliers with these ports' cuts open and the other loops closed, those at 0 left out."""
+        """Return multipliers with the cuts of these ports open and the other loops closed, without those at 0."""
         rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
         inside = np.linalg.solve(self.du[np.ix_(rows, rows)], self.cu[rows])
         a = self.a - self.b[:, rows] @ inside
@@ -149,8 +151,7 @@ class LiftedModel:
     def disturbance_response(
         self, ports: tuple[SampledChannel, ...], frequency: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return the input (u) and the return signal (v) at each frequency for a unit of d, both (n, m, m) for m
-        ports."""
+        """Return the responses of u and v to d at each frequency, both (n, m, m) for m ports."""
         u = np.empty((frequency.size, len(ports), len(ports)), dtype=complex)
         v = np.empty_like(u)
         _, b, cu, cv = self._triangular
@@ -170,12 +171,12 @@ class LiftedModel:
 
     @cached_property
     def _triangular(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Complex Schur form of a, and b, cu and cv in its basis."""
+        """Complex Schur form of a, with b, cu and cv in its basis."""
         triangle, unitary = scipy.linalg.schur(self.a, output="complex")
         return triangle, unitary.conj().T @ self.b, self.cu @ unitary, self.cv @ unitary
 
     def _resolvent(self, z: np.ndarray, right: np.ndarray) -> np.ndarray:
-        """Return (z - triangle)^-1 right, of shape (states, n), a column for each z: substitution for all z at once."""
+        """Return (z - triangle)^-1 right, (states, n) with a column for each z, by simultaneous substitution."""
         triangle = self._triangular[0]
         shifted = z - triangle.diagonal()[:, None]
         x = np.array(right, dtype=complex)
@@ -187,12 +188,12 @@ class LiftedModel:
         return x
 
     def response(self, ports: tuple[SampledChannel, ...], frequency: np.ndarray) -> np.ndarray:
-        """Return L, minus the transfer from the input to the return signal, (n, m, m); other loops closed."""
+        """Return L, minus the transfer from the input to the return signal, (n, m, m), with other loops closed."""
         u, v = self.disturbance_response(ports, np.asarray(frequency, dtype=float))
         return -np.linalg.solve(np.swapaxes(u, 1, 2), np.swapaxes(v, 1, 2)).swapaxes(1, 2)
 
     def periodicity(self, port: SampledChannel, frequency: np.ndarray) -> float:
-        """Return the largest share of the input at other frequencies than the added one; 0: time-invariant."""
+        """Return the largest share of the input at frequencies other than the excited one; 0: time-invariant."""
         worst = 0.0
         for w in frequency:
             wave = np.exp(1j * w * port.seconds * np.arange(port.count))
@@ -205,7 +206,7 @@ class LiftedModel:
 
 
 def reachable(arrows: np.ndarray, start: np.ndarray) -> np.ndarray:
-    """Return the mask of cells reached from the start over arrows [to, from]."""
+    """Return the mask of cells that can be reached from ``start`` along ``arrows`` [to, from]."""
     reached = start.copy()
     while True:
         grown = reached | (arrows @ reached)

@@ -1,4 +1,4 @@
-"""Elements that are not linear: their describing functions, the limit cycles predicted, and those that are flown."""
+"""Nonlinear elements: their describing functions, predicted limit cycles, and simulated ones."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ def element_report(
 ) -> Nonlinearity:
     """Report the harmonic balance of an element at a cut with the linear rest of the loop, L = ``response``.
 
-    ``prepare`` gives the system with the element's own layer, in which its limit cycle is simulated: amplitude and
-    period are read at the signal that returns to the cut, integrated where N is of the integral. Raises InputError for
-    parameters that the element cannot have.
+    ``prepare`` returns the system with the element's own layer, in which its limit cycle is simulated: amplitude and
+    period are those of the return signal, integrated if N is a function of the integral. Raises InputError for invalid
+    parameters of the element.
     """
     try:
         parameters = complete_parameters(element.kind, element.parameters)
@@ -66,17 +66,19 @@ def element_report(
 
 
 def _lowest(response: Response, low: float, high: float) -> float:
-    """Return the lowest frequency (rad/s): slower, L is so large that the element hardly moves,
-    and integrators are noise."""
+    """Return the lowest frequency (rad/s).
+
+    At lower ones L is so large that the element hardly moves, and integrators are noise.
+    """
     frequency = np.geomspace(low, high, POINTS)
     below = np.flatnonzero(abs(response(frequency)) < LARGEST_GAIN)
     return float(frequency[below[0]]) if below.size else low
 
 
 def _simulate(prepared: PreparedSystem, channel: Channel, integrated: bool) -> tuple[float, float] | None:
-    """Return amplitude and period (s) of the return signal at the end of a whole simulation, None if it rests.
+    """Return amplitude and period (s) of the return signal at the end of a simulation, None without oscillation.
 
-    ``integrated``: of its integral over time, less the ramp that a constant disturbance leaves in it.
+    ``integrated``: of its integral over time, without the ramp that a constant disturbance causes.
     """
     with open_simulation(prepared, wanted=channel.recorded) as simulation:
         flight = simulation.fly()

@@ -1,4 +1,4 @@
-"""Linearisation: the linear model over one hyperperiod from the complete memory of a system."""
+"""Linearisation: the linear model over one hyperperiod with respect to the complete memory of a system."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ ONE_STEP_CHANGE = 1e-5
 
 @dataclass
 class Linearisation:
-    """A linear model with what is needed to judge it.
+    """Linear model with the data needed to judge it.
 
-    ``neighbour`` is the model from the next smaller steps of the differences: as far as both agree, the steps are
-    right. ``drift`` lists name, value, change over the period and unit of the memory in the model, the largest relative
-    change first. ``blocks`` have the multipliers of the whole system. ``cells`` numbers the memory that matters for
-    either among the ``states`` cells of all. ``unknown`` is a relative change with the steps, assumed where
-    there was one step.
+    ``neighbour`` is the model from the next smaller steps of the differences: the steps are suitable as far as both
+    agree. ``drift`` lists name, value, change over the period and unit of the memory in the model, the largest relative
+    change first. ``blocks`` have the multipliers of the whole system. ``cells`` are the numbers of the cells relevant
+    for either, of ``states`` in all. ``unknown`` is the relative change with the steps that is assumed if there was
+    only one step.
     """
 
     model: LiftedModel
@@ -41,10 +41,10 @@ class Linearisation:
 def linearise(
     operating_point: OperatingPoint, cells: Sequence[int] | None = None, steps: Sequence[float] = STEPS
 ) -> Linearisation:
-    """Return the linear model about the flight of one hyperperiod.
+    """Return the linear model about the simulation of one hyperperiod.
 
-    ``cells`` names the memory that matters if it is known already; of one single step nothing is known of a plateau.
-    Raises StudyError where a flight breaks off.
+    ``cells`` are the numbers of the relevant memory cells, if known already. A single step does not show a plateau.
+    Raises StudyError if a simulation fails.
     """
     jacobian = Jacobian(operating_point)
     count = len(operating_point.memory.cells)
@@ -102,7 +102,7 @@ def _model(jacobian: Jacobian, cells: np.ndarray, matrix: np.ndarray, driven: np
 
 
 def _in_between(columns: np.ndarray, driven: list) -> np.ndarray:
-    """Return for every cell if an addition moves it, and it moves an output."""
+    """Return for every cell whether an excitation affects it, and it affects an output."""
     count = columns.shape[1]
     moved = _perturb(columns, driven)
     return moved & _moves(columns, np.any(columns[count:] != 0.0, axis=0))
@@ -120,7 +120,7 @@ def _moves(columns: np.ndarray, heard: np.ndarray) -> np.ndarray:
 def _blocks(
     jacobian: Jacobian, arrows: np.ndarray, driven: list, matrices: Sequence[np.ndarray]
 ) -> tuple[CoupledMemory, ...]:
-    """Return the multipliers of all memory, with the cells that each cut moves and depends on along the ``arrows``."""
+    """Return the multipliers of all memory, with the cells that each cut affects and depends on along ``arrows``."""
     count, inputs = arrows.shape[1], len(driven)
     moved, moves = [], []
     for port in jacobian.ports:

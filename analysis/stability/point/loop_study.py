@@ -1,4 +1,4 @@
-"""Everything about one channel at one operating point, linearisation and frequency-response test put together."""
+"""Study of one channel at one operating point, by linearisation and frequency-response test."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ STEP_LENGTH = 12.0  # over the lowest crossover: length of a step response
 
 @dataclass
 class LoopStudy:
-    """One channel with what is known of it: its linear model (None: not to be had), its measurement."""
+    """Study of one channel: its linear model (None if unavailable), and its measurement."""
 
     bench: Bench
     channel: Channel
@@ -72,7 +72,7 @@ class LoopStudy:
                 self.notes["frequency-response test"] = str(error)
 
     def refine(self) -> None:
-        """Measure at the crossings too, where margins are those of the frequency-response test."""
+        """Measure at the crossings as well, if margins are those of the frequency-response test."""
         if self.measured is None or self.injector is None or not self._by_measurement or self._silent:
             return
 
@@ -111,19 +111,19 @@ class LoopStudy:
 
     @property
     def _test_frequencies(self) -> np.ndarray:
-        """Frequencies (rad/s) at which a linear model is looked at as a measurement looks at a loop."""
+        """Frequencies (rad/s) at which a linear model is evaluated, over the range of a measurement."""
         return np.geomspace(FIRST_LOOK, 1.0, TEST_POINTS) * self.nyquist
 
     @property
     def _silent(self) -> bool:
-        """True if nothing comes back by every method that ran."""
+        """True if there is no return signal by any method that ran."""
         if self.model is None and self.measured is None:
             return False
         return (self.model is None or self._model_silent) and (self.measured is None or self._measurement_silent)
 
     @property
     def _by_measurement(self) -> bool:
-        """True if margins are those of the frequency-response test: linear, where no linearisation is to be trusted."""
+        """True if margins are those of the test: the loop is linear, and the linearisation cannot be trusted."""
         if self.measured is None:
             return False
         overlooked = self._model_silent and not self._measurement_silent
@@ -134,9 +134,9 @@ class LoopStudy:
         return self.measured is not None and self.measured.half_amplitude_change > NOT_LINEAR
 
     def refuse_what_is_no_loop(self) -> None:
-        """Raise StudyError where nothing comes back, a flight grows without end, or neither method finds a linear loop.
+        """Raise StudyError without a return signal, for unbounded growth, and if no method finds a linear loop.
 
-        Of what is not linear the error has L over the amplitude.
+        For a nonlinear loop the message has L over the amplitude.
         """
         if self.unstable is not None and (self.model is None or self._doubtful):
             raise self.unstable
@@ -160,7 +160,7 @@ class LoopStudy:
             raise StudyError(f"not applicable, since it is not linear: at {frequency:.3g} rad/s L is {sizes}")
 
     def _refuse_silence(self) -> None:
-        """Raise LoopError, unless what the model knows to grow does grow in a flight."""
+        """Raise LoopError, unless the model is unstable and a simulation confirms the growth."""
         injector = self.injector or Injector(self.bench, self.channel, LINES_FROM * FIRST_LOOK * self.nyquist)
         try:
             wave, peak = injector.wave()
@@ -178,9 +178,10 @@ class LoopStudy:
 
     @cached_property
     def assessed(self) -> tuple[Assessment, Response]:
-        """Margins, by linearisation where it can be trusted, else by the frequency-response test, after `measure`.
+        """Margins and response: of the linearisation if it can be trusted, else of the frequency-response test.
 
-        Raises StudyError where there is neither, or where the response is no loop's that margins could be read from.
+        To be used after `measure`. Raises StudyError if there is neither, or if margins cannot be read from the
+        response.
         """
         try:
             return self._assess()
@@ -214,7 +215,7 @@ class LoopStudy:
         return assess(response, curve.frequency[0], curve.frequency[-1], self.seconds, None), response
 
     def report(self, closed: Sequence[str]) -> LoopReport:
-        """Return the report without results that need other simulations than the two methods'."""
+        """Return the report, without results that need simulations beyond the two methods."""
         assessment, _ = self.assessed
         if not np.any(assessment.curve.value):
             self.notes["loop"] = SILENT
@@ -264,7 +265,7 @@ class LoopStudy:
         return replace(self.measured, curve=self.refined, lines=len(self.refined.frequency))
 
     def _step(self, assessment: Assessment) -> tuple[np.ndarray, np.ndarray]:
-        """Return the response of T, the return signal over the addition, to a step at the cut."""
+        """Return the step response of T, from the excitation at the cut to the return signal."""
         assert self.model is not None
         crossings = [crossing.frequency for crossing in assessment.classical.phase]
         length = STEP_LENGTH / min(crossings, default=self.nyquist) * 2.0 * np.pi / 4.0
@@ -279,7 +280,7 @@ class LoopStudy:
         return np.arange(periods * port.count) * self.seconds, np.concatenate(values)
 
     def amplitudes(self, frequency: float) -> tuple[tuple[AmplitudePoint, ...], float] | None:
-        """Measure L on the measured line nearest to a frequency (rad/s), over the amplitude of the addition."""
+        """Measure L over the amplitude of the excitation, on the measured line nearest to a frequency (rad/s)."""
         if self.injector is None or self.measured is None:
             return None
         peak = self.injector.peak()

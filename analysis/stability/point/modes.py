@@ -1,8 +1,9 @@
-"""Multipliers of a whole system, closed-loop modes of a loop's linear model, and what a cut can move and see of them.
+"""Multipliers of a whole system, closed-loop modes of a loop's linear model, and their controllability at a cut.
 
-Memory that reaches itself through others is a block. Ordered by what reaches what, the blocks stand on the diagonal of
-a triangular matrix: the multipliers of the whole system are those of its blocks. Memory on no circle is forgotten, and
-a number that only adds up what others bring has the multiplier 1.
+Cells that affect each other form a block. In topological order the blocks are on the diagonal of a triangular matrix:
+the multipliers of the whole system are those of its blocks. Cells that do not affect themselves have the multiplier 0,
+and a cell that only accumulates others has the multiplier 1.
+
 Source: Tarjan 1972, Depth-first search and linear graph algorithms (strongly connected components).
 """
 
@@ -24,7 +25,7 @@ ADDS_UP = 1e-6  # from 1: a cell that depends on itself so nearly only adds up, 
 
 
 def modes(model: LiftedModel, port: SampledChannel) -> tuple[Mode, ...]:
-    """Return all modes of a reduced model that last, largest multiplier first."""
+    """Return all modes of a reduced model, except those at 0, largest multiplier first."""
     lasting = model.lasting
     if not lasting.a.size:
         return ()
@@ -47,7 +48,7 @@ def modes(model: LiftedModel, port: SampledChannel) -> tuple[Mode, ...]:
 
 
 def unseen_mode(z: complex, period: float, moved: bool, moves: bool) -> Mode:
-    """Return a mode of memory that is not in the loop, which its cut moves or by which it is moved, not both."""
+    """Return a mode of memory outside the loop, which its cut affects or which affects it, but not both."""
     kind = "neither" if moved == moves else KINDS[moved, moves]
     return _mode(z, period, kind, float(moved), float(moves))
 
@@ -59,7 +60,7 @@ def _mode(z: complex, period: float, kind: str, controllability: float, observab
 
 
 def structure(model: LiftedModel, port: SampledChannel, states: int) -> Structure:
-    """Return ranks of [b, ab, a2b, ...] and of its dual over as many periods as there are states."""
+    """Return the ranks of [b, ab, a2b, ...] and of its dual over as many periods as there are states."""
     lasting = model.lasting
     controllable = _rank(lasting.a, lasting.b[:, port.rows])
     observable = _rank(lasting.a.T, lasting.cu[port.rows].T)
@@ -67,7 +68,7 @@ def structure(model: LiftedModel, port: SampledChannel, states: int) -> Structur
 
 
 def _rank(a: np.ndarray, b: np.ndarray) -> tuple[int, float]:
-    """Return the rank, and the smallest kept singular value relative to the largest."""
+    """Return the rank, and the smallest retained singular value relative to the largest."""
     blocks = [b]
     for _ in range(max(1, a.shape[0]) - 1):
         blocks.append(a @ blocks[-1])
@@ -80,10 +81,11 @@ def _rank(a: np.ndarray, b: np.ndarray) -> tuple[int, float]:
 
 @dataclass(frozen=True)
 class CoupledMemory:
-    """Memory that reaches itself through all of itself.
+    """Memory cells each of which affects all others.
 
-    ``multipliers`` are the largest first, and ``change`` is how much the largest changes with the next smaller steps of
-    the differences. ``moved`` and ``moves`` say of every port whether its cut moves it, and whether it moves the cut.
+    ``multipliers`` are in descending order, and ``change`` is the change of the largest with the next smaller steps of
+    the differences. ``moved`` and ``moves`` tell for every port whether its cut affects the cells, and whether they
+    affect the cut.
     """
 
     names: tuple[str, ...]
@@ -94,7 +96,7 @@ class CoupledMemory:
 
 
 def circles(matrix: np.ndarray) -> list[np.ndarray]:
-    """Return the cells of each block of a matrix [to, from] whose multipliers need not be 0 or 1."""
+    """Return the cells of each block of a matrix [to, from] whose multipliers may be other than 0 or 1."""
     _, labels = connected_components(matrix != 0.0, directed=True, connection="strong")
     own = np.diagonal(matrix)
     grows = (own != 0.0) & (abs(own - 1.0) > ADDS_UP)
@@ -103,6 +105,6 @@ def circles(matrix: np.ndarray) -> list[np.ndarray]:
 
 
 def multipliers(matrix: np.ndarray, cells: np.ndarray) -> np.ndarray:
-    """Return eigenvalues of a block, largest first."""
+    """Return the eigenvalues of a block, largest first."""
     values = np.linalg.eigvals(matrix[np.ix_(cells, cells)])
     return values[np.argsort(-abs(values), kind="stable")]

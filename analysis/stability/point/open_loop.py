@@ -1,9 +1,9 @@
-"""A loop opened at its break point as a state space of the loop's sample period, from the lifted closed loop.
+"""Loop opened at its break point, as a state space with the loop's sample period, from the lifted closed loop.
 
-The lifted model maps the memory over a hyperperiod of M samples of the loop. Where the loop does not change from sample
-to sample its outputs are those of one state space at every sample, x[k+1] = A x[k] + B u[k]: B is the lifted input
-matrix of the last sample, C the lifted output matrix of the first, and A shifts the observability matrix by one sample,
-O A = O', which least squares solve in the coordinates of the memory. It is compared with the lifted model before it is
+The lifted model maps the memory over a hyperperiod of M samples of the loop. If the loop does not change from sample to
+sample its outputs are those of one state space at every sample, x[k+1] = A x[k] + B u[k]: B is the lifted input matrix
+of the last sample, C the lifted output matrix of the first, and A shifts the observability matrix by one sample, O A =
+O', which is solved by least squares in the coordinates of the memory. It is compared with the lifted model before it is
 used. Source: Kung 1978, A new identification and model reduction algorithm via singular value decomposition (shift of
 the observability matrix); Bittanti and Colaneri 2009, Periodic Systems, section 6.2 (lifted reformulation).
 """
@@ -24,10 +24,10 @@ NEGLIGIBLE = 1e-11  # relative size of singular values that carry no information
 
 
 def open_loop(model: LiftedModel, ports: tuple[SampledChannel, ...]) -> StateSpace:
-    """Return L of some ports with one sample period, their cuts open, other loops closed; ``model`` is reduced for
-    them.
+    """Return L of some ports with one sample period, their cuts open and other loops closed.
 
-    At the ports' own sample period where they do not change from sample to sample, else lifted over the hyperperiod.
+    ``model`` is reduced for these ports. The result has the ports' own sample period if they do not change from sample
+    to sample, else it is lifted over the hyperperiod.
     """
     lifted = _open(model, ports)
     if lifted.samples > 1:
@@ -65,7 +65,7 @@ def _open(model: LiftedModel, ports: tuple[SampledChannel, ...]) -> StateSpace:
 
 
 def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[SampledChannel, ...]) -> StateSpace:
-    """Return one state space for all samples, as far as there is one; its error says so."""
+    """Return the best state space for all samples; its ``error`` shows whether one exists."""
     count, states = len(ports), len(lifted.a)
     blocks = [lifted.c]
     for _ in range(1 + -(-states // len(lifted.c))):
@@ -93,7 +93,7 @@ def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Sample
 
 
 def _waves(lifted: StateSpace, ports: tuple[SampledChannel, ...], frequency: np.ndarray) -> np.ndarray:
-    """Return L of a lifted open loop (n, m, m): the mean of the answers at the frequency of exp(jwt)."""
+    """Return L of a lifted open loop (n, m, m): the mean of the responses at the frequency of exp(jwt)."""
     count = len(ports)
     wave = np.exp(1j * ports[0].seconds * np.outer(frequency, np.arange(lifted.samples)))
     blocks = lifted.response(frequency).reshape(-1, lifted.samples, count, lifted.samples, count)

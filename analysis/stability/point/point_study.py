@@ -1,4 +1,4 @@
-"""One operating point: its bench, its linear model, its loops, and how long the frozen-time linearisation is valid."""
+"""One operating point: its bench, linear model and loops, and the validity of the frozen-time linearisation."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ TENTH = 0.1  # relative change of L at which the frozen-time linearisation is no
 
 
 class PointStudy:
-    """The loops of one point. Use as a context manager."""
+    """Loops of one operating point. A context manager."""
 
     def __init__(
         self, subject: Subject, point: PointDeclaration, loops: Sequence[LoopDeclaration], varied: Sequence[str] = ()
@@ -58,7 +58,7 @@ class PointStudy:
             self.why_not = str(error)
 
     def model(self, channel: Channel) -> LoopModel | None:
-        """Return the linearisation of one channel; None where there is none."""
+        """Return the linearisation of one channel, or None."""
         if self.linear is None:
             return None
         if channel.name not in self._models:
@@ -67,7 +67,7 @@ class PointStudy:
         return self._models[channel.name]
 
     def margins(self, states: Sequence[int], names: Sequence[str]) -> list[LoopMargins]:
-        """Return margins of channels by name where the memory that matters is known. Raises StudyError."""
+        """Return margins of channels by name, for known relevant memory cells. Raises StudyError."""
         self.linearise(states, ONE_STEP)
         if self.linear is None:
             raise StudyError(self.why_not)
@@ -79,7 +79,7 @@ class PointStudy:
         return LoopStudy(self.bench, channel, self.model(channel), limits, notes)
 
     def report(self) -> PointReport:
-        """Return the point, with the change of the memory over one hyperperiod more."""
+        """Return the report on the point, with the change of the memory over a further hyperperiod."""
         drift = holds = None
         trim: tuple[tuple[str, float, float, str | None], ...] = ()
         if self.linear is not None:
@@ -103,7 +103,7 @@ class PointStudy:
         )
 
     def _drift(self) -> float:
-        """Return the largest relative change of a loop's L, near its crossovers, over one hyperperiod."""
+        """Return the largest relative change of a loop's L near its crossovers over one hyperperiod."""
         assert self.linear is not None
         assert self._start is not None
         start = self._start.one_period_on()
@@ -121,9 +121,9 @@ class PointStudy:
         return worst
 
     def joint(self, loop: LoopDeclaration, limits: MarginLimits) -> JointReport | None:
-        """Report all channels of a loop at once, None where it has one, or no linear model.
+        """Return the report on all channels of a loop at once, None if it has one channel, or no linear model.
 
-        Raises StudyError where the margin is not resolved over frequency.
+        Raises StudyError if the margin is not resolved over frequency.
         """
         if self.linear is None:
             return None

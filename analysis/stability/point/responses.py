@@ -1,4 +1,4 @@
-"""A loop's linear model with its modes and margins, and the comparison of linearised and measured responses."""
+"""Linear model of one loop with its modes and margins, and comparison of linearised and measured responses."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped
 
 @dataclass
 class LoopModel:
-    """Linearisation of one channel. ``outside``: unstable state variables outside of the loop, the fastest first."""
+    """Linearisation of one channel. ``outside``: unstable state variables outside the loop, the fastest first."""
 
     model: LiftedModel
     port: SampledChannel
@@ -53,7 +53,7 @@ class LoopModel:
 
     @cached_property
     def _unstable(self) -> np.ndarray:
-        """Rates (rad/s) of open-loop poles outside the unit circle; slower ones are integrators, split by rounding."""
+        """Rates (rad/s) of open-loop poles outside the unit circle; slower ones are integrators split by rounding."""
         outside = self.poles_open[abs(self.poles_open) > 1.0 + UNIT_CIRCLE].astype(complex)
         rates = abs(np.log(outside)) / self.model.period
         return rates[rates > INTEGRATOR * self.lowest]
@@ -63,13 +63,15 @@ class LoopModel:
         return len(self._unstable)
 
     def slower(self, frequency: float) -> int:
-        """Return the number of unstable open-loop poles slower than a frequency (rad/s),
-        indistinguishable from integrators there."""
+        """Return the number of unstable open-loop poles slower than a frequency (rad/s).
+
+        They are indistinguishable from integrators there.
+        """
         return int(np.sum(self._unstable < frequency))
 
     @property
     def poles(self) -> np.ndarray:
-        """The multipliers of the closed-loop modes that the cut moves and sees."""
+        """Multipliers of the closed-loop modes that are controllable and observable at the cut."""
         return np.array([mode.z for mode in self.modes if mode.kind == "loop"])
 
     @property
@@ -79,16 +81,13 @@ class LoopModel:
 
     @property
     def largest(self) -> float:
-        """The largest multiplier of a closed-loop mode that the cut moves and sees, or that is unstable outside.
-
-        0 where none lasts.
-        """
+        """Largest multiplier of a closed-loop mode that is in the loop or, if unstable, outside; 0 without any."""
         own = [abs(mode.z) for mode in self.modes if mode.kind == "loop"]
         return max([0.0, *own, *(float(abs(block.multipliers[0])) for block in self.outside)])
 
     @property
     def stable(self) -> bool:
-        """True if the whole system with all loops closed is stable: no memory may grow."""
+        """True if the whole system is stable with all loops closed: no memory may grow."""
         return not self.outside and bool(self.largest < 1.0 + self.blur)
 
     @property
@@ -99,7 +98,7 @@ class LoopModel:
     def lightly_damped(self) -> tuple[list[float], list[float]]:
         """Return frequencies (rad/s) of undamped and of lightly damped open-loop poles.
 
-        Where the loop has several samples a hyperperiod, a multiplier determines the frequency of slow poles only.
+        If the loop has several samples in a hyperperiod, a multiplier only determines the frequency of slow poles.
         """
         angle = np.angle(self.poles_open)
         maximum = np.pi if self.port.count == 1 else SLOW_ANGLE
@@ -110,7 +109,7 @@ class LoopModel:
         return [float(w) for w in frequencies[on_circle]], [float(w) for w in frequencies[near]]
 
     def margins(self) -> LoopMargins:
-        """Return the nearest margins. Raises StudyError where they cannot be read."""
+        """Return the nearest margins. Raises StudyError if they cannot be determined."""
         seconds = self.port.seconds
         try:
             undamped, near = self.lightly_damped()
@@ -121,7 +120,7 @@ class LoopModel:
 
 
 def loop_model(linearisation: Linearisation, port: SampledChannel) -> LoopModel:
-    """Return the model of one channel within a linear model, and its trust."""
+    """Return the model of one channel within a linear model, and whether it can be trusted."""
     model = linearisation.model.reduce((port,))
     neighbour = linearisation.neighbour.reduce((port,))
     nyquist = np.pi / port.seconds
@@ -152,19 +151,19 @@ def _blur(change: float) -> float:
 
 
 def _is_outside(block: CoupledMemory, own: Sequence[Mode], plateau: float) -> bool:
-    """Return True if a block grows, and no mode of the loop accounts for it already."""
+    """Return True if a block grows, and no mode of the loop accounts for it."""
     if abs(block.multipliers[0]) < 1.0 + _blur(max(block.change, plateau)):
         return False
     return not any(mode.kind == "loop" and _alike(mode, block) for mode in own)
 
 
 def _alike(mode: Mode, block: CoupledMemory) -> bool:
-    """Return True if a mode is the fastest of a block: of a reduced model it is so up to the omitted memory."""
+    """Return True if a mode equals the fastest one of a block, up to the effect of memory that reduction omitted."""
     return bool(abs(abs(mode.z) - abs(block.multipliers[0])) < MOST_BLUR)
 
 
 def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:
-    """Return the memory whose derivatives change most with the step."""
+    """Return the memory cells whose derivatives change most with the step."""
     if model.a.shape != neighbour.a.shape:
         return ("what reaches what depends on the step",)
     change = np.max(abs(model.a - neighbour.a), axis=0)
@@ -185,7 +184,7 @@ def agreement(response: Response, measured: Measured, sample_period: float) -> A
 
 
 def disagreement(compared: Agreement, a: Linearised, b: Measured) -> str:
-    """Return the reason for different linearised and measured responses, as far as each knows of itself."""
+    """Return the reason for different linearised and measured responses, as far as either method shows it."""
     reasons = []
     if a.plateau > DOUBTFUL:
         names = ", ".join(a.doubtful)

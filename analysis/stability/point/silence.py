@@ -1,4 +1,4 @@
-"""A loop of which nothing comes back: the component behind which it ends, and whether what is added still grows."""
+"""Loop without a return signal: the component at which it ends, and whether a disturbance still grows."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ ROUNDING = 1e-12  # of an output's size, below which it is rounding
 
 @dataclass(frozen=True)
 class Silence:
-    """End of a signal path, at the first ``component`` whose outputs do not move; None where that is not known.
+    """End of a signal path at the first ``component`` whose outputs do not respond; None if unknown.
 
-    ``growth`` is the factor a sample by which an output parts from the undisturbed flight, None where none does.
+    ``growth`` is the factor per sample by which an output departs from the undisturbed simulation, or None.
     """
 
     component: str | None
@@ -33,7 +33,7 @@ class Silence:
 
     @property
     def reason(self) -> str:
-        """End of the loop, in words."""
+        """End of the loop as text."""
         if self.component is None:
             return "nothing comes back"
         return f"nothing comes back behind {self.component}"
@@ -42,10 +42,10 @@ class Silence:
 def silence_of(
     prepared: PreparedSystem, bench: Bench, channel: Channel, peak: float, wave: np.ndarray, measured: bool
 ) -> Silence:
-    """Return where a silent loop ends, by flights that record all outputs behind the cut.
+    """Return where a silent loop ends, from simulations that record all outputs after the cut.
 
-    ``wave`` [samples] with its largest value ``peak`` is added for some periods to see what grows. Components are
-    judged by it, too, where it was ``measured``; else by changes as small as those of the linearisation.
+    ``wave`` [samples] with its peak ``peak`` is added for some periods to find growing outputs. If the loop was
+    ``measured``, it also shows which components respond; otherwise changes as small as those of the linearisation do.
     """
     path = _path(prepared.network, channel)
     names = [name for group in path.outputs.values() for name in group]
@@ -64,8 +64,7 @@ def silence_of(
 def _disturb(
     bench: Bench, channel: Channel, samples: np.ndarray, names: list[str]
 ) -> tuple[float | None, dict[str, bool] | None]:
-    """Return the factor per sample by which an output departs from the undisturbed simulation, and if each output
-    does."""
+    """Return the growth factor per sample relative to the undisturbed simulation, and whether each output responds."""
     added = np.repeat(samples, channel.period)
     last = bench.origin + added.size
     with suppress(StudyError):
@@ -98,9 +97,9 @@ def _disturb(
 
 @dataclass(frozen=True)
 class _Path:
-    """The components from a cut to its return signal: ``first`` read the cut, ``readers`` each output by its name.
+    """Components from a cut to its return signal: ``first`` read the cut, ``readers`` each output by its name.
 
-    ``outputs`` are those of all components on the way, by component.
+    ``outputs`` are those of all components on the path, by component.
     """
 
     first: set[str]
@@ -108,7 +107,7 @@ class _Path:
     outputs: Mapping[str, list[str]]
 
     def first_still(self, responses: Mapping[str, bool]) -> str | None:
-        """Return the component nearest to the cut that is responses and moves nothing on the way."""
+        """Return the component nearest to the cut that receives a response and passes none on."""
         queue, known = sorted(self.first & self.outputs.keys()), set[str]()
         while queue:
             component = queue.pop(0)

@@ -1,4 +1,4 @@
-"""A loop's cut as channels: which connectors a signal is added to, and what is read on either side of the cut."""
+"""Channels of a loop's cut: the connectors that are excited, and the signals on either side of the cut."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ Signals = Mapping[str, np.ndarray]
 class Channel:
     """One scalar signal that is cut.
 
-    ``connectors`` are those that a signal is added to: one, or the size and the three components of a direction
-    of which ``axis`` is added to. With ``rates``, the connectors of the direction's rate, the direction is the one
-    that is reached ``ahead`` (s) later, which is what counts behind the cut. ``returned``: the connector that comes
-    back where it is not the cut itself. ``period``: how often the loop passes the cut, in communication points.
+    ``connectors`` are those that are excited: one, or the size and the three components of a direction of which
+    ``axis`` is excited. With ``rates``, the connectors of the direction's rate, the effective direction is the one
+    reached ``ahead`` (s) later. ``returned`` is the connector of the return signal, unless it is the cut itself.
+    ``period`` is the loop's sample period in communication points.
     """
 
     name: str
@@ -45,16 +45,16 @@ class Channel:
         return (*self.connectors, *self.rates, *back)
 
     def _towards(self, signals: Signals) -> np.ndarray:
-        """Return the direction that counts [r, 3], of any length."""
+        """Return the effective direction [r, 3], of any length."""
         direction = np.column_stack([signals[name] for name in self.connectors[1:]])
         if self.rates:
             direction = direction + self.ahead * np.column_stack([signals[name] for name in self.rates])
         return direction
 
     def excitation(self, signals: Signals, added: np.ndarray) -> np.ndarray:
-        """Return the addition to each connector [r, connectors] with which the cut gains ``added`` [r].
+        """Return the excitation of each connector [r, connectors] that adds ``added`` [r] at the cut.
 
-        ``signals`` are those of the flight without it: along them a vector's size and direction change together.
+        ``signals`` are those of the undisturbed simulation: a vector's size and direction change together along them.
         """
         if self.axis is None:
             return added[:, None]
@@ -68,14 +68,14 @@ class Channel:
         return np.column_stack([along, across * (length / size)[:, None]])
 
     def injection_for(self, signals: Signals) -> np.ndarray:
-        """Return the signal after the cut, with the addition."""
+        """Return the signal after the cut, including the excitation."""
         if self.axis is None:
             return signals[self.connectors[0]]
         towards = self._towards(signals)
         return signals[self.connectors[0]] * towards[:, self.axis] / np.linalg.norm(towards, axis=1)
 
     def back(self, signals: Signals, excitation: np.ndarray) -> np.ndarray:
-        """Return the return signal; ``excitation`` [r, connectors] is the addition in ``signals``."""
+        """Return the return signal; ``excitation`` [r, connectors] is contained in ``signals``."""
         if self.returned is not None:
             return signals[self.returned]
         before = {name: signals[name] - excitation[:, index] for index, name in enumerate(self.connectors)}
@@ -136,7 +136,7 @@ def _vector(network: Network, name: str, where: str) -> list[str]:
 
 
 def _connectors(network: Network, name: str, where: str) -> list[str]:
-    """Return the Real connectors that a name stands for: its own, or those of the vector of this name."""
+    """Return the Real connectors of a name: the connector itself, or those of the vector with this name."""
     connectors = elements(name, network.nodes)
     if not connectors:
         known = [node.name for node in network.nodes.values() if node.component is not None]

@@ -1,4 +1,4 @@
-"""Declared contents of a stability study: operating points, loops, elements, sweeps, limits."""
+"""Declarations of a stability study: operating points, loops, elements, sweeps, limits."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..loops.margin_values import MarginQuantity
 
 @dataclass(frozen=True)
 class MarginLimits:
-    """The least margins that pass; gains in dB and phases in deg, as they are agreed and shown."""
+    """Least margins that pass; gains in dB and phases in deg, as they are specified and shown."""
 
     gain_margin_db: float = 6.0
     phase_margin_deg: float = 30.0
@@ -20,7 +20,7 @@ class MarginLimits:
 
     @property
     def nominal(self) -> dict[MarginQuantity, float]:
-        """The limits of one loop."""
+        """Limits for one loop."""
         return {
             MarginQuantity.GAIN: self.gain_margin_db,
             MarginQuantity.PHASE: self.phase_margin_deg,
@@ -30,11 +30,11 @@ class MarginLimits:
 
 @dataclass(frozen=True)
 class PointDeclaration:
-    """Operating point of a linearisation: the first communication point at ``time`` (s) or later that fits its rates.
+    """Operating point of a linearisation: the first communication point from ``time`` (s) on that fits its rates.
 
-    ``signal`` and ``falls_to`` choose instead the first communication point at which a signal is no larger than a
-    value. ``layer`` has the system's options of the operating point. ``until`` (s): its end, for measurements; None:
-    unlimited. ``phase`` says in words what the system does.
+    ``signal`` and ``falls_to`` select instead the first communication point at which a signal is at most a value.
+    ``layer`` are the system options of the operating point. ``until`` (s) limits measurements; None: unlimited.
+    ``phase`` describes what the system does there.
     """
 
     name: str
@@ -48,10 +48,10 @@ class PointDeclaration:
 
 @dataclass(frozen=True)
 class NonlinearElement:
-    """A nonlinear element at a loop's cut: its describing function's kind and parameters.
+    """Nonlinear element at a loop's cut: the kind and parameters of its describing function.
 
-    ``layer`` changes the operating point for the simulation that a predicted limit cycle is compared with: the FMUs
-    or values with which the element acts. An empty layer: no simulation.
+    ``layer`` changes the operating point for the simulation with which a predicted limit cycle is compared: the FMUs or
+    values with which the element acts. An empty layer: no simulation.
     """
 
     name: str
@@ -62,13 +62,13 @@ class NonlinearElement:
 
 @dataclass(frozen=True)
 class LoopDeclaration:
-    """A loop and where it is cut: ``cut`` is a connector or a vector of connectors, each component a channel.
+    """Loop and its ``cut``: a connector, or a vector of connectors, of which each component is a channel.
 
-    With ``direction``, a vector of three connectors, the cut is the vector ``cut`` (its size) times ``direction``,
+    With ``direction``, a vector of three connectors, the cut is the connector ``cut`` (a size) times ``direction``,
     with the channels x, y, z; with ``direction_rate`` it is the direction that this rate reaches ``ahead`` (s) later.
-    ``returned`` is the signal that comes back where it is not the cut's own, with
-    as many components. ``period`` (s): how often the loop passes the cut; None: every communication point.
-    ``amplitude``: of an injected signal, in the cut's unit; None: 1 % of what the signal is. ``points`` are names.
+    ``returned`` is the return signal if it is not at the cut itself, with as many components. ``period`` (s) is the
+    loop's sample period; None: every communication point. ``amplitude`` of the injected signal is in the cut's unit;
+    None: 1 % of the signal. ``points`` are names.
     """
 
     name: str
@@ -97,7 +97,7 @@ class Sweep:
 
 @dataclass(frozen=True)
 class Declaration:
-    """All that a system declares of its stability."""
+    """All declarations of a system for its stability study."""
 
     limits: MarginLimits = MarginLimits()
     points: tuple[PointDeclaration, ...] = ()
@@ -106,6 +106,6 @@ class Declaration:
 
     @property
     def layers(self) -> tuple[Layer, ...]:
-        """Options of the system that operating points and elements change."""
+        """System options that operating points and elements change."""
         elements = (element.layer for loop in self.loops for element in loop.elements)
         return (*(point.layer for point in self.points), *elements)

@@ -1,4 +1,4 @@
-"""A system's declaration of its loops, from the `org.perilune.stability` annotation of its SSD."""
+"""Reads a system's declaration of its loops from the `org.perilune.stability` annotation of its SSD."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LAYER_ELEMENTS = ("Use", "ParameterSet", "Set")
 
 
 def read_declaration(description: Description) -> Declaration:
-    """Read the declaration of the SSD, empty where there is none. Raises InputError naming the line."""
+    """Return the declaration in the SSD, empty if there is none. Raises InputError with the line."""
     annotation = description.annotations.get(ANNOTATION)
     if annotation is None:
         return Declaration()
@@ -76,7 +76,7 @@ class _RequestReader(AnnotationReader):
         )
 
     def pairs(self, elements: list[etree._Element], key: str, value: str) -> dict[str, str]:
-        """Return two attributes of each element as a mapping; duplicates are refused."""
+        """Return two attributes of each element as a mapping; duplicates are rejected."""
         values: dict[str, str] = {}
         for element in elements:
             item = self.attributes(element, (key, value))

@@ -1,4 +1,4 @@
-"""A stability study's request: system, options, loops, points and campaign, checked before anything is simulated."""
+"""Request for a stability study: system, options, loops, points and campaign, checked before any simulation."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from .reading import read_declaration
 
 @dataclass(frozen=True)
 class Request:
-    """Request for a study; small enough to be sent to every worker.
+    """Request for a study, small enough to be sent to every worker.
 
-    ``name`` is the system's and ``label`` its place, for messages. ``plan`` is the campaign that margins are dispersed
-    over, ``campaign`` its name as requested, ``draws`` the file of its draws where it draws none. ``at`` are the user's
-    times (s) for points, none where the declaration's hold.
+    ``name`` is the system's and ``label`` its place, for messages. ``plan`` is the campaign over which margins are
+    dispersed, ``campaign`` its name as requested, ``draws`` the file of supplied draws. ``at`` are the user's times (s)
+    for points; none if the declared ones are used.
     """
 
     name: str
@@ -62,13 +62,13 @@ def read_request(
     trial: int | None = None,
     draws: Path | None = None,
 ) -> Request:
-    """Read the request for a study of a system's declared loops, or of some.
+    """Return the request for a study of all or some of a system's loops.
 
-    ``loops`` are names of declared loops, or connectors of loops that are not declared, which are cut at the times
-    ``at`` (s; 0 by default). Declared loops are studied there too, each with the settings of its declared points, and
-    without sweeps, which belong to those points. With ``campaign``, of which ``configuration`` names one, margins are
-    dispersed over its trials, or with ``trial`` the study is made of that trial's draws. ``draws`` is a file of draws
-    to take in place of drawn ones. Raises InputError.
+    ``loops`` are names of declared loops, or connectors of undeclared ones, which are cut at the times ``at`` (s; 0 by
+    default). Declared loops are then studied at these times, too, with the settings of their declared points, and
+    without sweeps, which belong to those points. With ``campaign``, of which ``configuration`` selects a variant,
+    margins are dispersed over its trials, or with ``trial`` the study uses that trial's draws. ``draws`` is a file of
+    draws that replace drawn ones. Raises InputError.
     """
     archive = open_system(system)
     times = tuple(sorted(set(map(float, at))))
@@ -93,7 +93,7 @@ def read_request(
 
 
 def _select(description: Description, names: Sequence[str], at: Sequence[float], options: SystemOptions) -> Declaration:
-    """Return the declaration with just the requested loops."""
+    """Return the declaration with only the requested loops."""
     declared = read_declaration(description)
     by_name = {loop.name: loop for loop in declared.loops}
     for time in at:
@@ -134,15 +134,14 @@ def _select(description: Description, names: Sequence[str], at: Sequence[float],
 
 
 def _remaining(layer: Layer, options: SystemOptions) -> Layer:
-    """Return what of a point's settings the user's leave in force."""
+    """Return the settings of a point that the user's options do not override."""
     use = {component: fmu for component, fmu in layer.use.items() if component not in options.use}
     values = {name: value for name, value in layer.set.items() if name not in options.set}
     return replace(layer, use=use, set=values)
 
 
 def _shift(points: Sequence[PointDeclaration], at: Sequence[float]) -> list[PointDeclaration]:
-    """Return points with the settings of declared ones at other times. Raises InputError where one is after their
-    end."""
+    """Return points at other times with the settings of declared ones. Raises InputError for times after their end."""
     shifted = []
     for point in points:
         for time in at:
@@ -162,7 +161,7 @@ def _name_at(point: str, time: float) -> str:
 
 
 def _values_of_trial(plan: BatchPlan, options: SystemOptions, trial: int) -> SystemOptions:
-    """Return options with the draws of one trial as settings, over the campaign's own and below the user's."""
+    """Return options with the draws of one trial as settings, which override the campaign's and yield to the user's."""
     if not 0 <= trial < plan.campaign.trials:
         problem = f"the campaign has trials 0 to {plan.campaign.trials - 1}"
         raise InputError("`trial`", str(trial), problem, "give one of them")
@@ -174,7 +173,7 @@ def _values_of_trial(plan: BatchPlan, options: SystemOptions, trial: int) -> Sys
 
 @dataclass(frozen=True)
 class Subject:
-    """A system and options; `changed` gives another one that shares its loaded FMUs."""
+    """System with options; `changed` returns another subject that shares its loaded FMUs."""
 
     system: str
     options: SystemOptions
@@ -186,6 +185,6 @@ class Subject:
         return replace(self, options=options if step is None else options.but(step=step))
 
     def at(self, point: PointDeclaration, study: Layer | None = None) -> PreparedSystem:
-        """Prepare the system at a point, with ``study`` over all other layers. Raises InputError."""
+        """Return the system prepared at a point, with ``study`` as the top layer. Raises InputError."""
         options = self.options.among(operating_point=point.layer, study=study or Layer())
         return prepare_system(self.system, options, self.fmus)

@@ -1,10 +1,10 @@
 """Loop responses and linear models as files for python-control, MATLAB and spreadsheets, with names and units.
 
-Three files say the same: `loops.json` for python-control, `loops.mat` for MATLAB, `responses.csv` with the responses
-alone. Gains are factors, frequencies rad/s, times s; signals and states are in the units next to them. The bytes depend
-on the content alone. Source: The MathWorks, MAT-File Format (version 5): the first 116 bytes are a text that begins
-with "MATLAB 5.0 MAT-file", then come the subsystem's offset, the version and the byte order. SciPy writes date and
-platform into it.
+Three files have the same content: `loops.json` for python-control, `loops.mat` for MATLAB, `responses.csv` with the
+responses only. Gains are factors, frequencies rad/s, times s; signals and states are in the units next to them. The
+bytes only depend on the content. Source: The MathWorks, MAT-File Format (version 5): the first 116 bytes are a text
+that begins with "MATLAB 5.0 MAT-file", followed by the subsystem's offset, the version and the byte order. SciPy writes
+date and platform into it.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ HEADER = b"MATLAB 5.0 MAT-file, written by Perilune".ljust(116)
 
 
 def write_data(report: StabilityStudy, folder: Path) -> None:
-    """Write the three files into a folder, which is created; the same study gives the same bytes. Raises OSError."""
+    """Write the three files to a folder, which is created; the same study gives the same bytes. Raises OSError."""
     facts, results = document(report), _results(report)
     about = {"system": facts["system"], "sign": SIGN, "model": MODEL}
     if report.orders is not None:
@@ -77,7 +77,7 @@ def _assumption(orders: Orders) -> str:
 
 
 def _loop(loop: LoopReport, time: float) -> dict[str, object]:
-    """Return one channel at a point of this time (s)."""
+    """Return the record of one channel at a point with this time (s)."""
     curves = {name: (frequency, value) for name, frequency, value in _curves(loop)}
     empty = np.zeros(0), np.zeros(0, dtype=complex)
     linearised, measured = (curves.get(name, empty) for name in (LINEARISED, MEASURED))
@@ -116,7 +116,7 @@ def _joint(joint: JointReport, time: float) -> dict[str, object]:
 
 
 def _fill_unknown(facts: Mapping[str, float | str | None]) -> dict[str, float | str]:
-    """Return margins for files that have no null."""
+    """Return margins for file formats that have no null."""
     return {key: "not known" if value is None else value for key, value in facts.items()}
 
 
@@ -166,21 +166,21 @@ def _table(report: StabilityStudy) -> str:
 
 
 def _plain(value: object) -> object:
-    """Return arrays for JSON; complex numbers are [real, imaginary]."""
+    """Return arrays as JSON; complex numbers are [real, imaginary]."""
     if isinstance(value, np.ndarray):
         return np.stack([value.real, value.imag], axis=-1).tolist() if np.iscomplexobj(value) else value.tolist()
     raise TypeError(type(value).__name__)
 
 
 def mat_bytes(variables: Mapping[str, object]) -> bytes:
-    """Return the file with these variables; names are at most 63 letters, digits and underscores."""
+    """Return a MAT-file with these variables; names are at most 63 letters, digits and underscores."""
     file = io.BytesIO()
     savemat(file, dict(variables), long_field_names=True, oned_as="column")
     return HEADER + file.getvalue()[len(HEADER) :]
 
 
 def struct_array(records: Sequence[Mapping[str, object]]) -> np.ndarray:
-    """Return records with the same keys as a MATLAB struct array, one by n; lists of texts are cell arrays."""
+    """Return records with the same keys as a 1 x n MATLAB struct array; lists of texts are cell arrays."""
     names = list(records[0]) if records else []
     array = np.empty((1, len(records)), dtype=[(name, object) for name in names])
     for place, record in enumerate(records):

@@ -1,4 +1,4 @@
-"""A study as a document for other programs: dB, deg and s, complex numbers as [real, imaginary]."""
+"""Study as a document for other programs: dB, deg and s, complex numbers as [real, imaginary]."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ KEYS = {
 
 
 def document(report: StabilityStudy) -> dict[str, object]:
-    """Return the whole report without the linearisation's curves, ready for strict JSON.
+    """Return the whole report as strict JSON, without the linearisation's curves.
 
-    No number is infinite: a margin is a number, "unstable", "unlimited", or null where it is not known.
+    No number is infinite: a margin is a number, "unstable", "unlimited", or null if it is unknown.
     """
     content: dict[str, object] = {
         "system": report.system,
@@ -50,7 +50,7 @@ def document(report: StabilityStudy) -> dict[str, object]:
 
 
 def _finite(value: object) -> object:
-    """Return the same with null for every number that is NaN or infinite."""
+    """Return the same content with null for every number that is NaN or infinite."""
     if isinstance(value, dict):
         return {name: _finite(item) for name, item in value.items()}
     if isinstance(value, list | tuple):
@@ -59,7 +59,7 @@ def _finite(value: object) -> object:
 
 
 def _size(value: float | None, *, stable: bool = True) -> float | str | None:
-    """Return the size of a margin: a number, the word in its place, or None where it is not known."""
+    """Return the size of a margin: a number, a word, or None if it is unknown."""
     if not stable:
         return "unstable"
     if value is None or math.isnan(value):
@@ -68,7 +68,7 @@ def _size(value: float | None, *, stable: bool = True) -> float | str | None:
 
 
 def loop_margins(loop: LoopReport) -> dict[str, float | str | None]:
-    """Return the four margins and the delay margin of a loop, by their keys."""
+    """Return the four margins and the delay margin of a loop, by key."""
     delay = _size(loop.classical.delay_margin, stable=not loop.margins.unstable)
     return {**_margins(loop.margins), "delay_margin_s": delay}
 
@@ -79,7 +79,7 @@ def joint_margin(joint: JointReport) -> float | str | None:
 
 
 def _margins(margins: LoopMargins | None) -> dict[str, float | str | None]:
-    """Return the four margins; None where they are not known."""
+    """Return the four margins, or None if they are unknown."""
     return {name: _size(None if margins is None else margins.size(quantity)) for name, quantity in KEYS.items()}
 
 

@@ -1,4 +1,4 @@
-"""A study's report: points, loops, channels at once, what could not be studied. Angles in rad, gains as factors."""
+"""Report of a study: points, loops, joint channels, failed parts. Angles in rad, gains as factors."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .varied import Dispersion, StepMargins, SweepReport
 
 @dataclass
 class LoopReport:
-    """One loop at one operating point. ``curve`` is the linearisation's, where there is one, else the test's."""
+    """One loop at one operating point. ``curve`` is from the linearisation if there is one, else from the test."""
 
     name: str
     loop: str  # name of the declaration
@@ -55,7 +55,7 @@ class LoopReport:
 
     @property
     def margins(self) -> LoopMargins:
-        """The nearest margins; of an unstable loop there are none."""
+        """Nearest margins; an unstable loop has none."""
         return LoopMargins.of(self.classical, self.robust, self.stable, self.largest)
 
     @property
@@ -65,7 +65,7 @@ class LoopReport:
 
     @property
     def doubted(self) -> bool:
-        """True if linearised and measured response differ: then no reading of one of them can pass."""
+        """True if linearised and measured response differ, so that no requirement can pass."""
         return self.agreement is not None and not self.agreement.agrees
 
     @property
@@ -78,7 +78,7 @@ class LoopReport:
 class JointReport:
     """All channels of one loop opened at once, with independent scaling of each (a multivariable disk margin).
 
-    Where the closed loop is not ``stable`` the distances are of the response only: it has no margin.
+    Unless the closed loop is ``stable`` the distances describe the response only: there is no margin.
     """
 
     name: str
@@ -101,12 +101,11 @@ class JointReport:
 
 @dataclass(frozen=True)
 class PointReport:
-    """An operating point: where the system was linearised and how long the frozen-time linearisation is valid.
+    """Operating point: where the system was linearised, and how long the frozen-time linearisation is valid.
 
-    ``time`` is that of the communication point (s); ``trim`` lists, for the memory that changes most over one
-    period, name, value, change over the period and unit; ``drift`` is the largest relative change of a margin's
-    frequency response over one further period, and ``holds`` how long (s) until it would be 10 % (inf: does not
-    change).
+    ``time`` is that of the communication point (s); ``trim`` lists name, value, change over the period and unit of the
+    memory that changes most over one period; ``drift`` is the largest relative change of a margin's frequency response
+    over one further period, and ``holds`` the time (s) until it would be 10 % (inf: no change).
     """
 
     name: str
@@ -120,10 +119,10 @@ class PointReport:
 
 @dataclass(frozen=True)
 class Unstudied:
-    """Something that was asked for and could not be had: a loop at a point, its channels at once, a sweep.
+    """Requested result that could not be obtained: a loop at a point, its joint channels, a sweep.
 
-    ``verdict`` is what the ``reason`` decides without figures: that a loop fails, or that nothing applies to it; None
-    where it was not studied.
+    ``verdict`` is the one that follows from ``reason`` without figures: fail or not applicable; None if it was not
+    studied.
     """
 
     name: str
@@ -151,12 +150,12 @@ class JudgedRequirement(NamedTuple):
 
 @dataclass(frozen=True)
 class Orders:
-    """A study, in both orders, of loops that pass FMUs with undeclared dependencies.
+    """Study, in both orders, of loops with FMUs that have undeclared dependencies.
 
     ``undeclared`` are these FMUs' names by component, assumed to have no feedthrough in simulations; ``direct`` are the
-    components that have it in ``report``, the study in the other order. ``without`` are those that cannot have it with
-    the others: it would close an algebraic loop, which the initialisation cuts at ``cuts``. The report is None where
-    none can have it, and then there is one order only.
+    components that have it in ``report``, the study in the other order. ``without`` are those that cannot have it,
+    since it would close an algebraic loop, which the initialisation cuts at ``cuts``. The report is None if none can
+    have it, so that there is only one order.
     """
 
     undeclared: dict[str, str]
@@ -167,7 +166,7 @@ class Orders:
 
     @property
     def fmus(self) -> str:
-        """The components with their FMUs, as ``wheel (FMU lag)``."""
+        """Components with their FMUs, as ``wheel (FMU lag)``."""
         return ", ".join(f"{name} (FMU {fmu})" for name, fmu in self.undeclared.items())
 
 

@@ -1,4 +1,4 @@
-"""A limit, what was found, and whether it holds."""
+"""Requirement on a margin: limit, value and verdict."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..loops.margin_values import UNSTABLE, MarginQuantity
 
 
 class Scope(StrEnum):
-    """Scope of a requirement: one loop, its trials, all channels of a loop at once."""
+    """Scope of a requirement: one loop, its trials, or all channels of a loop at once."""
 
     NOMINAL = "nominal"
     DISPERSED = "dispersed"
@@ -81,7 +81,7 @@ def combine(requirements: Iterable[MarginRequirement]) -> MarginVerdict:
 
 
 def combine_verdicts(verdicts: Iterable[MarginVerdict]) -> MarginVerdict:
-    """Fail if one fails, withheld if one is, pass if one passes; what is not applicable decides nothing."""
+    """Return fail if one fails, withheld if one is, pass if one passes; what is not applicable does not count."""
     known = set(verdicts)
     return next(
         (token for token in (MarginVerdict.FAIL, MarginVerdict.WITHHELD, MarginVerdict.PASS) if token in known),
@@ -90,7 +90,7 @@ def combine_verdicts(verdicts: Iterable[MarginVerdict]) -> MarginVerdict:
 
 
 def grows(outside: Sequence[str], most: int = 4) -> str:
-    """Return the instability outside of a loop, in words."""
+    """Return a text on the instability outside of a loop."""
     if not outside:
         return ""
     more = f" and {len(outside) - most} more" if len(outside) > most else ""

@@ -14,12 +14,12 @@ from ..loops.readings import FrequencyResponse
 
 @dataclass(frozen=True)
 class Mode:
-    """A closed-loop mode over the ``period`` (s) of the linear model.
+    """Closed-loop mode over the ``period`` (s) of the linear model.
 
-    ``z`` is the multiplier over one period, ``s`` the equivalent log(z)/period (rad/s; not unique above the
-    Nyquist frequency of the period). ``kind`` is "loop" for modes that the cut can both move and see, else
-    "not controllable", "not observable" or "neither". ``controllability`` and ``observability`` are the sizes of
-    the mode's input and output vectors, scaled by the largest.
+    ``z`` is the multiplier over one period, ``s`` the equivalent log(z)/period (rad/s; not unique above the Nyquist
+    frequency of the period). ``kind`` is "loop" for modes that are controllable and observable at the cut, else "not
+    controllable", "not observable" or "neither". ``controllability`` and ``observability`` are the sizes of the mode's
+    input and output vectors, relative to the largest.
     """
 
     z: complex
@@ -33,7 +33,7 @@ class Mode:
 
 @dataclass(frozen=True)
 class Structure:
-    """Ranks of the controllability and observability Gramians' factors and their smallest kept singular values."""
+    """Ranks of the controllability and observability matrices, and their smallest retained singular values."""
 
     states: int  # of the complete memory
     order: int  # of the memory that the cut both moves and is moved by
@@ -45,7 +45,7 @@ class Structure:
 
 @dataclass(frozen=True)
 class Linearised:
-    """Facts on the Jacobian, and on its trust."""
+    """Properties of the Jacobian that tell whether it can be trusted."""
 
     states: int
     period: float  # s, over which the Jacobian was taken
@@ -56,7 +56,7 @@ class Linearised:
 
 @dataclass(frozen=True)
 class Measured:
-    """Facts on the injection, and on its trust."""
+    """Properties of the injection that tell whether it can be trusted."""
 
     amplitude: float  # of one line, in the cut's unit
     lines: int
@@ -69,7 +69,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class Agreement:
-    """The largest difference of the two methods below half the Nyquist frequency."""
+    """Largest difference of the two methods below half the Nyquist frequency."""
 
     gain: float  # factor, at least 1
     phase: float  # rad
@@ -79,16 +79,16 @@ class Agreement:
 
 @dataclass(frozen=True)
 class StateSpace:
-    """The open loop x[k+1] = A x[k] + B u[k], y[k] = C x[k] + D u[k], with L from ``u`` to ``y``.
+    """Open loop x[k+1] = A x[k] + B u[k], y[k] = C x[k] + D u[k], with L from ``u`` to ``y``.
 
-    ``u`` is the signal into the loop after the break point, ``y`` minus the signal that returns to it, so that the loop
-    is closed by u = d - y and L is positive for negative feedback. All are deviations from the flight at the operating
-    point, in the units of ``signal_units`` and ``state_units`` (None: without one).
+    ``u`` is the signal into the loop after the break point, ``y`` is minus the return signal, so that the loop is
+    closed by u = d - y and L is positive for negative feedback. All are deviations from the simulation at the operating
+    point, in the units of ``signal_units`` and ``state_units`` (None: dimensionless).
 
-    ``period`` (s) is that between two k. Where ``samples`` is 1 it is the loop's own sample period; a loop that changes
-    from sample to sample within the hyperperiod has its ``samples`` of u and y stacked, oldest first, channel by
-    channel within each, and the hyperperiod for its period. ``error`` is the largest relative difference of the model's
-    L from the study's where |L| is between 1/33 and 33.
+    ``period`` (s) is the time from k to k + 1. If ``samples`` is 1 it is the loop's own sample period; a loop that
+    changes from sample to sample within the hyperperiod has its ``samples`` of u and y stacked, oldest first, channel
+    by channel within each, and the hyperperiod as its period. ``error`` is the largest relative difference of the
+    model's L from the study's where |L| is between 1/33 and 33.
     """
 
     a: np.ndarray
@@ -105,7 +105,7 @@ class StateSpace:
     error: float
 
     def response(self, frequency: np.ndarray) -> np.ndarray:
-        """Return y over u at angular frequencies (rad/s, shape (n,)): shape (n, outputs, inputs)."""
+        """Return L(w) at angular frequencies (rad/s, shape (n,)), of shape (n, outputs, inputs)."""
         z = np.exp(1j * self.period * np.asarray(frequency, dtype=float))
         shifted = z[:, None, None] * np.eye(len(self.a)) - self.a
         return self.c @ np.linalg.solve(shifted, self.b.astype(complex)[None]) + self.d
@@ -113,7 +113,7 @@ class StateSpace:
 
 @dataclass(frozen=True)
 class AmplitudePoint:
-    """Gain and phase of L at one frequency, measured with one amplitude of the injected signal (in its unit)."""
+    """L at one frequency, measured with one amplitude of the injected signal (in its unit)."""
 
     amplitude: float
     value: complex
@@ -122,7 +122,7 @@ class AmplitudePoint:
 
 @dataclass(frozen=True)
 class LimitCycle:
-    """A limit cycle predicted by harmonic balance, and what a simulation shows. Amplitudes at the element's input."""
+    """Limit cycle predicted by harmonic balance, and the simulated one. Amplitudes are at the element's input."""
 
     amplitude: float
     period: float  # s
@@ -133,7 +133,7 @@ class LimitCycle:
 
 @dataclass(frozen=True)
 class Nonlinearity:
-    """An element of the loop with its describing function N(a), and the limit cycles that L and N predict."""
+    """Element of the loop with its describing function N(a), and the limit cycles that L and N predict."""
 
     name: str
     kind: str

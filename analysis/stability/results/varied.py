@@ -1,4 +1,4 @@
-"""Margins while something varies: the communication step, the trials of a campaign, a parameter."""
+"""Margins under variation of the communication step, of the trials of a campaign, or of a parameter."""
 
 from __future__ import annotations
 
@@ -25,8 +25,9 @@ class StepMargins:
 class Dispersion:
     """Margins over the trials of a campaign.
 
-    ``worst`` is the trial with the least disk margin, of unstable ones that with the largest multiplier, and ``replay``
-    the command that studies it again. ``poles`` are all trials' closed-loop multipliers, side by side.
+    ``worst`` is the trial with the least disk margin, or if there are unstable ones that with the largest multiplier;
+    ``replay`` is the command that studies it again. ``poles`` are the closed-loop multipliers of all trials,
+    concatenated.
     """
 
     campaign: str
@@ -45,20 +46,20 @@ class Dispersion:
         return sum(item.unstable for item in self.margins)
 
     def sizes(self, quantity: MarginQuantity) -> np.ndarray:
-        """Return a margin's size in every trial, `UNSTABLE` and `UNLIMITED` among them."""
+        """Return a margin's size in every trial, which may be `UNSTABLE` or `UNLIMITED`."""
         return np.array([item.size(quantity) for item in self.margins])
 
     def levels(self, quantity: MarginQuantity) -> dict[str, float]:
-        """Return least, 5 % and median over all trials: order statistics, so each is the margin of a trial."""
+        """Return least value, 5 % quantile and median over all trials; each is the margin of one trial."""
         sizes = [item.size(quantity) for item in self.margins]
         return {name: order_statistic(sizes, level) for name, level in LEVELS.items()}
 
 
 @dataclass(frozen=True)
 class SweepCrossing:
-    """The value of the parameter at which a margin reaches its limit or, of stability, the loop becomes unstable.
+    """Value of the parameter at which a margin reaches its limit, or the loop becomes unstable.
 
-    ``below``: the side that fails.
+    ``below``: smaller values fail.
     """
 
     quantity: MarginQuantity
@@ -68,7 +69,7 @@ class SweepCrossing:
 
 @dataclass(frozen=True)
 class SweepReport:
-    """Margins over one parameter, and the values at which each limit is crossed, ascending."""
+    """Margins over one parameter, and the values at which limits are crossed, ascending."""
 
     name: str
     loop: str
