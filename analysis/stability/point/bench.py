@@ -161,10 +161,10 @@ class Bench:
 class OperatingPoint:
     """Bench simulated to its operating point, with its memory saved there.
 
-    ``scale`` [cells] is the unit in which changes of each cell are measured: the largest absolute value of the cell, or
-    of another one in its vector, on the way, but at least LEAST of the largest with its unit (NEVER, if the vector has
-    been 0 so far), and 1 if nothing determines a scale. Vectors without a unit, such as covariances, mix quantities:
-    their cells have individual scales. ``sizes`` are likewise those of the signals at the cuts, by loop.
+    ``scale`` [cells] is the unit in which changes of each cell are measured: the largest absolute value on the way of
+    any cell in its vector, at least LEAST of the largest with its unit, or NEVER of that if the vector has been 0 so
+    far; 1 if nothing determines a scale. Vectors without a unit, such as covariances, mix quantities: each of their
+    cells is measured by its own value. ``sizes`` are the largest absolute values of the signals at the cuts, by loop.
     """
 
     def __init__(self, bench: Bench) -> None:

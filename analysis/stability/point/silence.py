@@ -107,7 +107,7 @@ class _Path:
     outputs: Mapping[str, list[str]]
 
     def first_still(self, responses: Mapping[str, bool]) -> str | None:
-        """Return the component nearest to the cut that receives a response and passes none on."""
+        """Return the nearest component to the cut that the response reaches but that does not respond, or None."""
         queue, known = sorted(self.first & self.outputs.keys()), set[str]()
         while queue:
             component = queue.pop(0)
