@@ -31,7 +31,7 @@ class MarginQuantity(StrEnum):
 
     @property
     def unit(self) -> str:
-        """The unit of its sizes: dB, deg, s or 1."""
+        """Unit of its sizes: dB, deg, s or 1."""
         return {"gain": "dB", "phase": "deg", "delay": "s"}.get(self.split()[-2] if " " in self else "", "1")
 
 
@@ -41,11 +41,10 @@ MARGINS = (MarginQuantity.GAIN, MarginQuantity.PHASE, MarginQuantity.MODULUS, Ma
 
 @dataclass(frozen=True)
 class LoopMargins:
-    """The nearest margins of one loop.
+    """Nearest margins of one loop.
 
-    ``gain`` (factor, above 1: upwards), ``phase`` (rad, positive: lag) and ``delay`` (s) are inf where there is no
-    crossing.
-    ``stable`` None: not known. ``largest`` is the largest multiplier of the loop's closed-loop modes, None where no
+    ``gain`` (factor, above 1: upwards), ``phase`` (rad, positive: lag) and ``delay`` (s) are inf without a crossing.
+    ``stable`` is None if unknown. ``largest`` is the largest multiplier of the loop's closed-loop modes, None if no
     poles are known.
     """
 
@@ -59,7 +58,7 @@ class LoopMargins:
 
     @classmethod
     def of(cls, classical: Classical, robust: Robust, stable: bool | None, largest: float | None) -> LoopMargins:
-        """Return the margins of the nearest crossings and the distances from -1."""
+        """Return the margins of the nearest crossings, and the distances from -1."""
         gain, phase = classical.gain_margin, classical.phase_margin
         return cls(
             gain=gain.value if gain else math.inf,
@@ -73,11 +72,11 @@ class LoopMargins:
 
     @property
     def unstable(self) -> bool:
-        """True if the loop is known to be unstable: then it has no margins."""
+        """True if the loop is known to be unstable, so that it has no margins."""
         return self.stable is False
 
     def size(self, quantity: MarginQuantity) -> float:
-        """Return the size of a margin in its unit, `UNSTABLE` or `UNLIMITED`."""
+        """Return the size of a margin in its unit, or `UNSTABLE` or `UNLIMITED`."""
         if self.unstable:
             return UNSTABLE
         if quantity is MarginQuantity.GAIN:

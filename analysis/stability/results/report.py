@@ -142,7 +142,7 @@ class Unstudied:
 
 
 class JudgedRequirement(NamedTuple):
-    """A requirement and what is judged by it."""
+    """Requirement with the loop to which it applies."""
 
     subject: LoopReport | JointReport
     requirement: MarginRequirement
@@ -172,9 +172,9 @@ class Orders:
 
 @dataclass
 class StabilityStudy:
-    """Everything about one system. ``unstudied`` is what could not be had, each with its reason.
+    """Report on one system. ``unstudied`` are the results that could not be obtained, each with its reason.
 
-    ``orders``: the other order of undeclared FMUs, None where no loop passes one.
+    ``orders``: the other order of undeclared FMUs, None if no loop contains one.
     """
 
     system: str
@@ -189,7 +189,7 @@ class StabilityStudy:
     orders: Orders | None = None
 
     def judgements(self) -> Iterator[JudgedRequirement]:
-        """Yield every requirement, with its loop."""
+        """Yield every requirement with its loop."""
         for loop in self.loops:
             for requirement in loop.judged:
                 yield JudgedRequirement(loop, requirement)
@@ -199,7 +199,7 @@ class StabilityStudy:
 
     @property
     def verdict(self) -> MarginVerdict:
-        """Verdict, which does not pass loops without a study or with differing linearised and measured responses."""
+        """Overall verdict; loops without a study or with differing responses prevent a pass."""
         requirements = [item.requirement.verdict for item in self.judgements()]
         verdict = combine_verdicts([*requirements, *(lost.verdict for lost in self.unstudied if lost.verdict)])
         open_to_doubt = self.unstudied or any(loop.doubted for loop in self.loops)

@@ -26,11 +26,11 @@ class MarginVerdict(StrEnum):
 
 @dataclass(frozen=True)
 class MarginRequirement:
-    """``value`` and ``limit`` are in the quantity's unit, as they are shown; ``note`` says more.
+    """Requirement on a margin; ``value`` and ``limit`` are in the quantity's unit, as shown; ``note`` is optional.
 
-    The value may be `UNSTABLE` or `UNLIMITED`; None: not known, and then ``passed`` is None, not applicable.
-    ``as_feedthrough`` is the same where FMUs with undeclared dependencies are taken to have feedthrough, None where
-    the study has one order only: it passes where both pass and fails where both fail.
+    The value may be `UNSTABLE` or `UNLIMITED`, or None if it is unknown; ``passed`` is then None, not applicable.
+    ``as_feedthrough`` is the same requirement with feedthrough in FMUs with undeclared dependencies, None if the study
+    has one order only: it passes if both pass and fails if both fail.
     """
 
     scope: Scope
@@ -45,8 +45,7 @@ class MarginRequirement:
     def at_least(
         cls, scope: Scope, quantity: MarginQuantity, value: float, limit: float, note: str = ""
     ) -> MarginRequirement:
-        """Return the requirement that a margin is no smaller than its limit; one of an unstable
-        loop is smaller than any."""
+        """Return the requirement that a margin is at least its limit; an unstable loop's margin is below any limit."""
         return cls(scope, quantity, value, limit, value >= limit, note)
 
     @property
@@ -64,12 +63,12 @@ class MarginRequirement:
 
     @property
     def unstable(self) -> bool:
-        """True if it fails because there is no margin, the loop being unstable."""
+        """True if it fails because the loop is unstable and has no margin."""
         return self.value == UNSTABLE
 
     @property
     def title(self) -> str:
-        """As ``dispersed gain margin``."""
+        """Scope and quantity as text: ``dispersed gain margin``."""
         if self.quantity is MarginQuantity.STABILITY:
             return "spectral radius" if self.scope is Scope.NOMINAL else "share of stable trials"
         return self.quantity if self.scope is Scope.NOMINAL else f"{self.scope} {self.quantity}"

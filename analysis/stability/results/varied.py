@@ -14,7 +14,7 @@ LEVELS = {"least": 0.0, "5 %": 0.05, "50 %": 0.5}  # of dispersed margins
 
 @dataclass(frozen=True)
 class StepMargins:
-    """The margins with another communication step (s); None where there are none, and ``note`` says why."""
+    """Margins with another communication step (s); None if there are none, with the reason in ``note``."""
 
     step: float
     margins: LoopMargins | None
