@@ -83,7 +83,7 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
     except Exception as error:  # whatever the user's file raises is reported as one line
         # Python 3.11 wraps what a declaration raises
         reason = error.__cause__ if isinstance(error.__cause__, DeclarationError) else error
-        raise ValueError(f"{path}: importing it failed: {type(reason).__name__}: {reason}") from error
+        raise ValueError(f"{path}: importing it failed: {type(reason).__name__}: {reason}; correct it") from error
     blocks = blocks_of(module)
     if not blocks:
         raise ValueError(f"{path}: defines no block; derive a class from perilune.Block or an interface of it")

@@ -8,12 +8,14 @@ import math
 import os
 import sys
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import hypothesis
 import pytest
 
+from perilune.analysis.cli import main
 from perilune.analysis.shipped import main as build_fmus
 from perilune.common import progress
 from perilune.common.paths import BUILD, shipped_fmu
@@ -25,6 +27,7 @@ from tests.support.lengths import LONG, either
 from tests.support.locks import made_once, one_process_at_a_time
 from tests.support.pages.browser import NO_BROWSER, find_browser
 from tests.support.pages.scripts import NO_SCRIPTS
+from tests.support.refused import ONE_LINE
 from tests.times.recording import pytest_runtest_logreport, pytest_runtest_logstart, write_times  # noqa: F401 -- hooks
 
 # The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
@@ -106,6 +109,23 @@ def _build_where_old(_: Path) -> None:
         python = all(_is_current(name, closure_of(block).package) for name, block in blocks.items())
         if not (native and python and systems_are_current()):
             assert build_fmus([]) == 0
+
+
+@pytest.fixture
+def refusal(request: pytest.FixtureRequest) -> Callable[[list[str]], str]:
+    """Return a function that runs `perilune` with arguments, checks that it refuses them with one line and exit
+    status 2, and returns that line."""
+    captured = request.getfixturevalue("capfd" if "capfd" in request.fixturenames else "capsys")
+
+    def refuse(arguments: list[str]) -> str:
+        captured.readouterr()
+        status = main(arguments)
+        error = captured.readouterr().err
+        assert status == 2, (status, error)
+        assert ONE_LINE.fullmatch(error), error
+        return error
+
+    return refuse
 
 
 @pytest.fixture(scope="session")

@@ -49,10 +49,9 @@ def test_a_law_by_its_name():
     assert name in perilune.inventory(name).laws
 
 
-def test_a_text_that_nothing_has(capsys):
-    assert main(["list", "no_such_text"]) == 2
+def test_a_text_that_nothing_has(refusal):
     expected = "list: no_such_text: in no name and no description; give another text, or a kind: "
-    assert expected in capsys.readouterr().err
+    assert expected in refusal(["list", "no_such_text"])
 
 
 def test_the_whole_list_has_no_description_of_systems(everything, capsys):

@@ -200,11 +200,12 @@ def test_a_declared_loop_at_several_times(packed, tmp_path, capsys):
     assert text.index("Margins over the time of flight") < text.index("<h2>Verdict</h2>")
 
 
-def test_a_time_behind_the_end_of_a_point_is_refused(packed, capsys):
+def test_a_time_behind_the_end_of_a_point_is_refused(packed, refusal):
     end = '<Point name="brief" time="10" until="15"/><Loop name="short" cut="plant.position" points="brief"/>'
     path = packed(loops=end)
-    assert main(["stability", path, "--loop", "short", "--at", "12,15"]) == 2
-    assert "--at: 15: point brief lasts until 15 s; " in capsys.readouterr().err
+    assert "--at: 15: point brief lasts until 15 s; " in refusal(
+        ["stability", path, "--loop", "short", "--at", "12,15"]
+    )
 
 
 @pytest.mark.parametrize(

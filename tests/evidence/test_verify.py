@@ -220,8 +220,8 @@ def test_a_suffix_in_capitals(tmp_path, files, capsys):
     assert "that is built" not in message
 
 
-def test_what_is_no_file_of_these(tmp_path, capsys):
-    assert main(["verify", "lunar_terminal_guidance"]) == 2
-    assert "perilune export lunar_terminal_guidance writes it with its evidence" in capsys.readouterr().err
-    assert main(["verify", "orbital_filtre"]) == 2
-    assert "the nearest of" in capsys.readouterr().err
+def test_what_is_no_file_of_these(tmp_path, refusal):
+    assert "perilune export lunar_terminal_guidance writes it with its evidence" in refusal(
+        ["verify", "lunar_terminal_guidance"]
+    )
+    assert "the nearest of" in refusal(["verify", "orbital_filtre"])

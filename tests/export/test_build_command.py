@@ -113,10 +113,9 @@ def test_a_declaration_error_is_shown(built):
     assert "unit 'ell' is not understood" in built(text, "--flavour", "python")[2]
 
 
-def test_a_file_that_is_not_there(tmp_path, monkeypatch, capsys):
+def test_a_file_that_is_not_there(tmp_path, monkeypatch, refusal):
     monkeypatch.chdir(tmp_path)
-    assert main(["export", "gone.py"]) == 2
-    assert "gone.py: no such file" in capsys.readouterr().err
+    assert "gone.py: no such file" in refusal(["export", "gone.py"])
     assert not list(tmp_path.iterdir())
 
 

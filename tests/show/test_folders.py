@@ -112,6 +112,5 @@ def test_a_column_that_the_summary_does_not_declare(folder, capsys):
     assert "'other': not declared in the campaign's summary" in refusal(folder, capsys)
 
 
-def test_wrong_options(campaign_folder, capsys):
-    assert main(["show", str(campaign_folder), "--port", "70000"]) == 2
-    assert "--port" in capsys.readouterr().err
+def test_wrong_options(campaign_folder, refusal):
+    assert "--port" in refusal(["show", str(campaign_folder), "--port", "70000"])

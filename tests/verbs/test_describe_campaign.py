@@ -62,6 +62,5 @@ def test_the_command_line(capsys):
         (["lunar_landing", "--campaign", "terminal_box", "--step", "0.1"], "without other options"),
     ],
 )
-def test_refusals(arguments, message, capsys):
-    assert main(["describe", *arguments]) == 2
-    assert message in capsys.readouterr().err
+def test_refusals(arguments, message, refusal):
+    assert message in refusal(["describe", *arguments])

@@ -118,7 +118,7 @@ def test_an_empty_unit_is_none(tiny, tmp_path, plain):
     same(fly(pack(tmp_path / "s.ssp", tiny, document(root))), plain)
 
 
-def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys):
+def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys, refusal):
     cross = component("cross", "cross", "input a Real m; input b Real m; output ya Real m; output yb Real m")
     path = pack(
         tmp_path / "s.ssp",
@@ -130,20 +130,17 @@ def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys):
     result = fly(path, open_inputs="start")
     assert set(result["cross.ya"]) == {2.0 * 0.25}
     assert set(result["cross.yb"]) == {0.5 + 1.0}
-    assert main(["validate", str(path)]) == 2
-    assert "--open-inputs start" in capsys.readouterr().err
+    assert "--open-inputs start" in refusal(["validate", str(path)])
     assert main(["validate", str(path), "--open-inputs", "start"]) == 0
     assert "cross.b: open input, keeps 0.5" in " ".join(capsys.readouterr().out.split())
     assert perilune.validate(path, open_inputs="start")[0].problems == ()
 
 
-def test_system_options_are_for_systems_and_fmus_alone(tiny, tmp_path, capsys):
+def test_system_options_are_for_systems_and_fmus_alone(tiny, tmp_path, refusal):
     (tmp_path / "set.ssv").write_text(parameter_set("ramp.start=Real:2"))
-    assert main(["validate", str(tmp_path / "set.ssv"), "--step", "1"]) == 2
-    assert "it is no system, which they are for" in capsys.readouterr().err
+    assert "it is no system, which they are for" in refusal(["validate", str(tmp_path / "set.ssv"), "--step", "1"])
     assert main(["validate", str(tiny / "ramp.fmu"), "--step", "1", "--set", "ramp.start=2"]) == 0
-    assert main(["validate", str(tiny / "ramp.fmu"), "--set", "ramp.star=2"]) == 2
-    assert "use one of ramp.start, ramp.slope" in capsys.readouterr().err
+    assert "use one of ramp.start, ramp.slope" in refusal(["validate", str(tiny / "ramp.fmu"), "--set", "ramp.star=2"])
 
 
 def test_a_campaign_may_name_the_file_of_its_system(tiny, tmp_path):
@@ -233,12 +230,11 @@ def test_messages_speak_of_the_file(tiny, tmp_path):
         fly(path, stop_time=1.2)
 
 
-def test_one_variant_is_validated_or_all(tiny, tmp_path, capsys):
+def test_one_variant_is_validated_or_all(tiny, tmp_path, capsys, refusal):
     good, bad = document(system(RAMP)), document(system(RAMP, bindings=inline("ramp.stort=Real:1")))
     path = str(pack(tmp_path / "s.ssp", tiny, good, other__ssd=bad))
     assert main(["validate", path]) == 0
     assert main(["validate", path, "--variant", "other"]) == 2
     assert main(["validate", path, "--all-variants"]) == 2
     assert "other.ssd: ramp.stort" in " ".join(capsys.readouterr().err.split())
-    assert main(["validate", path, "--all-variants", "--variant", "other"]) == 2
-    assert "--all-variants" in capsys.readouterr().err
+    assert "--all-variants" in refusal(["validate", path, "--all-variants", "--variant", "other"])

@@ -214,12 +214,11 @@ OTHERS = {
 }
 
 
-def test_no_worker_comes(line, tmp_path, capsys, monkeypatch):
+def test_no_worker_comes(line, tmp_path, monkeypatch, refusal):
     monkeypatch.setattr(connection, "FIRST_WORKER", 0.2)
     with dask_cluster(tmp_path, workers=0) as alone:
-        assert main([*line, "--scheduler", alone.address]) == 2
         words = f"no worker has come within 0.2 s; start some: dask worker {alone.address}"
-        assert words in capsys.readouterr().err
+        assert words in refusal([*line, "--scheduler", alone.address])
 
 
 @pytest.mark.slow

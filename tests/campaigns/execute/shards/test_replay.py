@@ -170,9 +170,8 @@ def test_what_is_refused(name, folder, capsys):
     assert problem in line
 
 
-def test_a_folder_that_is_none(tmp_path, capsys):
-    assert main(["replay", str(tmp_path), "0"]) == 2
-    assert "manifest.json: not found; give a folder that perilune batch" in capsys.readouterr().err
+def test_a_folder_that_is_none(tmp_path, refusal):
+    assert "manifest.json: not found; give a folder that perilune batch" in refusal(["replay", str(tmp_path), "0"])
 
 
 def test_a_comparison_names_the_failures_of_each_variant(tmp_path, monkeypatch):

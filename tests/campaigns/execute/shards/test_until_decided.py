@@ -73,6 +73,7 @@ def test_it_ends_where_it_is_decided(campaign, whole, tmp_path, capsys):
     assert perilune.merge(tmp_path / "one").to_json()["variants"] == document["variants"]
 
 
-def test_there_must_be_something_to_decide(capsys):
-    assert main(["batch", SYSTEM, "--campaign", "paper", "--until-decided"]) == 2
-    assert "--until-decided: the campaign has no requirement; declare what is to be decided" in capsys.readouterr().err
+def test_there_must_be_something_to_decide(refusal):
+    assert "--until-decided: the campaign has no requirement; declare what is to be decided" in refusal(
+        ["batch", SYSTEM, "--campaign", "paper", "--until-decided"]
+    )
