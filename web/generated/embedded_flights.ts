@@ -1,12 +1,12 @@
 // Written by build_web.py from analysis/documents/of/batch/embedded_flights.py.
 
-// A signal in a panel, and its colour.
+// A signal in a panel, with its colour.
 export interface PanelLine {
   name: string;
   colour: string;
 }
 
-// A panel over time; numbers are in SI, times ``factor`` in ``unit``.
+// A panel over time; its numbers are in SI, multiplied by ``factor`` they are in ``unit``.
 export interface FlightsPanel {
   title: string;
   unit: string;
@@ -23,7 +23,7 @@ export interface FlightColumns<Column = number> {
   columns: Column[];
 }
 
-// Recorded flights over time.
+// Recorded simulations over time.
 export interface RecordedDocument<Column = number> {
   panels: FlightsPanel[];
   flights: FlightColumns<Column>[];

@@ -1,15 +1,17 @@
 // Written by build_web.py from analysis/documents/of/batch/embedded_trials.py.
 
-// A metric or a draw by the name of its column; numbers are in SI, times ``factor`` in ``unit``.
+// A metric or sampled input, by column name; its numbers are in SI, multiplied by ``factor`` they are in
+// ``unit``.
 export interface TrialQuantity {
   name: string;
   unit: string;
   factor: number;
 }
 
-// The trials of a variant: columns, by ``command`` what is before and after a trial's number in its replay command.
+// The trials of a variant as columns.
 //
-// ``status`` are indices of ``statuses``; ``exact`` has numbers by row, a text where one is not finite.
+// ``command`` is the text before and after a trial's number in its replay command. ``status`` are indices of
+// ``statuses``; ``exact`` has numbers by row, non-finite ones as text.
 export interface VariantTrials<Column = number> {
   name: string;
   command: [string, string];
@@ -21,7 +23,7 @@ export interface VariantTrials<Column = number> {
   exact: Record<string, (number | string)[]>;
 }
 
-// The trials of a batch, and the quantities that each variant has a column of.
+// The trials of a batch, and the quantities for which each variant has a column.
 export interface TrialsDocument<Column = number> {
   quantities: TrialQuantity[];
   variants: VariantTrials<Column>[];

@@ -1,1 +1,1 @@
-"""Documents of the results, one file a result."""
+"""Documents of results, one file per result."""

@@ -1,4 +1,4 @@
-"""The document of a batch: verdicts on its variants, distributions, recorded simulations, failures, tables."""
+"""Document of a batch: verdicts on its variants, distributions, recorded simulations, failures, tables."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from .scatters import scatter_nodes, scatter_title
 
 
 def batch_document(batch: CampaignResult, printed: Sequence[str] = ()) -> Document:
-    """Return the document of a batch; ``printed`` are metrics that a terminal lists."""
+    """Return the document of a batch; a terminal lists the metrics ``printed``."""
     content = BatchContent(batch)
     return Document(
         batch.provenance["system"],

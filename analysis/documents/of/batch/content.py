@@ -1,4 +1,4 @@
-"""Numbers of a batch that several sections of its document have, each computed once when a page needs it."""
+"""Data common to several sections of a batch's document, each computed once on first use."""
 
 from __future__ import annotations
 
@@ -26,28 +26,28 @@ class BatchContent:
 
     @property
     def campaign(self) -> Campaign:
-        """Campaign of the batch."""
+        """The campaign of the batch."""
         return self.batch.plan.campaign
 
     @cached_property
     def metrics(self) -> list[Metric]:
-        """Metrics of the campaign with descriptions of what they are."""
+        """The metrics of the campaign with their descriptions."""
         described = self.batch.provenance["metrics"]
         return [replace(each, description=describe_metric(described[each.name])) for each in self.campaign.metrics]
 
     @cached_property
     def styles(self) -> Mapping[str, Look]:
-        """Look of each variant's lines."""
+        """The look of each variant's lines."""
         return {variant: look(index) for index, variant in enumerate(self.batch.rows)}
 
     @cached_property
     def sorted_metrics(self) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
-        """Metrics that vary, constant ones, those without a finite value."""
+        """The metrics that vary, the constant ones with their values, and those without a finite value."""
         return sort_metrics(self.batch)
 
     @cached_property
     def verdicts(self) -> VerdictTable:
-        """Verdicts on the variants, with the metrics that vary and are no truths."""
+        """The verdicts on the variants, for metrics that vary and are not Boolean."""
         return verdict_table(
             self.batch.summary,
             [metric for metric in self.sorted_metrics[0] if not metric.expression.is_truth],
@@ -57,16 +57,16 @@ class BatchContent:
 
     @cached_property
     def judged(self) -> Sequence[Metric]:
-        """Metrics of success and requirements; all that vary where there are none."""
+        """The metrics of success and requirements, or all metrics that vary if there are none."""
         return [each.metric for each in self.verdicts.metrics] or self.sorted_metrics[0]
 
     @cached_property
     def replays(self) -> list[Replay]:
-        """First failures and worst trials."""
+        """The first failures and the worst trials."""
         return trials_to_replay(self.batch, self.verdicts)
 
     @cached_property
     def influences(self) -> Mapping[str, Mapping[str, float]]:
-        """Influence of each dispersed input on success, by variant; of variants with failures and successes."""
+        """The influence of each dispersed input on success, for variants with failures and successes."""
         influences = {variant: influence_on_success(self.batch, variant) for variant in self.batch.rows}
         return {variant: values for variant, values in influences.items() if values}

@@ -19,7 +19,7 @@ MOST_INPUTS = 3  # of a metric
 
 
 class Driver(NamedTuple):
-    """A metric of a variant, and its most correlated inputs: their names and rank correlations."""
+    """A metric of a variant with its most correlated inputs: names and rank correlations."""
 
     variant: str
     metric: str
@@ -27,7 +27,7 @@ class Driver(NamedTuple):
 
 
 def drivers(result: CampaignResult) -> list[Driver]:
-    """Return a row for each metric of each variant that has a rank correlation, the largest first."""
+    """Return a row for each metric of each variant with rank correlations, the largest correlation first."""
     names = input_names(result.plan.campaign)
     rows = []
     for variant, sample in result.plotted.items():
@@ -42,7 +42,7 @@ def drivers(result: CampaignResult) -> list[Driver]:
 
 
 def driver_sections(content: BatchContent) -> list[Section]:
-    """Return the inputs that each metric depends on most."""
+    """Return the section on the inputs with which each metric correlates most; no section without correlations."""
     rows = [
         (each.variant, each.metric, ", ".join(f"{name} {number(rho, 2)}" for name, rho in each.inputs))
         for each in drivers(content.batch)
@@ -59,7 +59,7 @@ def driver_sections(content: BatchContent) -> list[Section]:
 
 
 def failure_section(content: BatchContent) -> Section:
-    """Return failures over the inputs of most influence on success, and the influence of all."""
+    """Return failures over the inputs with the most influence on success, and the influence of all inputs."""
     rates = {variant: entry.success_rate for variant, entry in content.batch.summary.items()}
     nodes: list[Node] = []
     for rate, text in ((1.0, "no failures"), (0.0, "all trials failed, so that no influence can be computed")):
@@ -91,5 +91,5 @@ def _influence_table(influences: Mapping[str, Mapping[str, float]], names: list[
 
 
 def _significant(content: BatchContent) -> str:
-    """Return the correlation below which one is not significant (5 %)."""
+    """Return the magnitude below which a correlation is not significant (5 %)."""
     return number(2.0 / content.batch.provenance["trials"] ** 0.5, 2)

@@ -1,4 +1,4 @@
-"""Empirical distributions of a batch's metrics: of those of success and requirements first, then of the others."""
+"""Empirical distributions of a batch's metrics: first those of success and requirements, then the others."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .embedded_trials import trials_document, trials_notes
 
 
 def distribution_section(content: BatchContent) -> Section:
-    """Return the distributions of metrics of success and requirements, and the trials that marks stand for."""
+    """Return distributions of the metrics of success and requirements, and the trials that their marks represent."""
     batch = content.batch
     samples = {variant: sample.note for variant, sample in batch.plotted.items() if sample.note}
     nodes: list[Node] = [
@@ -48,7 +48,7 @@ def distribution_section(content: BatchContent) -> Section:
 
 
 def other_distribution_sections(content: BatchContent) -> list[Section]:
-    """Return the distributions of all other metrics, constant metrics and those without a finite value."""
+    """Return distributions of all other metrics, constant metrics, and metrics without a finite value."""
     varying, constant, empty = content.sorted_metrics
     others = [metric for metric in varying if metric not in content.judged]
     nodes: list[Node] = [
@@ -80,7 +80,7 @@ def distribution_figures(content: BatchContent, metrics: Sequence[Metric]) -> Fi
 def distribution_figure(
     metric: Metric, samples: Mapping[str, np.ndarray], styles: Mapping[str, Look], name: str
 ) -> Figure:
-    """Return the empirical distribution of a metric by variant; ``name`` is that of the figure."""
+    """Return the empirical distribution of a metric by variant; ``name`` identifies the figure."""
     chart = replace(distribution_chart(metric, samples, list(styles.values())), title=CUMULATIVE)
     words = f"Cumulative distribution of {metric.name}"
     return Figure(metric.name, name, words, chart, PANEL_HEIGHT, is_narrow=True)

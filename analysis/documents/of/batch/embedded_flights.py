@@ -1,4 +1,4 @@
-"""Recorded flights inside the page of a batch: their signals over time, and a scene of all."""
+"""Recorded simulations inside the page of a batch: signals over time, and a common scene."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ LINE_LIMIT = 24  # signals of a flight
 
 
 class PanelLine(TypedDict):
-    """A signal in a panel, and its colour."""
+    """A signal in a panel, with its colour."""
 
     name: str
     colour: str
 
 
 class FlightsPanel(TypedDict):
-    """A panel over time; numbers are in SI, times ``factor`` in ``unit``."""
+    """A panel over time; its numbers are in SI, multiplied by ``factor`` they are in ``unit``."""
 
     title: str
     unit: str
@@ -52,7 +52,7 @@ class FlightColumns(TypedDict):
 
 
 class RecordedDocument(TypedDict):
-    """Recorded flights over time."""
+    """Recorded simulations over time."""
 
     panels: list[FlightsPanel]
     flights: list[FlightColumns]
@@ -60,7 +60,7 @@ class RecordedDocument(TypedDict):
 
 @dataclass(frozen=True)
 class EmbeddedFlights:
-    """Data of flights for scripts: ``document``, the ``scene`` where there is one, and the sentences about both."""
+    """Recorded simulations for scripts: ``document``, the ``scene`` if there is one, and sentences about both."""
 
     document: RecordedDocument
     scene: FlightsView | None
@@ -68,7 +68,7 @@ class EmbeddedFlights:
 
 
 def embedded_flights(batch: CampaignResult) -> EmbeddedFlights | None:
-    """Return the recorded flights of a batch for its page, or None where it recorded none."""
+    """Return the recorded simulations of a batch for its page, or None if it recorded none."""
     chosen = choose_flights(batch)
     if not chosen:
         return None
@@ -98,7 +98,7 @@ def embedded_flights(batch: CampaignResult) -> EmbeddedFlights | None:
 
 
 def _declared_scene(batch: CampaignResult) -> SceneFigure | None:
-    """Return the scene that the system declares, as its first variant has it. Raises InputError."""
+    """Return the scene declared by the system of the first variant. Raises InputError."""
     prepared = batch.plan.prepare(next(iter(batch.plan.campaign.variants())))
     return next((figure for figure in read_figures(prepared) if isinstance(figure, SceneFigure)), None)
 
@@ -113,7 +113,7 @@ def _scene_names(scene: SceneFigure | None) -> set[str]:
 def _document(
     provenance: CampaignProvenance, names: Sequence[str], flights: Sequence[RecordedFlight]
 ) -> RecordedDocument:
-    """Return panels with a line for each signal of a vector, and by flight a column for each line."""
+    """Return panels with a line for each element of a vector, and for each simulation a column per line."""
     panels = [(base, list(lines)) for base, lines in groupby(names, key=vector_of)]
     return {
         "panels": [

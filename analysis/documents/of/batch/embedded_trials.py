@@ -1,4 +1,4 @@
-"""The trials of a batch inside its page: what a dot stands for, and the command that simulates it again."""
+"""Trials of a batch inside its page: the trial behind each dot, and the command that replays it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ EXACT_LIMIT = 200  # failures of a variant whose numbers are exact
 
 
 class TrialQuantity(TypedDict):
-    """A metric or a draw by the name of its column; numbers are in SI, times ``factor`` in ``unit``."""
+    """A metric or sampled input, by column name; its numbers are in SI, multiplied by ``factor`` they are in
+    ``unit``.
+    """
 
     name: str
     unit: str
@@ -27,9 +29,10 @@ class TrialQuantity(TypedDict):
 
 
 class VariantTrials(TypedDict):
-    """The trials of a variant: columns, by ``command`` what is before and after a trial's number in its replay command.
+    """The trials of a variant as columns.
 
-    ``status`` are indices of ``statuses``; ``exact`` has numbers by row, a text where one is not finite.
+    ``command`` is the text before and after a trial's number in its replay command. ``status`` are indices of
+    ``statuses``; ``exact`` has numbers by row, non-finite ones as text.
     """
 
     name: str
@@ -43,17 +46,17 @@ class VariantTrials(TypedDict):
 
 
 class TrialsDocument(TypedDict):
-    """The trials of a batch, and the quantities that each variant has a column of."""
+    """The trials of a batch, and the quantities for which each variant has a column."""
 
     quantities: list[TrialQuantity]
     variants: list[VariantTrials]
 
 
 def trials_document(batch: CampaignResult) -> TrialsDocument:
-    """Return all data for the page's script: quantities with their units, and the trials of each variant.
+    """Return the data for the page's script: quantities with their units, and the trials of each variant.
 
-    Draws and metrics are in 16 bits over the range of their column; of the first failures, and of the trials with the
-    least and the greatest value of a metric, they are exact. Beyond `NUMBER_LIMIT` the last trials are left out.
+    Inputs and metrics have 16 bits over the range of their column; they are exact for the first failures and for the
+    trials with the extremes of a metric. Beyond `NUMBER_LIMIT` numbers the last trials are omitted.
     """
     units = {f"metric.{metric.name}": metric.unit for metric in batch.plan.campaign.metrics}
     names = _column_names(batch)
@@ -68,7 +71,7 @@ def trials_document(batch: CampaignResult) -> TrialsDocument:
 
 
 def trials_notes(batch: CampaignResult) -> list[str]:
-    """Return the notes of a page on the numbers at its marks."""
+    """Return a page's notes on the numbers shown at its marks."""
     notes = [
         "A mark, or a point of a distribution, names its trial; a click pins it with its replay command, a drag "
         f"selects trials in all figures. Numbers of the first {EXACT_LIMIT} failures of each variant and of trials "
@@ -88,7 +91,7 @@ def _column_names(batch: CampaignResult) -> list[str]:
 
 
 def _row_limit(batch: CampaignResult) -> int:
-    """Return the number of trials of a variant that a page has at most."""
+    """Return the maximum number of trials of a variant on a page."""
     return NUMBER_LIMIT // max(1, len(_column_names(batch)) * len(batch.rows))
 
 
@@ -114,7 +117,7 @@ def _variant(batch: CampaignResult, variant: str, names: list[str], limit: int) 
 
 
 def _exact_rows(success: np.ndarray, metrics: Iterable[np.ndarray], limit: int) -> list[int]:
-    """Return the rows of the first failures, and of the extremes of metrics."""
+    """Return the rows of the first failures and of the extremes of metrics."""
     rows = set(np.flatnonzero(~success[:limit])[:EXACT_LIMIT].tolist())
     for column in metrics:
         finite = np.flatnonzero(np.isfinite(column))
@@ -124,7 +127,7 @@ def _exact_rows(success: np.ndarray, metrics: Iterable[np.ndarray], limit: int) 
 
 
 def _command_around(batch: CampaignResult, variant: str) -> tuple[str, str]:
-    """Return the replay command before and after the number of a trial."""
+    """Return the text of a replay command before and after the number of the trial."""
     any_command = _command(batch, variant, 0)
     mark = next(number for number in count(10**9) if str(number) not in any_command)
     before, after = _command(batch, variant, mark).split(str(mark))

@@ -1,4 +1,4 @@
-"""The header of a batch's page: verdicts, lost trials, the success criterion, the command that repeats it."""
+"""Header of a batch's page: verdicts, lost trials, success criterion, and the command that repeats the batch."""
 
 from __future__ import annotations
 

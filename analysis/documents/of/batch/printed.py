@@ -1,4 +1,4 @@
-"""Lines that a terminal shows of a batch: its summary, worst trials of bounded metrics, meanings of statuses."""
+"""Lines about a batch for a terminal: summary, worst trials of bounded metrics, meanings of statuses."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from ....runtime.flight.results import with_meaning
 
 
 def printed_lines(batch: CampaignResult, metrics: Sequence[str]) -> list[str]:
-    """Return the summary with ``metrics``, by default those of success and requirements, and the lines below it."""
+    """Return the summary with ``metrics`` (default: those of success and requirements), followed by further lines."""
     return [*batch.text(metrics).splitlines(), *worst_lines(batch), *status_meanings(batch.plan, batch)]
 
 
 def worst_lines(batch: CampaignResult) -> list[str]:
-    """Return a line for each metric that a requirement bounds: its worst trial, and the command that replays it.
+    """Return a line for each metric bounded by a requirement: its worst trial, and the command that replays it.
 
-    Lines are those of a stored campaign, whose folder the command reads. The first of several equal trials is named.
+    Only a stored campaign has lines, because the command reads its folder. Of equal trials the first is named.
     """
     lines: dict[str, None] = {}
     if batch.folder is None:
@@ -42,7 +42,7 @@ def worst_lines(batch: CampaignResult) -> list[str]:
 
 
 def status_meanings(plan: BatchPlan, result: CampaignResult) -> list[str]:
-    """Return the meaning of each status that a trial reported, once, as its FMU states it."""
+    """Return the meaning of each reported status once, as stated by its FMU."""
     meanings: dict[str, None] = {}
     for variant in plan.campaign.variants():
         texts = dict.fromkeys(text for text in result.summary[variant.name].statuses if worst_statuses(text))

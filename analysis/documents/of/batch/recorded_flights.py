@@ -1,4 +1,4 @@
-"""The flights of a batch whose signals over time are inside its page: which, and how many of their rows."""
+"""Choice of a batch's simulations whose signals over time are inside its page, and of their rows."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ ROW_LIMIT = 500  # of a flight
 
 
 def choose_flights(batch: CampaignResult) -> dict[str, list[int]]:
-    """Choose trials with recorded signals by variant, an equal quota of `FLIGHT_LIMIT` each.
+    """Return trials with recorded signals by variant, each with an equal quota of `FLIGHT_LIMIT`.
 
-    Half of a quota are failures, where there are as many, the others successes; each in order of trial.
+    Up to half of a quota are failures, the others successes; each group is in order of trial.
     """
     quota = max(1, FLIGHT_LIMIT // len(batch.rows))
     chosen: dict[str, list[int]] = {}
@@ -36,10 +36,10 @@ def choose_flights(batch: CampaignResult) -> dict[str, list[int]]:
 def read_flights(
     batch: CampaignResult, chosen: dict[str, list[int]], names: Collection[str]
 ) -> tuple[list[RecordedFlight], int]:
-    """Read some signals of the chosen trials, each ``stride``-th row and the last; return them and the stride.
+    """Read some signals of the chosen trials, every ``stride``-th row and the last; return them and the stride.
 
-    All have the same stride, so that their times are common but for their ends. Trials that ended before their first
-    sample are left out.
+    The stride is common to all, so times coincide except at the end. Trials that ended before their first sample are
+    omitted.
     """
     traces = {}
     for variant, trials in chosen.items():

@@ -1,4 +1,4 @@
-"""Recorded simulations of a batch on its page: a scene of all, and signals of a pinned trial."""
+"""Section on recorded simulations of a batch: a scene of all, and signals of a pinned trial."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .embedded_flights import embedded_flights
 
 
 def recorded_sections(batch: CampaignResult) -> list[Section]:
-    """Return the recorded simulations, which only scripts can show; nothing where the batch recorded none."""
+    """Return the section on recorded simulations, which only scripts can display; none if there are none."""
     embedded = embedded_flights(batch)
     if embedded is None:
         return []

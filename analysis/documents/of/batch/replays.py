@@ -1,4 +1,4 @@
-"""Trials of a batch worth a second look: first failures, worst trials of metrics with limits, maxima."""
+"""Trials of a batch to inspect: first failures, worst trials of metrics with limits, maxima."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ Reasons = list[tuple[int, Cell]]  # trials with a reason each
 
 
 def trials_to_replay(result: CampaignResult, table: VerdictTable) -> list[Replay]:
-    """Return the first failures of each variant, and its worst trials of metrics with limits; rows have anchors."""
+    """Return, with anchors, the first failures of each variant and its worst trials of metrics with limits."""
     worst = {row.variant: worst_reasons(row, table.metrics) for row in table.rows}
     return with_anchors(_replays(result, lambda result, variant: _failures(result, variant) + worst[variant]))
 
 
 def extremes_to_replay(result: CampaignResult) -> list[Replay]:
-    """Return the trials with the maximum of a metric of a variant, each once."""
+    """Return the trials in which a metric of a variant has its maximum, each trial once."""
     return _replays(result, _extremes)
 
 
@@ -63,7 +63,7 @@ def _extremes(result: CampaignResult, variant: str) -> Reasons:
 
 
 def _maximum(rows: TrialTable, column: str) -> tuple[float, list[int]]:
-    """Return the maximum of a column, nan counting as minus infinity, and up to two of the trials that have it."""
+    """Return the maximum of a column (NaN counts as minus infinity), and at most two trials that have it."""
     maximum, trials = -np.inf, list[int]()
     for part in rows.parts("trial", column):
         values = np.where(np.isnan(part[column]), -np.inf, part[column])

@@ -1,4 +1,4 @@
-"""Requirements of a campaign with their verdicts, risks, and the additional trials that would decide them."""
+"""Requirements of a campaign: verdicts, risks, and the additional trials that would decide them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..campaign.verdict_table import GRADES
 
 
 def requirement_sections(summary: Summary, campaign: Campaign) -> list[Section]:
-    """Return the verdicts on each requirement by variant; nothing where the campaign declares none."""
+    """Return the verdicts on each requirement by variant; none without requirements."""
     verdicts = requirement_rows(summary)
     if not verdicts:
         return []
@@ -65,7 +65,7 @@ def _row(variant: str, result: RequirementVerdict) -> tuple[Cell, ...]:
 
 
 def _bound(result: RequirementVerdict, units: Mapping[str, str]) -> str:
-    """Return the tolerance bound of a requirement, or the metrics that no trial has."""
+    """Return the tolerance bound of a requirement, or the metrics that have no value in any trial."""
     if result.unevaluated or result.bound is None:
         return unevaluated_text(result)
     unit = units[result.bound.metric]

@@ -1,4 +1,4 @@
-"""Scatter plots of successes and failures, a figure per variant: over declared metrics, and over influential inputs."""
+"""Scatter plots of successes and failures by variant, over declared metrics or over influential inputs."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ CROSS, DOT = 4.5, 3.2  # pt
 
 
 def outcome_dots(variant: str, names: tuple[str, str], success: np.ndarray, minimum_size: float) -> list[Dots]:
-    """Return the marks of the trials of a ``variant``: dots of successes, crosses of failures, small where many are.
+    """Return the marks of a ``variant``'s trials: dots of successes, crosses of failures, small if there are many.
 
-    ``names`` are the columns of their abscissa and ordinate.
+    ``names`` are the columns of abscissa and ordinate.
     """
     size = max(minimum_size, min(1.0, (500.0 / success.size) ** 0.5))
     good = Dots(variant=variant, names=names, success=True, colour=SUCCESS, size=DOT * size)
@@ -42,18 +42,21 @@ def outcome_dots(variant: str, names: tuple[str, str], success: np.ndarray, mini
 
 
 def outcome_marks() -> list[Inline]:
-    """Return the marks of successes and failures with their names."""
+    """Return the marks of successes and failures with their names, for a legend."""
     success, failure = marker("o", DOT, SUCCESS), marker("x", CROSS, VERMILION, width=1.3)
     return [LegendEntry(success, ["success"]), " ", LegendEntry(failure, ["failure"])]
 
 
 def positions(x: np.ndarray, y: np.ndarray, success: np.ndarray) -> TrialPositions:
-    """Return the function of abscissas and ordinates of successes or failures; all of them, [trials], as displayed."""
+    """Return a function that returns abscissas and ordinates of successes or failures.
+
+    The arguments contain those of all trials, [trials], as displayed.
+    """
     return lambda dots: (x[success == dots.success], y[success == dots.success])
 
 
 def count_failures(variant: str, success: np.ndarray) -> str:
-    """Return the label of a figure: a variant with the number of its failures."""
+    """Return the label of a figure: the variant with its number of failures."""
     return f"{variant}: {number(int(np.count_nonzero(~success)))} of {number(success.size)} failed"
 
 
@@ -63,7 +66,7 @@ def scatter_title(scatter: Scatter) -> str:
 
 
 def scatter_nodes(batch: CampaignResult, scatter: Scatter) -> list[Node]:
-    """Return a declared scatter plot for each variant, and notes on its marks."""
+    """Return the figures of a declared scatter plot, one per variant, and notes on their marks."""
     metrics = {metric.name: metric for metric in batch.plan.campaign.metrics}
     pair = (metrics[scatter.x], metrics[scatter.y])
     points = {
@@ -105,7 +108,7 @@ def _scatter_figures(
 def scatter_chart(
     variant: str, success: np.ndarray, scatter: Scatter, pair: tuple[Metric, Metric], x_ends: Ends, y_ends: Ends
 ) -> Chart:
-    """Return the trials of a ``variant`` over two metrics, with the ends of the axes as displayed."""
+    """Return the trials of a ``variant`` over two metrics; ends of axes are as displayed."""
     radius = _radius(scatter, pair[0])
     columns = (f"metric.{scatter.x}", f"metric.{scatter.y}")
     return Chart(
@@ -125,7 +128,7 @@ def _radius(scatter: Scatter, metric: Metric) -> float:
 
 
 def _limits(points: np.ndarray, radius: float) -> tuple[Ends, Ends]:
-    """Return ends of both axes that contain all finite points and the circle."""
+    """Return the ends of both axes, which enclose all finite points and the circle."""
     points = points[:, np.all(np.isfinite(points), axis=0)]
     circle = np.array([[-radius, radius]] * 2) if radius or not points.size else np.empty((2, 0))
     everything = np.concatenate([points, circle], axis=1)
@@ -136,7 +139,7 @@ def _limits(points: np.ndarray, radius: float) -> tuple[Ends, Ends]:
 
 
 def _notes(scatter: Scatter, metric: Metric, points: dict[str, np.ndarray]) -> list[Rich]:
-    """Return the captions of the marks and of the circle, and the number of trials without a point."""
+    """Return the captions of marks and circle, and the number of trials without a point."""
     notes: list[Rich] = [outcome_marks()]
     if scatter.circle is not None:
         notes.append(["Dashed: ", Quantity(scatter.circle, metric.unit), " around the origin."])
@@ -151,9 +154,9 @@ def _notes(scatter: Scatter, metric: Metric, points: dict[str, np.ndarray]) -> l
 def influence_on_success(batch: CampaignResult, variant: str) -> dict[str, float]:
     """Return the influence of each dispersed input on success, 0 to 1, largest first.
 
-    It is the larger absolute correlation with success, of the input or of its distance from its mean; the latter sees
-    failures at both ends. Inputs that do not vary and derived values are left out; so are all inputs without both
-    failures and successes.
+    It is the larger absolute correlation of success with the input or with its distance from its mean; the latter
+    detects failures at both ends. Constant inputs and derived values are omitted; without both failures and successes
+    the result is empty.
     """
     success = batch.plotted[variant].dots.success.astype(float)
     if success.min() == success.max():
@@ -189,7 +192,7 @@ def failure_figures(batch: CampaignResult) -> list[Figure]:
 
 
 def _inputs(batch: CampaignResult, variant: str, names: Sequence[str]) -> tuple[np.ndarray, np.ndarray]:
-    """Return abscissas and ordinates of trials over two inputs; over one input the trial's number is the ordinate."""
+    """Return the coordinates of trials over two inputs; for a single input the ordinate is the trial's number."""
     sample = batch.plotted[variant]
     draws = sample.dots.draws
     return draws[names[0]], draws[names[1]] if len(names) > 1 else sample.dots.trial.astype(float)

@@ -1,1 +1,1 @@
-"""Tables and figures that documents of batches and of comparisons share; stored campaigns."""
+"""Tables and figures common to documents of batches and comparisons; document of a stored campaign."""

@@ -1,4 +1,4 @@
-"""Success probabilities of the variants of a batch, and empirical distributions of their metrics."""
+"""Success rates of the variants of a batch, and empirical distributions of their metrics."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ TAIL = 0.01  # on a logarithmic axis, the fraction of values drawn at its left e
 
 
 def metric_values(batch: CampaignResult, metric: str) -> dict[str, np.ndarray]:
-    """Return a metric by variant, one value for each plotted trial, nan and inf included."""
+    """Return the values of a metric by variant, one per plotted trial, including NaN and infinity."""
     return {name: sample.first.metrics[metric] for name, sample in batch.plotted.items()}
 
 
 def sort_metrics(batch: CampaignResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
-    """Sort metrics into those that vary; constant ones with their value; those without a finite value."""
+    """Return the metrics that vary, the constant ones with their values, and those without a finite value."""
     varying, constant, empty = [], [], []
     for metric in batch.plan.campaign.metrics:
         statistics = [entry.metrics_all[metric.name] for entry in batch.summary.values()]
@@ -55,9 +55,9 @@ def sort_metrics(batch: CampaignResult) -> tuple[list[Metric], list[tuple[Metric
 def distribution_chart(
     metric: Metric, samples: Mapping[str, np.ndarray], styles: Sequence[Look], half_range: float = 0.0
 ) -> Chart:
-    """Return the empirical distributions of a metric in several series, in SI; one of them has a finite number.
+    """Return the empirical distributions of a metric in several series, in SI; at least one has a finite number.
 
-    The abscissa contains ``half_range`` (as displayed) on either side of 0 where that is not 0.
+    The abscissa extends at least ``half_range`` (as displayed) to either side of 0, unless it is 0.
     """
     scaled = [series * display_factor(metric.unit) for series in samples.values()]
     everything = np.concatenate(scaled)
@@ -90,7 +90,7 @@ def distribution_chart(
 
 
 def _ends(numbers: np.ndarray) -> tuple[float, float, bool]:
-    """Return the low and the high end of an axis, and True if it is logarithmic."""
+    """Return the ends of an axis, and True if it is logarithmic."""
     minimum, maximum = float(numbers.min()), float(numbers.max())
     positive = numbers[numbers > 0.0]
     if minimum >= 0.0 and positive.size:
@@ -106,13 +106,13 @@ HEIGHT = 2.3  # in, of a panel
 
 
 def metric_plot(batch: CampaignResult, metrics: list[Metric]) -> Figure:
-    """Return the empirical distributions over the plotted trials, a panel per metric, a line per variant."""
+    """Return the empirical distributions over the plotted trials: a panel per metric, a line per variant."""
     styles = {name: look(index) for index, name in enumerate(batch.rows)}
     return distribution_plot({metric: metric_values(batch, metric.name) for metric in metrics}, styles)
 
 
 def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], styles: Mapping[str, Look]) -> Figure:
-    """Return a panel per metric with its numbers by label; each metric has those of all labels, in order."""
+    """Return a panel for each metric from its numbers by label; all metrics have the same labels in order."""
     from ...chart.plot import plot_charts  # which imports matplotlib
 
     charts = [distribution_chart(metric, by_label, list(styles.values())) for metric, by_label in metrics.items()]
@@ -128,7 +128,7 @@ RING = marker("o", 11.0, INK, fill="", width=1.2)
 
 
 def rates_figure(batch: CampaignResult, published: Mapping[str, float] | None = None) -> Drawing:
-    """Return the success probabilities of variants with their intervals, `rates_chart`."""
+    """Return the figure of `rates_chart`: success rates of variants with their confidence intervals."""
     names = list(batch.summary)
     description = "Success probabilities of " + ", ".join(names)
     height = AXES_HEIGHT + LANE * len(names)
@@ -136,9 +136,9 @@ def rates_figure(batch: CampaignResult, published: Mapping[str, float] | None = 
 
 
 def rates_chart(batch: CampaignResult, published: Mapping[str, float]) -> Chart:
-    """Return a lane for each variant: a mark at its success probability (%), a line over the interval, their text.
+    """Return a lane for each variant: a mark at its success rate (%), a line across the interval, and their text.
 
-    ``published`` are rates to compare with, as fractions of 1, in rings. With long names the text has no interval.
+    ``published`` are rates (0 to 1) for comparison, shown as rings. With long names the text omits the interval.
     """
     names = list(batch.summary)
     rates = {name: (entry.success_rate, *entry.success_interval) for name, entry in batch.summary.items()}
@@ -170,5 +170,5 @@ def rates_chart(batch: CampaignResult, published: Mapping[str, float]) -> Chart:
 
 
 def _above(lane: int, text: str, x: float, side: str) -> ChartNote:
-    """Return a text above a lane, at a fraction of the abscissa."""
+    """Return a text above a lane at a fraction of the abscissa."""
     return ChartNote(text, (x, lane - 0.32), (True, False), (0.0, 0.0), (side, "bottom"), INK, TICK_SIZE)

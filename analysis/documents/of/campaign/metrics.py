@@ -1,4 +1,4 @@
-"""Tables of the statistics of metrics: a block of rows for each metric, over successful or over all trials."""
+"""Tables of the statistics of metrics: a block of rows per metric, over successful or all trials."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def metric_table(
     styles: Mapping[str, Look] = NO_STYLES,
     by: str | None = None,
 ) -> Table:
-    """Return the statistics of metrics over successful trials, ``metrics``, or all, ``metrics_all``."""
+    """Return statistics of metrics over successful trials (``metrics``) or all trials (``metrics_all``)."""
     body: list[Sequence[Cell] | Row | RowHeading] = []
     for metric in metrics:
         body.append(metric_heading(metric))
@@ -55,7 +55,7 @@ def metric_summary(rows: Sequence[SummaryRow], metrics: Sequence[Metric], group:
 
 
 def metric_heading(metric: Metric) -> RowHeading:
-    """Return the heading of the rows of a metric: its name, unit and description."""
+    """Return the heading of a metric's rows: name, unit and description."""
     unit = display_unit(metric.unit)
     return RowHeading([Strong(metric.name), f", {unit}" if unit else ""], metric.description)
 
@@ -66,7 +66,7 @@ def metric_nodes(
     styles: Mapping[str, Look] = NO_STYLES,
     by: str | None = None,
 ) -> list[Node]:
-    """Return the statistics of metrics over successful trials, folded those over all trials, and their definitions."""
+    """Return statistics of metrics over successful trials, folded statistics over all trials, and definitions."""
     if not metrics:
         return [Missing("the campaign declares no metrics")]
     return [
@@ -82,7 +82,7 @@ def metric_nodes(
 def group_nodes(
     rows: Sequence[SummaryRow], metrics: Sequence[Metric], by: str, rates: Table | None = None
 ) -> list[Node]:
-    """Return rates and metrics of trials grouped ``by`` a draw; ``rates`` are by default success probabilities."""
+    """Return rates and metrics of trials grouped ``by`` an input; ``rates`` are by default success rates."""
     return [
         Text(["trials grouped by ", Code(by), ", in the campaign's unit"]),
         success_table(rows, by) if rates is None else rates,

@@ -1,4 +1,4 @@
-"""Origin of a campaign's numbers: dispersed parameters, FMUs of the variants."""
+"""Origin of a campaign's numbers: dispersed parameters, and FMUs of the variants."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ...model import Table
 
 
 def parameter_table(campaign: Campaign) -> Table:
-    """Return dispersed parameters as the campaign declares them, then derived ones, and tables of lookups."""
+    """Return dispersed parameters as declared, then derived ones, then tables of lookups."""
     rows = []
     for draw in campaign.draws:
         distribution = draw.distribution
@@ -20,7 +20,7 @@ def parameter_table(campaign: Campaign) -> Table:
 
 
 def fmu_rows(fmus: dict[str, dict[str, str]]) -> list[tuple[str, str, str]]:
-    """Return component, variants and SHA-256 of every FMU, variants with the same FMU in one row."""
+    """Return component, variants and SHA-256 of every FMU; variants with the same FMU share a row."""
     variants_of: dict[tuple[str, str], list[str]] = {}
     for variant, components in fmus.items():
         for component, digest in components.items():

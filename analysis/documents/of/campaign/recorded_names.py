@@ -1,4 +1,4 @@
-"""Recorded signals of a batch that a page plots over time, by names and units alone, for any system."""
+"""Recorded signals of a batch that a page plots over time, recognised by names and units only, for any system."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ KNOWN = (*COMMANDS, *DIRECTIONS, *MOTION, *CONSISTENCY, "position", "velocity", 
 
 
 def names_of_record(provenance: CampaignProvenance) -> list[str]:
-    """Return signals over time that a page can use: those that the campaign lists, or of full traces the known ones.
+    """Return the recorded signals to plot: those listed by the campaign, or in full traces those with known names.
 
-    Of a variable that several components have, as inputs repeat outputs, the first component's is taken.
+    If several components have a variable, since inputs repeat outputs, that of the first component is chosen.
     """
     record = provenance["record"]
     if record["every"] is not None:
@@ -44,22 +44,22 @@ def owner_of(provenance: CampaignProvenance, name: str) -> str:
 
 
 def variable_of(provenance: CampaignProvenance, name: str) -> str:
-    """Return the variable of a signal: of ``plant.position[1]`` and ``plant.position``: ``position``."""
+    """Return the variable of a signal: ``position`` for ``plant.position[1]`` and ``plant.position``."""
     return vector_of(split_name(name, _components(provenance))[1])
 
 
 def unit_of(provenance: CampaignProvenance, name: str) -> str | None:
-    """Return the unit of a recorded signal, or None where none is declared."""
+    """Return the unit of a recorded signal, or None if undeclared."""
     return provenance["signals"].get(name, {}).get("unit")
 
 
 def axis_of(provenance: CampaignProvenance, name: str) -> str:
-    """Return the name of the axis that a recorded element is along; empty where there is none."""
+    """Return the name of the axis of a recorded element; empty without a name."""
     return provenance["signals"].get(name, {}).get("axis", "")
 
 
 def axes_of(provenance: CampaignProvenance, vector: tuple[str, str, str]) -> AxisNames:
-    """Return the names of the axes that the elements of a vector are along, x, y and z where one has none."""
+    """Return the names of the axes of a vector's elements; x, y and z unless all have a name."""
     x, y, z = (axis_of(provenance, name) for name in vector)
     return (x, y, z) if x and y and z else LETTERS
 
@@ -70,7 +70,7 @@ def is_real(provenance: CampaignProvenance, name: str) -> bool:
 
 
 def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
-    """Return the names of elements 1 to 3 by the vector's name, for all that have exactly these."""
+    """Return the names of elements 1 to 3 by vector, for all vectors with exactly these elements."""
     elements: dict[str, dict[str, str]] = {}
     for name in names:
         indexed = INDEXED.fullmatch(name)
@@ -82,7 +82,7 @@ def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
 def find_vector(
     provenance: CampaignProvenance, names: Iterable[str], variable: str, unit: str, owner: str = ""
 ) -> tuple[str, str, str] | None:
-    """Return the first vector called ``variable`` with that unit, if there is one of the component ``owner``."""
+    """Return the first vector named ``variable`` with that unit, preferably of the component ``owner``."""
     candidates = {
         base: elements
         for base, elements in vectors(names).items()

@@ -1,4 +1,4 @@
-"""Trials worth a second look, with the reasons and the commands that replay them."""
+"""Trials to inspect, with reasons and the commands that replay them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FAILURES = 3  # of a variant, the first ones
 
 @dataclass(frozen=True)
 class Replay:
-    """A trial of a variant, the reasons to replay it, and the command that does."""
+    """A trial of a variant, the reasons to replay it, and the command."""
 
     variant: str
     trial: int
@@ -25,7 +25,7 @@ class Replay:
 
 
 def with_anchors(replays: Sequence[Replay]) -> list[Replay]:
-    """Return rows with an anchor each, no two of one variant and trial."""
+    """Return the rows, each with a unique anchor."""
     return [replace(each, anchor=f"replay-{number}") for number, each in enumerate(replays)]
 
 
@@ -35,7 +35,7 @@ def anchors_of(replays: Iterable[Replay]) -> dict[tuple[str, int], str]:
 
 
 def worst_reasons(row: VerdictRow, metrics: Sequence[JudgedMetric]) -> list[tuple[int, Cell]]:
-    """Return the worst trials of a variant, each with the metric and its value there."""
+    """Return the worst trials of a variant, each with the metric and its value."""
     return [
         (cell.trial, value_reason(judged.metric, cell.worst, "worst "))
         for judged, cell in zip(metrics, row.numbers, strict=True)
@@ -44,12 +44,12 @@ def worst_reasons(row: VerdictRow, metrics: Sequence[JudgedMetric]) -> list[tupl
 
 
 def value_reason(metric: Metric, value: float | None, which: str = "") -> Cell:
-    """Return a metric and its value in a trial; ``which`` of its values that is."""
+    """Return the text of a metric and its value in a trial; ``which`` tells which of its values it is."""
     return Phrase([f"{which}{metric.name}: ", Quantity(value, metric.unit)])
 
 
 def replay_table(replays: Sequence[Replay], reason: str) -> Table:
-    """Return a row for each trial; ``reason`` is the heading of the reasons."""
+    """Return a row for each trial; ``reason`` is the heading of the column of reasons."""
     rows = [Row((each.variant, each.trial, Lines(each.reasons), CommandLine(each.command)), each.anchor)
             for each in replays]  # fmt: skip
     return Table(("variant", "trial", reason, "command"), rows, len(rows), style="replays", is_grouped=True)

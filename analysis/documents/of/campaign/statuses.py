@@ -1,4 +1,4 @@
-"""Statuses of a campaign: those at which its trials ended, those that their components reported."""
+"""Statuses of a campaign: those of its trials, and those reported by components."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ...model import Table
 
 
 def status_table(summary: Summary) -> Table:
-    """Return a row for each status of each variant, with its number of trials and their share."""
+    """Return a row for each status of each variant, with number and share of trials."""
     rows = [
         (variant, status, count, Percentage(count / entry.trials), Bar(count / entry.trials))
         for variant, entry in summary.items()
@@ -23,7 +23,7 @@ def status_table(summary: Summary) -> Table:
 
 
 class ComponentStatus(NamedTuple):
-    """The highest status that a signal of a variant reported, in ``occurrences`` of ``trials``."""
+    """The highest status reported by a signal of a variant, with its ``occurrences`` among ``trials``."""
 
     variant: str
     signal: str
@@ -33,7 +33,9 @@ class ComponentStatus(NamedTuple):
 
 
 def component_statuses(summary: Summary) -> list[ComponentStatus]:
-    """Return counts by variant, signal and status; none if no trial reported two, as those of trials suffice then."""
+    """Return counts by variant, signal and status; empty if no trial reported two, since statuses of trials then
+    suffice.
+    """
     if not any(len(worst_statuses(text)) > 1 for entry in summary.values() for text in entry.statuses):
         return []
     rows = []

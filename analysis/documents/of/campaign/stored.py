@@ -1,4 +1,4 @@
-"""The document of a stored campaign in a notebook: its columns, and the command that replays a trial."""
+"""Document of a stored campaign in a notebook: its columns, and the command that replays a trial."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ...model import Document, Table, Text
 
 
 def stored_document(results: OpenedResults) -> Document:
-    """Return a campaign's folder: the number of its trials, their columns with units and meanings."""
+    """Return the document of a campaign's folder: number of trials, and columns with units and meanings."""
     rows = [(name, column.unit or "", column.meaning) for name, column in results.columns.items()]
     trials = f"{results.flown} of {results.trials} trials of {', '.join(results.variants)}"
     named = " --configuration NAME" if len(results.variants) > 1 else ""

@@ -1,4 +1,4 @@
-"""The table with which pages of campaigns begin: a row per variant, what success and requirements judge it by."""
+"""Content of the first table on pages of campaigns: variants, judged by success and requirements."""
 
 from __future__ import annotations
 
@@ -25,14 +25,16 @@ Worst = Callable[[str, Metric, MetricLimits], tuple[int, float]]
 
 
 class JudgedMetric(NamedTuple):
-    """A metric of success or a requirement, and the limits of both on it alone; None without one."""
+    """A metric of success or of a requirement, and the limits that they impose on it alone; None without limits."""
 
     metric: Metric
     limits: MetricLimits | None
 
 
 class MetricCell(NamedTuple):
-    """A metric over all trials of a variant: its median, and the ``trial`` in which it is ``worst``, with limits."""
+    """A metric over all trials of a variant: its median and, if it has limits, its ``worst`` value and that
+    ``trial``.
+    """
 
     median: float | None
     is_best: bool
@@ -41,7 +43,7 @@ class MetricCell(NamedTuple):
 
 
 class VerdictRow(NamedTuple):
-    """A variant: its summary, ``is_best`` of its success, numbers by metric, its verdict in words and its grade."""
+    """A variant: its summary, whether its success rate ``is_best``, numbers by metric, verdict in words, and grade."""
 
     variant: str
     entry: VariantSummary
@@ -53,7 +55,7 @@ class VerdictRow(NamedTuple):
 
 @dataclass(frozen=True)
 class VerdictTable:
-    """Metrics that vary, rows of variants, and where the axis of success begins, a fraction of 1."""
+    """Judged metrics, rows of variants, and the ``start`` (0 to 1) of the axis of success rates."""
 
     metrics: list[JudgedMetric]
     rows: list[VerdictRow]
@@ -68,7 +70,7 @@ class VerdictTable:
 def verdict_table(
     summary: Summary, metrics: Iterable[Metric], expressions: Sequence[Expression], worst: Worst
 ) -> VerdictTable:
-    """Return the table of metrics that are in one of the ``expressions``; ``worst`` is a variant's worst trial."""
+    """Return the table for the metrics that ``expressions`` contain; ``worst`` finds a variant's worst trial."""
     names = set().union(*(expression.names for expression in expressions))
     limits = metric_limits(expressions)
     judged = [JudgedMetric(metric, limits.get(metric.name)) for metric in metrics if metric.name in names]
@@ -83,7 +85,7 @@ def verdict_table(
 
 
 def axis_start(intervals: Iterable[Interval]) -> float:
-    """Return the start of the axis of intervals of rates: the tenth below the lowest."""
+    """Return the start of the axis of rates: the multiple of 0.1 at or below all intervals, at most 0.9."""
     return min(0.9, math.floor(10.0 * min((low for low, _ in intervals), default=1.0)) / 10.0)
 
 
@@ -96,7 +98,7 @@ def _column(judged: JudgedMetric, summary: Summary, worst: Worst) -> dict[str, M
 
 
 def _best(numbers: Mapping[str, float | None], better: int) -> set[str]:
-    """Return the variants with the best number; none where all have the same, or neither less nor more is better."""
+    """Return the variants with the best number; empty if all are equal, or if neither direction is better."""
     known = {name: better * number for name, number in numbers.items() if number is not None}
     if not better or len(set(known.values())) < 2:
         return set()

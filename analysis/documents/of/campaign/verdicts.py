@@ -1,4 +1,4 @@
-"""The table with which documents of campaigns begin: a row per variant, what success and requirements judge it by."""
+"""First table in documents of campaigns: a row per variant, judged by success and requirements."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Anchors = Mapping[tuple[str, int], str]  # by variant and trial
 
 
 def verdict_nodes(table: VerdictTable, styles: Mapping[str, Look], anchors: Anchors) -> list[Node]:
-    """Return the verdicts on variants and what its numbers are; a worst trial leads to its command at ``anchors``."""
+    """Return the table of verdicts and an explanation; worst trials link to their commands at ``anchors``."""
     confidence = table.rows[0].entry.confidence
     heads: list[str | Head] = [
         "variant",

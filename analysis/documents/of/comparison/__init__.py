@@ -1,1 +1,1 @@
-"""The page that compares variants."""
+"""Document that compares variants."""

@@ -1,4 +1,4 @@
-"""The document of a comparison: verdicts and differences of variants on the same trials, figures, tables."""
+"""Document of a comparison: verdicts and differences of variants on the same trials, figures, tables."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from .provenance import parameter_section, provenance_section
 
 
 def comparison_document(comparison: CampaignComparison, command: str, printed: Sequence[str] = ()) -> Document:
-    """Return the document of a comparison; ``command`` repeats it, ``printed`` are metrics that a terminal lists."""
+    """Return the document of a comparison; ``command`` repeats it, and a terminal lists the metrics ``printed``."""
     content = ComparisonContent(comparison)
     system = comparison.first.document["system"]
     return Document(
@@ -86,7 +86,7 @@ def _replay_section(content: ComparisonContent) -> list[Section]:
 
 
 def notebook_nodes(content: ComparisonContent) -> list[Node]:
-    """Return notes, tables of rates and metrics, and the distributions of metrics that vary."""
+    """Return notes, tables of rates and metrics, and distributions of metrics that vary."""
     compared = content.comparison
 
     def draw() -> list[Figure]:

@@ -1,4 +1,4 @@
-"""Numbers of a comparison that several sections of its document have, each computed once when a page needs it."""
+"""Data common to several sections of a comparison's document, each computed once on first use."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ class ComparisonContent:
 
     @cached_property
     def styles(self) -> Mapping[str, Look]:
-        """Look of each variant's lines."""
+        """The look of each variant's lines."""
         return looks_of(self.comparison)
 
     @cached_property
     def flights(self) -> FlightHistories:
-        """Simulations with recorded signals."""
+        """The simulations with recorded signals."""
         return FlightHistories(self.comparison)
 
     @cached_property
     def ends(self) -> dict[str, dict[str, Ends]]:
-        """Errors at the end by variable and variant."""
+        """The final errors by variable and variant."""
         ends = {
             variable: {label: ends_of(contender, variable) for label, contender in self.comparison.contenders.items()}
             for variable in UNITS
@@ -54,7 +54,7 @@ class ComparisonContent:
 
     @cached_property
     def missing(self) -> Mapping[str, str]:
-        """Statements of what the results lack, by section."""
+        """The statements on data that the results lack, by section."""
         return missing_statements(
             self.comparison,
             self.flights.by_label,
@@ -65,47 +65,47 @@ class ComparisonContent:
 
     @cached_property
     def distributions(self) -> Mapping[Metric, Mapping[str, np.ndarray]]:
-        """Metrics of successful trials by variant."""
+        """The metrics of successful trials by variant."""
         return metric_distributions(self.comparison)
 
     @cached_property
     def sorted_metrics(self) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
-        """Metrics that vary, constant ones, those without a finite value."""
+        """The metrics that vary, the constant ones with their values, and those without a finite value."""
         return sort_metrics(self.distributions)
 
     @cached_property
     def paired(self) -> list[Metric]:
-        """Metrics that vary and that pairs are compared in."""
+        """The metrics that vary and in which pairs are compared."""
         return [metric for metric in self.comparison.metrics if metric in self.sorted_metrics[0]]
 
     @cached_property
     def rate_groups(self) -> list[PairGroup[PairedRates]]:
-        """Pairs of variants by rate."""
+        """The pairs of variants by rate."""
         return rate_pairs(self.comparison)
 
     @cached_property
     def metric_groups(self) -> list[PairGroup[PairedValues]]:
-        """Pairs of variants by metric, over the trials in which both succeed."""
+        """The pairs of variants by metric, over the trials in which both succeed."""
         return metric_pairs(self.comparison, self.paired, successful=True)
 
     @cached_property
     def verdicts(self) -> VerdictTable:
-        """Verdicts on the variants."""
+        """The verdicts on the variants."""
         compared = self.comparison
         return verdict_table(compared.summary, self.paired, compared.judged_expressions, self._worst)
 
     def _worst(self, label: str, metric: Metric, limits: MetricLimits) -> tuple[int, float]:
-        """Return the worst trial of a variant, and the metric there."""
+        """Return the worst trial of a variant, and the metric in it."""
         values = self.comparison.values(label, metric.name)
         row, _ = worst_row(values, limits.excess)
         return int(self.comparison.contenders[label].trials.trial[row]), float(values[row])
 
     @cached_property
     def judged(self) -> list[Metric]:
-        """Metrics of success and requirements; all that vary where there are none."""
+        """The metrics of success and requirements, or all metrics that vary if there are none."""
         return [each.metric for each in self.verdicts.metrics] or self.sorted_metrics[0]
 
     @cached_property
     def replays(self) -> list[Replay]:
-        """Trials worth a second look."""
+        """The trials to inspect."""
         return trials_to_replay(self.comparison, self.verdicts)

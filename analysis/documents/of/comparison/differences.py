@@ -1,4 +1,4 @@
-"""Sentences on the pairs of variants that differ significantly in what success and requirements judge."""
+"""Sentences on pairs of variants with significant differences in success or requirements."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LEVEL = 0.05
 
 
 class Difference(NamedTuple):
-    """A quantity in which variant ``a`` differs from ``b``, in words, and the p-value of its test."""
+    """A quantity in which variant ``a`` differs from ``b``, in words, with the p-value of its test."""
 
     a: str
     b: str
@@ -24,7 +24,7 @@ class Difference(NamedTuple):
 
 
 class Sentence(NamedTuple):
-    """Variants A and B, and in words all that differs significantly between them."""
+    """Variants A and B, and all significant differences between them in words."""
 
     a: str
     b: str
@@ -32,7 +32,9 @@ class Sentence(NamedTuple):
 
 
 class Sentences(NamedTuple):
-    """A sentence for each pair that differs, pairs against the reference apart; ``tested`` names what was compared."""
+    """A sentence for each pair that differs, pairs with the reference separately; ``tested`` lists what was
+    compared.
+    """
 
     first: list[Sentence]
     others: list[Sentence]
@@ -42,7 +44,7 @@ class Sentences(NamedTuple):
 def significant_differences(
     comparison: CampaignComparison, rates: Iterable[PairGroup[PairedRates]], metrics: Iterable[PairGroup[PairedValues]]
 ) -> Sentences:
-    """Return what differs at the 5 % level in all of the tests together, `holm_adjusted`."""
+    """Return the differences that are significant at 5 % over all tests together, `holm_adjusted`."""
     judged = {SUCCESS, *comparison.judged_names}
     rate_groups = [group for group in rates if group.name in judged]
     metric_groups = [group for group in metrics if group.name in judged]
@@ -72,7 +74,7 @@ def _rate_words(name: str, row: PairRow[PairedRates]) -> Difference:
 
 
 def _metric_words(name: str, unit: str, row: PairRow[PairedValues]) -> Difference | None:
-    """Return the difference of a metric; None where too few trials have it for an interval."""
+    """Return the difference of a metric in words; None if too few trials have it for an interval."""
     estimate = row.estimate
     if estimate.median is None or estimate.interval is None or estimate.p_value is None:
         return None

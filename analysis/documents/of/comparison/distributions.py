@@ -1,4 +1,4 @@
-"""Metrics of a comparison: distributions, one line per variant."""
+"""Distributions of a comparison's metrics, one line per variant."""
 
 from __future__ import annotations
 
@@ -27,7 +27,9 @@ NOT_EVALUATED = Expression("0")
 
 
 def all_values(comparison: CampaignComparison, metric: Metric) -> dict[str, np.ndarray]:
-    """Return a metric in every trial of every variant; of errors over sigma nan for 0, which stands for no sigma."""
+    """Return a metric in every trial of every variant; in an error over sigma 0 becomes NaN, since it means no
+    sigma.
+    """
     by_label = {label: comparison.values(label, metric.name) for label in comparison.contenders}
     if is_over_sigma(metric):
         return {label: np.where(values == 0.0, np.nan, values) for label, values in by_label.items()}
@@ -35,7 +37,7 @@ def all_values(comparison: CampaignComparison, metric: Metric) -> dict[str, np.n
 
 
 def metric_distributions(comparison: CampaignComparison) -> dict[Metric, dict[str, np.ndarray]]:
-    """Return metrics by variant, nan in failed trials; without one in kg also final masses, for the propellant."""
+    """Return metrics by variant, NaN in failed trials; without a metric in kg also final masses, to show propellant."""
     contenders = comparison.contenders
     distributions = {
         metric: all_values(comparison, metric) for metric in comparison.metrics if not is_over_sigma(metric)
@@ -49,7 +51,7 @@ def metric_distributions(comparison: CampaignComparison) -> dict[Metric, dict[st
 
 
 def _final_masses(comparison: CampaignComparison) -> dict[Metric, dict[str, np.ndarray]]:
-    """Return final masses that all variants have, under the names of metrics; none if a metric is in kg."""
+    """Return final masses that all variants have, by metric name; empty if a metric is in kg."""
     contenders = comparison.contenders
     masses: dict[Metric, dict[str, np.ndarray]] = {}
     if any(metric.unit == MASS for metric in comparison.metrics):
@@ -69,7 +71,7 @@ def _final_masses(comparison: CampaignComparison) -> dict[Metric, dict[str, np.n
 def sort_metrics(
     distributed: Mapping[Metric, Mapping[str, np.ndarray]],
 ) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
-    """Return metrics that vary; constant ones with their value; those without a finite value."""
+    """Return the metrics that vary, the constant ones with their values, and those without a finite value."""
     plotted, still, empty = [], [], []
     for metric, by_label in distributed.items():
         values = np.concatenate(list(by_label.values()))
@@ -84,7 +86,7 @@ def sort_metrics(
 
 
 def distribution_figure(metric: Metric, values: Mapping[str, np.ndarray], styles: Mapping[str, Look]) -> Figure:
-    """Return the empirical distribution of a metric of every variant; with the normal one for errors over sigma."""
+    """Return the empirical distribution of a metric by variant, for errors over sigma with the normal distribution."""
     half_range = NORMAL_REACH if is_over_sigma(metric) else 0.0
     chart = distribution_chart(metric, values, [styles[label] for label in values], half_range)
     if half_range:
@@ -104,12 +106,12 @@ def metric_figures(
 
 
 def overlaid_figures(draw: Callable[[], Sequence[Figure]], styles: Mapping[str, Look]) -> Figures:
-    """Return figures of all variants with their legend, in whose order their first lines are."""
+    """Return figures of all variants with a legend, in the order of each figure's first lines."""
     return Figures(draw, [LegendEntry(style, [label]) for label, style in styles.items()], is_in_order=True)
 
 
 def looks_of(comparison: CampaignComparison) -> dict[str, Look]:
-    """Return one look per variant. Of several batches a variant has one colour, and a batch one kind of dashes."""
+    """Return a look per variant; with several batches colours identify variants, and dashes batches."""
     if len(comparison.batches) == 1:
         return {label: look(contender.variant) for label, contender in comparison.contenders.items()}
     several = len({contender.variant for contender in comparison.contenders.values()}) > 1

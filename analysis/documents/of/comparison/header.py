@@ -1,4 +1,4 @@
-"""Nodes with which the page of a comparison begins: verdicts, significant differences, conditions."""
+"""First nodes on the page of a comparison: verdicts, significant differences, conditions."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .differences import Sentence, significant_differences
 
 
 def header_nodes(content: ComparisonContent, command: str) -> list[Node]:
-    """Return verdicts, significant differences, ``command`` that repeats the comparison, conditions."""
+    """Return verdicts, significant differences, conditions, and the ``command`` that repeats the comparison."""
     compared = content.comparison
     first: Mapping[str, Any] = compared.first.document
     description = first["description"].removesuffix(".")
@@ -68,7 +68,7 @@ def _sentence(sentence: Sentence, styles: Mapping[str, Look]) -> list[Inline]:
 
 
 def _condition_notes(content: ComparisonContent) -> list[Node]:
-    """Return parameter sets of each of several batches, faults and assumptions."""
+    """Return parameter sets (of each batch, if there are several), faults and assumptions."""
     compared = content.comparison
     has_several = len(compared.batches) > 1
     notes: list[Node] = []

@@ -1,4 +1,4 @@
-"""Sections on metrics: their distributions, rates, statistics, by group, in pairs of variants."""
+"""Sections on metrics: distributions, rates, statistics, groups, pairs of variants."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .pairs import metric_pair_table, metric_pairs, rate_pair_table
 
 
 def distribution_section(content: ComparisonContent) -> Section:
-    """Return the distributions of the metrics that success and requirements judge."""
+    """Return the distributions of the metrics of success and requirements."""
     nodes = missing_nodes(content, "propellant")
     if content.judged:
         nodes += [
@@ -38,7 +38,7 @@ def distribution_section(content: ComparisonContent) -> Section:
 
 
 def other_distribution_section(content: ComparisonContent) -> list[Section]:
-    """Return the distributions of other metrics; constant ones and those without a finite value in words."""
+    """Return the distributions of other metrics; constant metrics and those without a finite value in words."""
     varying, constant, empty = content.sorted_metrics
     others = [metric for metric in varying if metric not in content.judged]
     nodes: list[Node] = [
@@ -58,7 +58,7 @@ def _distributions(content: ComparisonContent, metrics: Sequence[Metric]) -> Fig
 
 
 def rate_section(content: ComparisonContent) -> Section:
-    """Return the rates of success and of metrics that are true or false."""
+    """Return the rates of success and of Boolean metrics."""
     rows = variant_rows(content.comparison.summary)
     note = (
         "Clopper-Pearson exact 95 % confidence intervals. A metric that is true or false in every trial is a rate; a "
@@ -89,7 +89,7 @@ def _metric_tables(content: ComparisonContent, rows: Sequence[SummaryRow], by: s
 
 
 def group_section(content: ComparisonContent) -> list[Section]:
-    """Return rates and metrics of the groups of trials, if there are."""
+    """Return rates and metrics of groups of trials, if there are any."""
     compared = content.comparison
     if compared.group is None:
         return []
@@ -104,7 +104,7 @@ def group_section(content: ComparisonContent) -> list[Section]:
 
 
 def pair_section(content: ComparisonContent) -> Section:
-    """Return differences of rates and metrics of pairs of variants, trial by trial."""
+    """Return differences of rates and metrics between pairs of variants, trial by trial."""
     heading = "Paired comparison"
     if not content.comparison.pairs:
         return Section(heading, [Missing("there is one variant only: nothing to pair")], is_folded=True)
@@ -162,7 +162,7 @@ def _metric_nodes(content: ComparisonContent) -> list[Node]:
 def rate_table(
     comparison: CampaignComparison, rows: Sequence[SummaryRow], styles: Mapping[str, Look], by: str | None = None
 ) -> Table:
-    """Return a block of rows for each rate, which are those of groups ``by`` a draw, if there are."""
+    """Return a block of rows for each rate; rows may be groups ``by`` an input."""
     body: list[Sequence[Cell] | Row | RowHeading] = []
     for rate in comparison.rates:
         name = name_of(rate)

@@ -1,4 +1,4 @@
-"""Pairs of variants on the same trials: differences of rates and of metrics, and their tables."""
+"""Pairs of variants on the same trials: differences of rates and metrics, and their tables."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ T = TypeVar("T", PairedRates, PairedValues)
 
 @dataclass(frozen=True)
 class PairRow(Generic[T]):
-    """Variants A and B, and the estimate of their difference."""
+    """Variants A and B, with the estimate of their difference."""
 
     a: str
     b: str
@@ -41,14 +41,14 @@ class PairRow(Generic[T]):
 
     @property
     def is_sure(self) -> bool:
-        """True if the interval of the difference does not contain 0."""
+        """True if the confidence interval of the difference excludes 0."""
         interval = self.estimate.interval
         return interval is not None and not interval[0] <= 0.0 <= interval[1]
 
 
 @dataclass(frozen=True)
 class PairGroup(Generic[T]):
-    """All pairs for one rate or metric: those against the reference, and the others."""
+    """All pairs for one rate or metric: those with the reference, and the others."""
 
     name: str
     unit: str
@@ -57,7 +57,7 @@ class PairGroup(Generic[T]):
 
 
 def rate_pairs(comparison: CampaignComparison) -> list[PairGroup[PairedRates]]:
-    """Return a group per rate."""
+    """Return a group of pairs per rate."""
     groups = []
     for rate in comparison.rates:
         rows = [PairRow(*pair, comparison.compare_rates(pair, rate)) for pair in comparison.pairs]
@@ -68,7 +68,7 @@ def rate_pairs(comparison: CampaignComparison) -> list[PairGroup[PairedRates]]:
 def metric_pairs(
     comparison: CampaignComparison, metrics: Sequence[Metric], *, successful: bool
 ) -> list[PairGroup[PairedValues]]:
-    """Return a group per metric, over the trials in which both succeed or over all."""
+    """Return a group of pairs per metric, over the trials in which both succeed, or over all trials."""
     groups = []
     for metric in metrics:
         pairs = [(pair, comparison.pair_values(pair, metric.name, successful=successful)) for pair in comparison.pairs]
@@ -90,7 +90,7 @@ Part = Literal["first", "others"]  # pairs against the reference, and others
 
 
 def rate_pair_table(groups: Sequence[PairGroup[PairedRates]], part: Part, styles: Styles) -> Table:
-    """Return a block of rows for each rate: the difference of every pair, and trials by both outcomes."""
+    """Return a block of rows for each rate: the difference of every pair, and counts of trials by both outcomes."""
 
     def numbers(estimate: PairedRates, _: str) -> list[Cell]:
         counts = (estimate.both, estimate.only_a, estimate.only_b, estimate.neither)
@@ -105,7 +105,9 @@ def rate_pair_table(groups: Sequence[PairGroup[PairedRates]], part: Part, styles
 
 
 def metric_pair_table(groups: Sequence[PairGroup[PairedValues]], part: Part, styles: Styles) -> Table:
-    """Return a block of rows for each metric: the median difference of every pair, and fractions of trials by sign."""
+    """Return a block of rows for each metric: the median difference of every pair, and fractions of trials by its
+    sign.
+    """
 
     def numbers(estimate: PairedValues, unit: str) -> list[Cell]:
         interval = None
@@ -139,13 +141,13 @@ def _table(
 
 
 def points(difference: float) -> Displayed:
-    """Return the difference of two rates in points, with a sign unless it is 0."""
+    """Return the difference of two rates in percentage points, with a sign unless it is 0."""
     text = f"{100.0 * difference:+.2f}" if difference else "0.00"
     return Displayed(text.replace("-", MINUS), difference)
 
 
 def p_value(probability: float | None) -> Displayed | None:
-    """Return the p-value of a test, if there is one."""
+    """Return the p-value of a test as a cell; None without one."""
     if probability is None:
         return None
     return Displayed(f"{probability:.4f}" if probability >= LEAST_P else f"< {LEAST_P:.4f}", probability)

@@ -1,4 +1,4 @@
-"""Sections on the origin of a comparison's numbers: dispersed parameters, and the files of each batch."""
+"""Sections on the origin of a comparison's numbers: dispersed parameters, and files of each batch."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Trials of a comparison worth a second look: failures that other variants survive, the worst of metrics."""
+"""Trials of a comparison to inspect: failures in which other variants succeed, and worst values of metrics."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..campaign.verdict_table import VerdictTable
 
 
 def trials_to_replay(comparison: CampaignComparison, table: VerdictTable) -> list[Replay]:
-    """Return the first failures of each variant, with how many of the others succeed, and its worst trials."""
+    """Return the first failures of each variant, with the number of others that succeed, and its worst trials."""
     worst = {row.variant: worst_reasons(row, table.metrics) for row in table.rows}
     replays: list[Replay] = []
     for label, contender in comparison.contenders.items():

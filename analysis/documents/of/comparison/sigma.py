@@ -1,4 +1,4 @@
-"""Errors over the filter's standard deviation: their means, deviations and shares within 1, 2 and 3 sigma."""
+"""Errors over the filter's standard deviation: means, deviations, and shares within 1, 2 and 3 sigma."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ NORMAL = {limit: float(norm.cdf(limit) - norm.cdf(-limit)) for limit in LIMITS}
 
 @dataclass(frozen=True)
 class Within:
-    """Fraction of trials within a number of standard deviations, and its 95 % interval."""
+    """Fraction of trials within a number of standard deviations, with its 95 % interval."""
 
     rate: float
     interval: Ends
@@ -35,9 +35,9 @@ class Within:
 
 @dataclass(frozen=True)
 class SigmaRow:
-    """An error over its sigma in the trials of one variant: mean, deviation, shares within 1, 2 and 3.
+    """An error over its sigma in one variant: mean, standard deviation, shares within 1, 2 and 3 sigma.
 
-    ``count`` is of trials with a finite value other than 0, which stands for no covariance.
+    ``count`` is the number of trials with a finite nonzero value; 0 means that there is no covariance.
     """
 
     metric: str
@@ -49,7 +49,7 @@ class SigmaRow:
 
 
 def is_over_sigma(metric: Metric) -> bool:
-    """Return True if a metric is an error over the filter's standard deviation, by its name."""
+    """Return True if the name of a metric marks it as an error over the filter's standard deviation."""
     return metric.unit == "1" and metric.name.endswith(SUFFIXES)
 
 
@@ -69,7 +69,7 @@ def sigma_rows(comparison: CampaignComparison) -> list[SigmaRow]:
 
 
 def sigma_table(rows: Sequence[SigmaRow], styles: Mapping[str, Look]) -> Table:
-    """Return a block of rows for each metric; a share stands out if its interval excludes the normal share."""
+    """Return a block of rows for each metric; a share is highlighted if its interval excludes the normal share."""
     body: list[Sequence[Cell] | Row | RowHeading] = []
     for metric, group in itertools.groupby(sorted(rows, key=_metric_of), _metric_of):
         body.append(RowHeading([Strong(metric)]))

@@ -1,1 +1,1 @@
-"""Recorded simulations of a comparison: paths, quantities over time, ends."""
+"""Recorded simulations of a comparison: paths, quantities over time, final errors."""

@@ -1,4 +1,4 @@
-"""Figures of quantities over time: bands of percentiles over simulations, one for each variant, one scale in all."""
+"""Figures of quantities over time: percentile bands over simulations, one figure per variant, on one scale."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FAINT_BAND = 0.09  # opacity of the 90 % bands where those of all variants overl
 
 @dataclass(frozen=True)
 class QuantityFrame:
-    """Scale of all figures of a quantity: factor and unit displayed, limits in SI, percentiles that are expected."""
+    """Scale common to all figures of a quantity: displayed factor and unit, limits in SI, expected percentiles."""
 
     factor: float
     unit: str
@@ -37,7 +37,7 @@ class QuantityFrame:
     held: bool
 
     def chart(self, curves: Sequence[Curve], areas: Sequence[Area], note: str = "") -> Chart:
-        """Return the chart of ``curves``, and where the errors of a consistent filter would lie."""
+        """Return the chart of ``curves``, with the expected range of a consistent filter's errors."""
         start, end = self.time
         margin = 0.06 * (self.high - self.low) or 0.06 * abs(self.high) or 1.0
         return Chart(
@@ -53,7 +53,7 @@ class QuantityFrame:
 
 
 def frame_of(quantity: FlightQuantity, bands: Mapping[str, Bands]) -> QuantityFrame:
-    """Return one scale for all, which failed flights may leave, and errors over sigma far beyond expectation."""
+    """Return a common scale; failed simulations, and errors over sigma far beyond expectation, may exceed it."""
     expected = expectation(quantity)
     everything = np.concatenate([band.finite_values() for band in bands.values()] + [np.asarray(expected)])
     factor, unit = display_factor(quantity.unit), display_unit(quantity.unit)
@@ -71,7 +71,7 @@ def frame_of(quantity: FlightQuantity, bands: Mapping[str, Bands]) -> QuantityFr
 def band_figures(
     quantity: FlightQuantity, bands: Mapping[str, Bands], styles: Mapping[str, Look], name: str
 ) -> list[Figure]:
-    """Return a figure for each variant, all to one scale; a note states the range of one that exceeds it."""
+    """Return a figure for each variant on one scale; a note states the range of a variant that exceeds it."""
     frame = frame_of(quantity, bands)
     return [
         Figure(
@@ -88,7 +88,7 @@ def band_figures(
 
 
 def band_chart(quantity: FlightQuantity, band: Bands, colour: str, frame: QuantityFrame) -> Chart:
-    """Return the median of a contender's flights over time with the bands of 50 and 90 %, and some flights."""
+    """Return the median over time with bands of 50 and 90 % of a variant's simulations, and some single ones."""
     rows, steps = frame.factor * band.percentiles, quantity.held
     areas = [
         area
@@ -111,9 +111,9 @@ def band_chart(quantity: FlightQuantity, band: Bands, colour: str, frame: Quanti
 def overlaid_bands(
     quantity: FlightQuantity, bands: Mapping[str, Bands], styles: Mapping[str, Look], name: str
 ) -> list[Figure]:
-    """Return medians with the bands of nine tenths, to the scale of each variant's figure; nothing of a single one.
+    """Return medians with 90 % bands of all variants, on the scale of their figures; none for a single variant.
 
-    Bands of errors over sigma would hide each other, since all are to be the same.
+    Bands of errors over sigma are omitted, since all should be equal and would hide each other.
     """
     if len(bands) < 2:
         return []

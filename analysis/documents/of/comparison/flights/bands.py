@@ -1,4 +1,4 @@
-"""Quantities over time: percentiles over simulations of a variant."""
+"""Percentiles of quantities over time, over the simulations of a variant."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ History = tuple[np.ndarray, np.ndarray]  # times (s) and values
 
 @dataclass(frozen=True)
 class Bands:
-    """Percentiles (LEVELS by rows) of a quantity at ``time`` (s) over ``flights`` flights, in SI.
+    """Percentiles (levels LEVELS, rows) of a quantity at ``time`` (s) over ``flights`` simulations, in SI.
 
-    They are the successful ones, and where there is none the failed ones. ``singles`` are a few of
-    them one by one, ``failed`` some others that failed.
+    The simulations are the successful ones, or the failed ones if none succeeded. ``singles`` are a few of them
+    individually, ``failed`` some of the others that failed.
     """
 
     time: np.ndarray
@@ -35,17 +35,17 @@ class Bands:
     failed: list[History]
 
     def finite_values(self) -> np.ndarray:
-        """Return all finite values of the bands and of the single flights in them."""
+        """Return all finite values of the bands and of ``singles``."""
         values = np.concatenate([self.percentiles.ravel(), *(row for _, row in self.singles)])
         return values[np.isfinite(values)]
 
 
 def bands_of(quantity: FlightQuantity, flights: Sequence[ComparedFlight]) -> Bands | None:
-    """Return percentiles over the flights that last until a time; None without a flight that has the quantity.
+    """Return percentiles, at each time over the simulations that last until then; None if none has the quantity.
 
-    Times are rows of the longest flight, which are rows of the others too as long as they last; where not, a
-    value is interpolated linearly, or held if it is a whole number or a truth. A command in the last row of a
-    flight never acts and is left out. Errors over sigma are over all flights, failed ones included.
+    Times are those of the longest simulation, usually shared by the others; elsewhere a value is interpolated linearly,
+    or held if it is an Integer or Boolean. A command in the last row of a simulation never acts and is omitted. Errors
+    over sigma include failed simulations.
     """
     good, bad = (
         [_history(quantity, flight) for flight in flights if flight.success == success and _has(flight, quantity)]
@@ -74,7 +74,7 @@ def _history(quantity: FlightQuantity, flight: ComparedFlight) -> History:
 
 
 def _resample(grid: np.ndarray, time: np.ndarray, values: np.ndarray, held: bool) -> np.ndarray:
-    """Return values at the times of a grid; nan beyond the ends of the flight."""
+    """Return values at the times of a grid; NaN beyond the ends of the simulation."""
     margin = 1e-9 * max(1.0, abs(time[-1]))
     inside = (grid >= time[0] - margin) & (grid <= time[-1] + margin)
     if held:
@@ -85,7 +85,7 @@ def _resample(grid: np.ndarray, time: np.ndarray, values: np.ndarray, held: bool
 
 
 def expectation(quantity: FlightQuantity) -> tuple[float, ...]:
-    """Return the outer and the middle one of LEVELS for errors of a consistent filter; empty for others."""
+    """Return the 5, 50 and 95 % values expected of a consistent filter's errors; empty for other quantities."""
     variable = quantity.variable
     if variable == "normalised_error_square":
         return tuple(float(chi2.ppf(level / 100.0, STATES)) for level in LEVELS[::2])

@@ -1,4 +1,4 @@
-"""Figures of miss distances at the end about the target, with covariance ellipses."""
+"""Figures of final miss distances about the target, with covariance ellipses."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ HEIGHT = 3.1  # in
 
 
 def dispersion_figures(ends: Mapping[str, Ends], styles: Mapping[str, Look], name: str) -> list[Figure]:
-    """Return a figure for each variant, all to one scale."""
+    """Return a figure for each variant on one scale."""
     extent = common_extent(ends)
     return [
         _figure(label, points, styles[label], extent, f"{name}-{index}")
@@ -42,8 +42,10 @@ def dispersion_figures(ends: Mapping[str, Ends], styles: Mapping[str, Look], nam
 
 
 def common_extent(ends: Mapping[str, Ends]) -> float:
-    """Return how far from the target all figures reach: as the farthest successful trial or 3-sigma ellipse, at most
-    `UNEVEN` times the distance within which `BULK` of the successful trials of the least dispersed one end.
+    """Return the half-width of all figures about the target.
+
+    It encloses the farthest successful trial and 3-sigma ellipse, but is at most `UNEVEN` times the distance within
+    which `BULK` of the successful trials of the least dispersed variant end.
     """
     extents = [extent_of(each) for each in ends.values()]
     limit = UNEVEN * min(bulk for _, bulk in extents)
@@ -51,7 +53,9 @@ def common_extent(ends: Mapping[str, Ends]) -> float:
 
 
 def extent_of(ends: Ends) -> tuple[float, float]:
-    """Return the reach of successful trials and the 3-sigma ellipse from the target, and that of `BULK` of trials."""
+    """Return the greatest distance of successful trials and 3-sigma ellipse from the target, and that of `BULK` of
+    trials.
+    """
     good, bad = select_ends(ends)
     away = np.max(np.abs((good if good.size else bad)[:, :2]), axis=1)
     if not away.size:
@@ -70,15 +74,15 @@ def _figure(label: str, ends: Ends, style: Look, extent: float, name: str) -> Fi
 
 
 def _scale(variable: str, extent: float) -> tuple[float, str]:
-    """Return factor and unit in which ends up to ``extent`` are displayed."""
+    """Return factor and unit to display final errors up to ``extent``."""
     unit = UNITS[variable]
     return far(np.array([extent])) if unit == "m" else (1.0, unit)
 
 
 def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: Pair, y_ends: Pair) -> Chart:
-    """Return where a variant's trials end about the target, with the ellipses of the successful ones.
+    """Return a variant's final errors about the target, with ellipses of the successful ones.
 
-    ``factor`` from SI to the displayed ``unit``, in which the ends of the axes are.
+    ``factor`` converts from SI to ``unit``, the unit of the axes.
     """
     good, bad = (factor * errors for errors in select_ends(ends))
     size = max(1.6, min(4.0, 40.0 / max(1, len(bad)) ** 0.5))
@@ -103,12 +107,12 @@ def dispersion_chart(ends: Ends, colour: str, factor: float, unit: str, x_ends: 
 
 
 def _outside(points: np.ndarray, x_ends: Pair, y_ends: Pair) -> np.ndarray:
-    """Return the points, [n, 2], beyond the ends of axes about the target."""
+    """Return the points, [n, 2], outside axes about the target."""
     return points[np.any(np.abs(points) > [x_ends[1], y_ends[1]], axis=1)]
 
 
 def _arrow_out(outside: np.ndarray, colour: str, x_ends: Pair, y_ends: Pair) -> Curve:
-    """Return an arrow at the edge of the axes in the direction of the farthest point outside."""
+    """Return an arrow at the edge of the axes towards the farthest point outside."""
     x, y = outside[np.argmax(np.hypot(*outside.T))].tolist()
     inward = EDGE / max(abs(x) / x_ends[1], abs(y) / y_ends[1])
     return arrow((inward * x, inward * y), math.atan2(y, x), ARROW, colour)
@@ -130,13 +134,13 @@ def _chart(curves: Sequence[Curve], label: str, x_ends: Pair, y_ends: Pair, note
 
 
 def _about_target(chart_of: Callable[[Pair, Pair], Chart], extent: float, title: str) -> Chart:
-    """Return a chart to scale that contains a square about the target, ``extent`` as displayed; ``title`` above it."""
+    """Return a chart with equal scales that encloses a square about the target; ``extent`` is as displayed."""
     square = (-extent, extent)
     return replace(to_scale(chart_of, square, square, POINTS * PANEL_WIDTH, POINTS * HEIGHT, title=title), title=title)
 
 
 def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], name: str) -> list[Figure]:
-    """Return mean and 3-sigma ellipse of each variant about the target; nothing of a single one."""
+    """Return mean and 3-sigma ellipse of each variant about the target; none for a single variant."""
     if len(ends) < 2:
         return []
     with_ellipse = [(label, each) for label, each in ends.items() if len(select_ends(each)[0]) > 1] or ends.items()
@@ -159,7 +163,7 @@ def overlaid_ends(ends: Mapping[str, Ends], styles: Mapping[str, Look], name: st
 def _overlaid_chart(
     ellipses: Sequence[Curve], means: Sequence[Curve], unit: str, across: str, x_ends: Pair, y_ends: Pair
 ) -> Chart:
-    """Return ellipses about the target, with an arrow to each that leaves the frame."""
+    """Return ellipses about the target, with an arrow towards each that exceeds the axes."""
     outside = [
         (curve.colour, points)
         for curve in ellipses

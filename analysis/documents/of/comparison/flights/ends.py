@@ -1,4 +1,4 @@
-"""Miss distances at the end: final values less their targets, their statistics and the table of these."""
+"""Final errors: final values minus their targets, with statistics and a table."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ UNITS = {"position": "m", "velocity": "m/s"}
 
 @dataclass(frozen=True)
 class Target:
-    """A vector per trial, the value of the parameter ``name``; without one it is zero."""
+    """A target per trial, the value of the parameter ``name``; zero without one."""
 
     name: str
     values: np.ndarray
@@ -28,7 +28,7 @@ class Target:
 
 @dataclass(frozen=True)
 class Ends:
-    """Errors at the end of a variant's flights: final less target, trials by elements along ``axes``, SI."""
+    """Final errors of a variant's simulations: final minus target value, [trials, elements along ``axes``], in SI."""
 
     signal: str
     variable: str
@@ -39,7 +39,7 @@ class Ends:
 
 
 def target_of(contender: Contender, variable: str) -> Target:
-    """Return the parameter target_VARIABLE of a component, its samples where it is dispersed; zeros without one."""
+    """Return the parameter target_VARIABLE of a component, with its samples if dispersed; zeros without one."""
     count = len(contender.trials.trial)
     known = {
         name: value
@@ -54,7 +54,7 @@ def target_of(contender: Contender, variable: str) -> Target:
 
 
 def ends_of(contender: Contender, variable: str) -> Ends | None:
-    """Return final position or velocity less its target; None where the batch does not keep the final values."""
+    """Return final position or velocity minus its target; None if the batch does not store final values."""
     vector = find_vector(contender.stored.document, contender.trials.final, variable, UNITS[variable])
     if vector is None:
         return None
@@ -69,11 +69,11 @@ RADII = (0.5, 0.99)  # fractions of the trials that end within the distances sho
 
 @dataclass(frozen=True)
 class EndDispersion:
-    """Statistics of the ends of one variant, of the successful trials only; SI.
+    """Statistics of the final errors of one variant's successful trials, in SI.
 
-    ``mean`` and ``std`` are of the three elements, ``axes`` the semi-axes of the horizontal 1-sigma
-    ellipse (longer first), ``radii`` the horizontal distances from the target within which half and
-    99 % of the trials end, and the largest. None where there are too few trials.
+    ``mean`` and ``std`` have three elements, ``axes`` are the semi-axes of the horizontal 1-sigma ellipse (longer
+    first), ``radii`` the horizontal distances from the target within which half and 99 % of the trials end, and the
+    largest distance. Each is None if there are too few trials.
     """
 
     count: int
@@ -84,7 +84,7 @@ class EndDispersion:
 
 
 def dispersion(ends: Ends) -> EndDispersion:
-    """Return the statistics of a variant's ends."""
+    """Return the statistics of a variant's final errors."""
     good = ends.errors[ends.success & np.all(np.isfinite(ends.errors), axis=1)]
     if not good.size:
         return EndDispersion(0, None, None, None, None)
@@ -98,12 +98,12 @@ def dispersion(ends: Ends) -> EndDispersion:
 
 
 def covariance(good: np.ndarray) -> np.ndarray:
-    """Return the sample covariance of the two horizontal elements."""
+    """Return the sample covariance, (2, 2), of the two horizontal elements."""
     return np.cov(good[:, :2], rowvar=False)
 
 
 def ellipse(good: np.ndarray, sigma: float) -> np.ndarray:
-    """Return points of the ``sigma`` ellipse of the horizontal elements, x and y by rows."""
+    """Return points, [2, n], of the ``sigma`` ellipse of the horizontal elements."""
     variances, directions = np.linalg.eigh(covariance(good))
     angle = np.linspace(0.0, 2.0 * np.pi, 73)
     circle = np.sqrt(np.maximum(variances, 0.0))[:, np.newaxis] * np.stack([np.cos(angle), np.sin(angle)])
@@ -111,7 +111,7 @@ def ellipse(good: np.ndarray, sigma: float) -> np.ndarray:
 
 
 def select_ends(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
-    """Return finite errors of successful and of failed trials."""
+    """Return the finite errors of successful and of failed trials."""
     finite = np.all(np.isfinite(ends.errors), axis=1)
     return ends.errors[finite & ends.success], ends.errors[finite & ~ends.success]
 

@@ -1,4 +1,4 @@
-"""Simulations of a comparison with recorded signals: read once, for paths and quantities over time."""
+"""Recorded simulations of a comparison, read once for paths and quantities over time."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ from .trajectories import VariantPaths, bundle_of
 
 @dataclass(frozen=True)
 class History:
-    """A quantity over time with its percentiles by variant; ``constant`` is its value if it is the same throughout."""
+    """A quantity over time with its percentiles by variant; ``constant`` is its value if it never changes, else
+    None.
+    """
 
     quantity: FlightQuantity
     bands: Mapping[str, Bands]
@@ -27,13 +29,13 @@ class History:
 
 @dataclass(frozen=True)
 class FlightHistories:
-    """Recorded simulations by variant, their paths and quantities."""
+    """Recorded simulations by variant, with their paths and quantities."""
 
     comparison: CampaignComparison
 
     @cached_property
     def by_label(self) -> dict[str, list[ComparedFlight]]:
-        """The simulations that are displayed."""
+        """The displayed simulations by variant."""
         trials = trials_with_traces(self.comparison.contenders.values())
         return {
             label: read_flights(contender, trials[label], names_of_record(contender.stored.document))
@@ -42,7 +44,7 @@ class FlightHistories:
 
     @cached_property
     def bundles(self) -> dict[str, VariantPaths]:
-        """Paths of the variants that have positions."""
+        """The paths of the variants that have positions."""
         bundles = {
             label: bundle_of(self.comparison.contenders[label], flights) for label, flights in self.by_label.items()
         }
@@ -50,7 +52,7 @@ class FlightHistories:
 
     @cached_property
     def histories(self) -> list[History]:
-        """Quantities over time that a variant has."""
+        """The quantities over time that at least one variant has."""
         named = {
             quantity.label: quantity
             for batch in self.comparison.batches.values()
@@ -67,5 +69,5 @@ class FlightHistories:
         return histories
 
     def of_kinds(self, *kinds: str) -> list[History]:
-        """Return the quantities of these kinds, in this order."""
+        """Return the quantities of these kinds, in the order of the kinds."""
         return [each for kind in kinds for each in self.histories if each.quantity.kind == kind]

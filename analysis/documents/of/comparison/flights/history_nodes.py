@@ -1,4 +1,4 @@
-"""Nodes of quantities over time: all variants in a figure, each variant, constant ones."""
+"""Nodes of quantities over time: all variants in one figure, each variant, constant quantities."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Styles = Mapping[str, Look]
 
 
 def overlaid_histories(histories: Sequence[History], styles: Styles) -> list[Node]:
-    """Return a figure for each quantity with all variants; nothing where no quantity has several."""
+    """Return a figure of all variants for each quantity; none if no quantity has several variants."""
     several = [each for each in histories if each.constant is None and len(each.bands) > 1]
 
     def draw() -> list[Figure]:
@@ -31,7 +31,7 @@ def overlaid_histories(histories: Sequence[History], styles: Styles) -> list[Nod
 
 
 def histories_by_variant(histories: Sequence[History], styles: Styles) -> list[Node]:
-    """Return a group for each quantity with a figure for each variant."""
+    """Return a group for each quantity, with a figure per variant."""
     return [
         Group(
             each.quantity.label,
@@ -44,7 +44,7 @@ def histories_by_variant(histories: Sequence[History], styles: Styles) -> list[N
 
 
 def constant_notes(histories: Sequence[History]) -> list[Node]:
-    """Return the quantities that are the same throughout."""
+    """Return a note on the quantities that never change."""
     return [
         Note([
             f"{each.quantity.label} is ",

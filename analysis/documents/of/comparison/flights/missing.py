@@ -1,4 +1,4 @@
-"""Data that results lack, and a bias of those over time: what a reader of a comparison has to know of its record."""
+"""Statements on data that the record of a comparison lacks, and on bias in its simulations over time."""
 
 from __future__ import annotations
 
@@ -22,10 +22,11 @@ def missing_statements(
     kinds: Collection[str],
     ends: Collection[str],
 ) -> dict[str, str]:
-    """Return, by section, the data that the results lack, and the record of a campaign that has them.
+    """Return, by section, the data that the results lack, and the record that a campaign needs to provide them.
 
-    ``kinds`` are those of the quantities over time, ``ends`` the variables with final values. Nothing is missing of a
-    system without a path, such as one of attitude alone: no trajectory, thrust, end or propellant.
+    ``kinds`` are the kinds of available quantities over time, ``ends`` the variables with final values. A system
+    without a path, such as one of attitude alone, lacks nothing: it has no trajectory, thrust, final error or
+    propellant.
     """
     reasons = {}
     retained = {
@@ -61,7 +62,7 @@ def missing_statements(
 
 
 def is_biased(comparison: CampaignComparison, flights: Mapping[str, list[ComparedFlight]]) -> bool:
-    """Return True if the trials displayed over time differ between variants, or are failed ones only."""
+    """Return True if the simulations over time are of different trials per variant, or of failed trials only."""
     trials = {tuple(flight.trial for flight in retained) for retained in flights.values() if retained}
     records = [batch.document["record"] for batch in comparison.batches.values()]
     return len(trials) > 1 or any(record["every"] is None and record["traces"] == "failures" for record in records)

@@ -1,4 +1,4 @@
-"""Recorded signals of a stored batch, sorted into quantities by names and units alone; nothing is of one system."""
+"""Recorded signals of a stored batch, sorted into quantities by names and units only, for any system."""
 
 from __future__ import annotations
 
@@ -36,7 +36,10 @@ MOST_ROWS = 500  # of a flight that are kept
 
 @dataclass(frozen=True)
 class FlightQuantity:
-    """A number over time: computed from ``names`` by ``values``, in SI. ``held`` between rows if not Real."""
+    """A scalar over time, which ``values`` computes from the signals ``names``, in SI.
+
+    ``held`` is True if it is constant between rows, as Integers and Booleans are.
+    """
 
     label: str
     variable: str
@@ -49,7 +52,7 @@ class FlightQuantity:
 
 @dataclass(frozen=True)
 class ComparedFlight:
-    """Recorded signals of a flight. ``success`` is the trial's; ``is_whole`` if the last row is the flight's last."""
+    """Recorded signals of a trial; ``is_whole`` if the last recorded row is the end of the simulation."""
 
     trial: int
     success: bool
@@ -59,7 +62,7 @@ class ComparedFlight:
 
 
 def quantities(document: CampaignProvenance) -> list[FlightQuantity]:
-    """Return every quantity over time that can be drawn, in order of their signals."""
+    """Return all quantities over time that can be drawn, in order of their signals."""
     names = names_of_record(document)
     listed: list[FlightQuantity] = []
     selected: set[str] = set()
@@ -108,10 +111,11 @@ def _elevation(names: Sequence[str]) -> Callable[[Signals], np.ndarray]:
 
 
 def trials_with_traces(contenders: Iterable[Contender]) -> dict[str, list[int]]:
-    """Return the trials of each variant whose traces are displayed: common ones; without such, those of each.
+    """Return the trials of each variant to display over time: common trials, or each variant's own if there are
+    none.
 
-    Where signals are sampled, flights that failed and are kept in full beyond them do not count: they
-    would stand for more than their share.
+    If the campaign records a sample of trials, failed trials recorded in addition are ignored, since they would be
+    overrepresented.
     """
     own: dict[str, list[int]] = {}
     for contender in contenders:
@@ -125,7 +129,7 @@ def trials_with_traces(contenders: Iterable[Contender]) -> dict[str, list[int]]:
 
 
 def doubling(ratio: float) -> int:
-    """Return the least power of two that is not below ``ratio``: rows thinned by such steps stay rows of each other."""
+    """Return the least power of two not below ``ratio``; records thinned by such steps have common rows."""
     step = 1
     while step < ratio:
         step *= 2
@@ -133,7 +137,7 @@ def doubling(ratio: float) -> int:
 
 
 def read_flights(contender: Contender, trials: Iterable[int], names: Sequence[str]) -> list[ComparedFlight]:
-    """Return the traces of some trials with those of ``names`` that they have, thinned where rows are many."""
+    """Return the traces of some trials with the available signals of ``names``, thinned if they have many rows."""
     number = {int(trial): row for row, trial in enumerate(contender.trials.trial)}
     flights = []
     for trial in trials:

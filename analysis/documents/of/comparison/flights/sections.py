@@ -1,4 +1,4 @@
-"""Sections on recorded simulations: trajectories, ends, commands and motion over time, errors of estimation."""
+"""Sections on recorded simulations: trajectories, final errors, commands and motion over time, estimation errors."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def missing_nodes(content: ComparisonContent, *keys: str) -> list[Node]:
 
 
 def trajectory_section(content: ComparisonContent) -> list[Section]:
-    """Return trajectories from the side and in plan, and what of them is missing."""
+    """Return the section of trajectories in side and plan view, and of missing data."""
     nodes = missing_nodes(content, "trajectories", "traces")
     if is_biased(content.comparison, content.flights.by_label):
         nodes.append(
@@ -72,7 +72,7 @@ def _trajectory_note(content: ComparisonContent) -> Note:
 
 
 def end_section(content: ComparisonContent) -> list[Section]:
-    """Return the ends of all variants in a figure for each variable."""
+    """Return the section of final errors, all variants in a figure per variable."""
     ends = content.ends
     nodes = missing_nodes(content, "ends")
     if any(len(each) > 1 for each in ends.values()):
@@ -94,7 +94,7 @@ def _overlaid(content: ComparisonContent) -> list[Figure]:
 
 
 def time_sections(content: ComparisonContent) -> list[Section]:
-    """Return commands and motion over time, all variants in a figure and each variant."""
+    """Return the sections of commands and motion over time: all variants in one figure, and each variant."""
     histories = content.flights.of_kinds(*OVER_TIME)
     overlaid = overlaid_histories(histories, content.styles)
     each_variant = histories_by_variant(histories, content.styles)
@@ -128,7 +128,7 @@ def _bands_text(content: ComparisonContent) -> Text:
 
 
 def ends_by_variant_section(content: ComparisonContent) -> list[Section]:
-    """Return the ends of each variant with their statistics, folded where a figure has those of all."""
+    """Return the section of each variant's final errors with statistics, folded if a figure shows all variants."""
     nodes: list[Node] = []
     for variable, of_all in content.ends.items():
         figures = partial(dispersion_figures, of_all, content.styles, f"end-{variable}")
@@ -154,7 +154,7 @@ ENDS = (
 
 
 def error_section(content: ComparisonContent) -> list[Section]:
-    """Return errors over the filter's standard deviation, at the end and over time."""
+    """Return the section of errors over the filter's standard deviation, at the end and over time."""
     compared, styles = content.comparison, content.styles
     nodes = missing_nodes(content, "consistency")
     rows = sigma_rows(compared)

@@ -1,4 +1,4 @@
-"""Trajectories of the simulations of a variant: along the ground to the target, height, plan."""
+"""Trajectories of a variant's simulations: distance along the ground, height, plan view."""
 
 from __future__ import annotations
 
@@ -28,8 +28,11 @@ DRAWN = 40  # flights of a figure
 
 @dataclass(frozen=True)
 class FlightPath:
-    """A flight in space: ``along`` (m from the target along the ground or, where that is not known to be round, along
-    the horizontal line from the start to it, negative before it), ``height`` (m), and ``plan`` (x and y by rows, m)."""
+    """A path in space: ``along``, ``height`` (m) and ``plan`` (x and y, [2, rows], m).
+
+    ``along`` (m, negative before the target) is the distance along the ground or, if the ground is not known to be
+    round, along the horizontal line from the start to the target.
+    """
 
     success: bool
     along: np.ndarray
@@ -39,9 +42,9 @@ class FlightPath:
 
 @dataclass(frozen=True)
 class VariantPaths:
-    """Paths of one variant, the horizontal position of its target, the name of its height.
+    """Paths of one variant, the horizontal position of its target, and the name of its height.
 
-    ``radius`` (m) is that of the body over whose ground downrange is; None where no altitude shows that it is round.
+    ``radius`` (m) is that of the body along whose ground downrange is measured; None if no altitude reveals it.
     ``axes`` are those of the frame of positions.
     """
 
@@ -53,12 +56,12 @@ class VariantPaths:
 
     @property
     def over_ground(self) -> bool:
-        """True if the height is one over the ground."""
+        """True if the height is an altitude above the ground."""
         return self.height.rpartition(".")[2] == "altitude"
 
 
 def bundle_of(contender: Contender, flights: Sequence[ComparedFlight]) -> VariantPaths | None:
-    """Return the paths of a variant's flights, to their ends where final values are recorded; None without any."""
+    """Return the paths of a variant's simulations, extended to recorded final values; None without paths."""
     document = contender.stored.document
     names = names_of_record(document)
     position = find_vector(document, names, "position", "m")

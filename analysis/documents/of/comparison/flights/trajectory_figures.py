@@ -1,4 +1,4 @@
-"""Figures of trajectories: side and plan view of many simulations, one for each variant, one scale in all."""
+"""Figures of trajectories: side and plan view of many simulations, one figure per variant, on one scale."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ROOM = 0.12  # of the successful flights' extent, around them; failed flights ma
 
 
 def side_figures(bundles: Mapping[str, VariantPaths], styles: Mapping[str, Look]) -> list[Figure]:
-    """Return height over downrange distance, one scale in all, with the surface below altitudes; not to scale."""
+    """Return height over downrange distance on one scale per axis, with the surface if heights are altitudes."""
     framed = _frame(bundles)
     has_ground = all(bundle.over_ground for bundle in bundles.values())
     along = np.concatenate([path.along for path in framed] + [np.zeros(1)])
@@ -52,7 +52,7 @@ def _figure(label: str, name: str, words: str, chart: Chart, title: str, styles:
 
 
 def side_chart(paths: Sequence[Polyline], colour: str, x: Axis, y: Axis, *, has_ground: bool) -> Chart:
-    """Return paths from the side, with the place of the target and the surface at height 0."""
+    """Return paths in side view, with the target and the surface at height 0."""
     return Chart(
         NO_BOX,
         x,
@@ -64,7 +64,7 @@ def side_chart(paths: Sequence[Polyline], colour: str, x: Axis, y: Axis, *, has_
 
 
 def plan_figures(bundles: Mapping[str, VariantPaths], styles: Mapping[str, Look]) -> list[Figure]:
-    """Return paths from above with the target, one scale in all."""
+    """Return paths in plan view with the target, on one scale."""
     plans = [path.plan for path in _frame(bundles)]
     x, y = np.concatenate(plans + [bundle.target[:, np.newaxis] for bundle in bundles.values()], axis=1)
     is_to_scale = 1.0 / STRETCH <= (np.ptp(x) or 1e-9) / (np.ptp(y) or 1e-9) <= STRETCH
@@ -93,7 +93,7 @@ def _plan_chart(curves: Sequence[Curve], label: str, x_ends: Ends, y_ends: Ends)
 
 
 def _line(path: Polyline, colour: str) -> Curve:
-    """Return a flight; one that failed is dark and dashed."""
+    """Return the line of a path, dark and dashed for a failed trial."""
     x, y, success = path
     if success:
         return line(x, y, colour, width=0.7, opacity=0.6)
@@ -101,7 +101,7 @@ def _line(path: Polyline, colour: str) -> Curve:
 
 
 def _frame(bundles: Mapping[str, VariantPaths]) -> list[FlightPath]:
-    """Return the paths that decide the scale: of successful flights, or all where none succeeded."""
+    """Return the paths that determine the scale: those of successful trials, or all if none succeeded."""
     paths = [path for bundle in bundles.values() for path in bundle.paths]
     return [path for path in paths if path.success] or paths
 
