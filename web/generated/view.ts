@@ -2,7 +2,7 @@
 
 import type { Panel } from "./declared";
 
-// A force: its values in ``unit``, where it acts and along which direction (body), and its plume's ``length`` (m).
+// A force: values in ``unit``, point and direction of action (body axes), and the plume's ``length`` (m).
 //
 // The plume has this length at the ``largest`` magnitude.
 export interface ThrustView<Column = number> {
@@ -15,7 +15,7 @@ export interface ThrustView<Column = number> {
   along: [number, number, number];
 }
 
-// A jet: its force over the ``largest`` of its group, or the time (s) that its pulse still lasts, with its sign.
+// A jet: its force relative to the ``largest`` of its group, or the signed remaining time (s) of its pulse.
 export interface JetView<Column = number> {
   values: Column;
   largest: number;
@@ -25,16 +25,16 @@ export interface JetView<Column = number> {
   along: [number, number, number];
 }
 
-// Trial and variant of a body, and whether that trial failed.
+// Trial and variant of a body, and whether the trial failed.
 export interface FlightName {
   variant: string;
   trial: number;
   failed?: boolean;
 }
 
-// A body: three columns of position (m) and four of its attitude, a quaternion from body to scene, scalar first.
+// A body: three columns of position (m), and four of its attitude quaternion from body to scene, scalar first.
 //
-// ``attitude`` is empty where it is unknown, ``flight`` is given in a scene of several flights.
+// ``attitude`` is empty if unknown; ``flight`` is stated in a scene of several simulations.
 export interface BodyView<Column = number> {
   name: string;
   colour: string;
@@ -56,16 +56,16 @@ export interface SiteView<Column = number> {
   position: Column[];
 }
 
-// A line from a named point to another; to the ground below where ``end`` is missing.
+// A line from a named point to another, or without ``end`` to the ground below.
 export interface LineView<Column = number> {
   start: string;
   end?: string;
   condition?: Column;
 }
 
-// An arrow from a named point: three columns of its unit vector in the scene's frame, nan where that is unknown.
+// An arrow from a named point: three columns of a unit vector in the scene's frame, NaN where unknown.
 //
-// Its ``length`` is in m, or ``on_screen`` a fraction of the view's height.
+// ``length`` is in m, or if ``on_screen`` a fraction of the view's height.
 export interface ArrowView<Column = number> {
   name: string;
   colour: string;
@@ -75,9 +75,9 @@ export interface ArrowView<Column = number> {
   on_screen?: boolean;
 }
 
-// The ground: z = 0, or of a sphere its ``radius`` and ``centre`` (m, in the scene's frame).
+// The ground: the plane z = 0, or a sphere by ``radius`` and ``centre`` (m, in the scene's frame).
 //
-// The grid of a sphere is laid on the great circle with this ``normal``.
+// The grid of a sphere is aligned with the great circle of this ``normal``.
 export interface GroundView {
   name: string;
   radius?: number;
@@ -85,10 +85,10 @@ export interface GroundView {
   normal?: [number, number, number];
 }
 
-// The camera as it is at first: its ``field`` upwards, its direction from a body (rad), its distance.
+// The initial camera: its vertical ``field``, its direction from a body (rad), its distance.
 //
-// The azimuth is counted from forward about up. The distance is ``diagonals`` diagonals of the body, or such that all
-// bodies are in view, with this ``room`` around them.
+// The azimuth is measured from forward about up. The distance is ``diagonals`` diagonals of the body, or such that all
+// bodies are in view with a margin of ``room``.
 export interface CameraStart {
   field: number;
   azimuth: number;
@@ -97,7 +97,7 @@ export interface CameraStart {
   room: number;
 }
 
-// A scene of a flight with samples at ``time`` (s).
+// A scene of a simulation with samples at ``time`` (s).
 export interface SceneView<Column = number> {
   title: string;
   axes: [string, string, string];

@@ -1,4 +1,4 @@
-"""The document of a description: that of a system, a component, an FMU, a slot or a campaign."""
+"""Document of a description: of a system, a component, an FMU, a slot or a campaign."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ VARIABLES = {
 
 
 def description_document(content: Mapping[str, Any]) -> Document:
-    """Return the document of a description, by what it is of."""
+    """Return the document of a description; its content tells what is described."""
     if "components" in content:
         title, nodes = content["system"], _system(content)
     elif "campaign" in content:
@@ -117,7 +117,7 @@ def _system(content: Mapping[str, Any]) -> list[Node]:
 
 
 def _feedthrough(component: Mapping[str, Any]) -> str:
-    """Return how outputs depend on inputs, with where that comes from."""
+    """Return how outputs depend on inputs, and the source of this statement."""
     return f"{'direct' if component['feedthrough'] else 'none'}, {component['feedthrough_origin']}"
 
 
@@ -145,7 +145,7 @@ def _variables(rows: Sequence[Mapping[str, Any]]) -> list[Listing]:
 
 
 def _about(row: Mapping[str, Any]) -> str:
-    """Return a variable's description with the items of an Enumeration, unless it lists them, as those of ours do."""
+    """Return a variable's description with the items of an Enumeration, unless the text already lists them."""
     about = row["description"]
     members = [(each["value"], each["name"], each["description"]) for each in row["items"]]
     if all(f"{number} {meaning or name}" in about for number, name, meaning in members):

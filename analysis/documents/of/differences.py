@@ -1,4 +1,4 @@
-"""The document of two runs over each other: what was compared, what differs, and where."""
+"""Document of the comparison of two runs: what was compared, and what differs where."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def _json(runs: RunDifferences) -> dict[str, object]:
 
 
 def _known(sample: float) -> float | None:
-    """Return a sample for JSON, which has no nan: None."""
+    """Return a sample for JSON, with NaN as None."""
     return None if np.isnan(sample) else float(sample)
 
 

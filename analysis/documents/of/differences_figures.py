@@ -1,4 +1,4 @@
-"""Figures of two runs over each other: each signal or vector in both, and its difference."""
+"""Figures of two runs: each signal or vector in both, and its difference."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Vectors = Mapping[str, Sequence[SignalDifference]]
 
 
 def plotted_signals(signals: Iterable[SignalDifference]) -> tuple[Vectors, int]:
-    """Return the elements of the first signals and vectors by name, and how many further ones there are."""
+    """Return the elements of the first signals and vectors by name, and the number of others."""
     vectors: dict[str, list[SignalDifference]] = {}
     for each in signals:
         vectors.setdefault(vector_of(each.name), []).append(each)
@@ -34,7 +34,7 @@ def plotted_signals(signals: Iterable[SignalDifference]) -> tuple[Vectors, int]:
 
 
 def difference_legend(vectors: Vectors) -> list[LegendEntry]:
-    """Return the looks of both runs, and each colour with the axes or indices of the elements that have it."""
+    """Return the looks of both runs, and the axes or indices of the elements of each colour."""
     runs = [
         LegendEntry(Look(INK, dashes, ""), [name]) for dashes, name in zip(DASHES, ("first", "second"), strict=False)
     ]
@@ -47,7 +47,7 @@ def difference_legend(vectors: Vectors) -> list[LegendEntry]:
 
 
 def difference_figures(vectors: Vectors, time: np.ndarray) -> list[Figure]:
-    """Return two figures of each signal or vector over ``time`` (s): both runs, and second less first."""
+    """Return two figures of each signal or vector over ``time`` (s): both runs, and second minus first."""
     palette = _palette(vectors)
     figures = []
     for order, (name, elements) in enumerate(vectors.items()):
@@ -73,7 +73,7 @@ def difference_figures(vectors: Vectors, time: np.ndarray) -> list[Figure]:
 
 
 def _palette(vectors: Vectors) -> dict[str, str]:
-    """Return the colour of every index that an element of a plotted vector has, the same in all figures."""
+    """Return a colour for every index of a plotted vector's elements, the same in all figures."""
     indices = {_index(each.name) for elements in vectors.values() for each in elements} - {""}
     ordered = sorted(indices, key=lambda index: [int(each) for each in index.split(",")])
     return dict(zip(ordered, cycle(COLOURS), strict=False))

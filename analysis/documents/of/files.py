@@ -1,4 +1,4 @@
-"""Documents of results that are files: exported FMUs and systems, templates, composed systems, the documentation."""
+"""Documents of written files: exports, templates, composed systems, the documentation."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def exported_document(paths: Iterable[Path], flavours: Iterable[str], platforms:
 
 
 def new_files_document(written: Written) -> Document:
-    """Return the document of files that were written from templates: their paths, the commands that come next."""
+    """Return the document of files written from templates: their paths, and the commands to run next."""
     nodes: list[Node] = [
         Text(f"written: {', '.join(map(str, written.paths))}"),
         Listing([[CommandLine(command)] for command in written.commands], "next:"),
@@ -31,7 +31,7 @@ def new_files_document(written: Written) -> Document:
 
 
 def composition_document(system: str, paths: Iterable[Path], toml: str) -> Document:
-    """Return the document of a composed system: the written paths, or its `system.toml` where none is written."""
+    """Return the document of a composed system: the written paths, or its `system.toml` if nothing was written."""
     json = {"system": system, "paths": [path.as_posix() for path in paths], "toml": toml}
     return Document(system, _code(map(str, paths)) or _code(toml.splitlines()), [], json)
 

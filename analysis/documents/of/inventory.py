@@ -1,4 +1,4 @@
-"""The document of an inventory: systems with their files, laws, searches, FMUs."""
+"""Document of an inventory: systems with their files, laws, searches, FMUs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ LISTS = ("parameter_sets", "campaigns", "loops")  # of a system
 
 
 def inventory_document(content: Mapping[str, Any], lists: Sequence[str] = LISTS) -> Document:
-    """Return the document of an inventory by its JSON, of each system these ``lists``."""
+    """Return the document of an inventory from its JSON; of each system these ``lists`` are included."""
     nodes: list[Node] = []
     for name, system in content["systems"].items():
         rows = [[title.replace("_", " "), ", ".join(system[title]) or "none"] for title in lists]

@@ -10,7 +10,7 @@ from ..model import Node, Note, Table
 
 
 def condition_notes(provenance: Mapping[str, Any]) -> list[Node]:
-    """Return the injected faults and the assumptions about the system of simulations."""
+    """Return the injected faults and the assumptions about the simulated system."""
     faults = provenance.get("faults", [])
     return [
         *([Note(["Faults: ", Code("; ".join(faults)), "."])] if faults else []),
@@ -19,5 +19,5 @@ def condition_notes(provenance: Mapping[str, Any]) -> list[Node]:
 
 
 def digest_table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
-    """Return parts with the digests of their files, the last cell of each row."""
+    """Return a table of items with the digests of their files, the last cell of each row."""
     return Table((*heads, "SHA-256"), [(*row[:-1], Digest(row[-1])) for row in rows], style="")

@@ -1,4 +1,4 @@
-"""Reserves of values to their limits, by which pages mark the tightest one."""
+"""Reserves between values and their limits, by which pages mark the tightest one."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ TIGHTEST = "tightest"
 
 
 def relative_reserve(value: float, low: float | None, high: float | None) -> float:
-    """Return the distance of a value from its nearer limit, relative to that limit, in a range to half its width.
+    """Return the distance of a value from its nearer limit, relative to that limit, or to half the width of a range.
 
-    It is below 0 outside of the limits, and infinite for a limit of 0 alone, of which there is no fraction.
+    It is negative outside the limits, and infinite for a single limit of 0, which has no scale.
     """
     if math.isnan(value):
         return -math.inf

@@ -1,4 +1,4 @@
-"""The document of checked files: notes on each, and which are valid."""
+"""Document of checked files: notes on each, and which are valid."""
 
 from __future__ import annotations
 

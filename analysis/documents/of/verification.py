@@ -1,4 +1,4 @@
-"""The document of files verified against their evidence: their experiments, notes, verdicts; and their problems."""
+"""Document of verified files: experiments, notes, verdicts; and the problems found."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NAMED = 6  # signals of an experiment that do not fit
 
 
 def verification_document(files: Sequence[Verification]) -> Document:
-    """Return the document of files: each experiment, notes, and which files are as they were handed on."""
+    """Return the document of verified files: each experiment, notes, and which files are unaltered."""
     nodes: list[Node] = []
     for each in files:
         nodes += [Text(f"{each.file}: {_summary(made)}") for made in each.reproductions]
@@ -29,7 +29,7 @@ def verification_document(files: Sequence[Verification]) -> Document:
 
 
 def verification_problems(files: Sequence[Verification]) -> list[str]:
-    """Return problems of all files: not as they were handed on, not reproduced, or compared by too little."""
+    """Return the problems of all files: altered, not reproduced, or insufficiently compared."""
     return [on_one_line(line) for each in files for line in (*_problems(each), *_weaknesses(each))]
 
 

@@ -1,4 +1,4 @@
-"""Cells and sentences of documents as markup, with the exact SI value of each number."""
+"""Markup of cells and sentences, with the exact SI value of each number."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ BAR = 220.0  # px, of all
 
 
 def cell_markup(cell: Cell) -> Markup:
-    """Return a cell with its exact SI value in the markup; a name may continue in a new line."""
+    """Return the markup of a cell with its exact SI value; names may break across lines."""
     match cell:
         case str():
             return breakable(cell)
@@ -87,7 +87,9 @@ def cell_markup(cell: Cell) -> Markup:
 
 
 def rich_markup(content: Rich, *, is_sentence: bool = False) -> Markup:
-    """Return a sentence as markup; ``is_sentence``: with a capital letter and a full stop, unless a verdict ends it."""
+    """Return the markup of a sentence; ``is_sentence`` adds an initial capital and, unless a verdict ends it, a full
+    stop.
+    """
     inline = [content] if isinstance(content, str) else list(content)
     if is_sentence and isinstance(inline[0], str):
         inline[0] = inline[0][:1].upper() + inline[0][1:]
@@ -96,14 +98,14 @@ def rich_markup(content: Rich, *, is_sentence: bool = False) -> Markup:
 
 
 def _inline_markup(part: Inline) -> Markup:
-    """Return a part of a sentence; a verdict has its colour there, which in a table is that of its cell."""
+    """Return the markup of an inline element; a verdict is coloured itself, in a table its cell is."""
     if isinstance(part, Judged):
         return Markup('<span class="verdict {}">{}</span>').format(part.grade, part.verdict)
     return cell_markup(part)
 
 
 def is_number(cell: Cell) -> bool:
-    """Return True if a cell is a number, whose column is aligned to the right."""
+    """Return True if a cell is a number; columns of numbers are aligned to the right."""
     match cell:
         case Strong(inner) | Faint(inner):
             return is_number(inner)
@@ -113,7 +115,7 @@ def is_number(cell: Cell) -> bool:
 
 
 def cell_class(cell: Cell, column: str) -> str:
-    """Return the class of a cell in a ``column`` of this class."""
+    """Return the CSS class of a cell in a ``column`` of this class."""
     match cell:
         case Code(_, is_long=True):
             return "long"
@@ -131,12 +133,12 @@ def cell_class(cell: Cell, column: str) -> str:
 
 
 def entry_markup(entry: LegendEntry) -> Markup:
-    """Return an entry of a legend: its look and its words."""
+    """Return the markup of a legend entry: its look and its words."""
     return legend_swatch(entry) + Markup(", ").join(map(breakable, entry.lines))
 
 
 def legend_swatch(entry: LegendEntry) -> Markup:
-    """Return the look of an entry of a legend as a short line or a mark."""
+    """Return the look of a legend entry as a short line or a mark."""
     match entry.look:
         case Look():
             return swatch(entry.look)

@@ -1,4 +1,4 @@
-"""Rows of words as lines of a terminal, in columns of which the last one is wrapped."""
+"""Columns of words in a terminal; the last column is wrapped."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ INDENT = "  "  # of rows below a heading
 
 
 def wrap_line(line: str, indent: int) -> list[str]:
-    """Return a line as lines of at most WIDEST columns, all but the first indented; words are not broken."""
+    """Return a line broken into lines of at most WIDEST columns between words, all but the first indented."""
     if len(line) <= WIDEST:
         return [line.rstrip()]
     return textwrap.wrap(
@@ -32,7 +32,7 @@ def wrap_line(line: str, indent: int) -> list[str]:
 
 
 def listing_lines(listing: Listing) -> list[str]:
-    """Return the heading of a listing and its rows, in columns as wide as stated, or as entries up to LONGEST."""
+    """Return the lines of a listing; columns have the stated widths, or those of their cells up to LONGEST."""
     heading, before = ([listing.heading], INDENT) if listing.heading else ([], "")
     rows = [[before + cell_text(row[0]), *map(cell_text, row[1:])] for row in listing.rows]
     if listing.columns:

@@ -1,4 +1,4 @@
-"""A diagram as SVG, in a page and as a file."""
+"""Diagrams as SVG, in a page and as files."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NO_MARGINS = (0.0, 0.0, 0.0, 0.0)
 
 
 def diagram_svg(diagram: Diagram) -> Markup:
-    """Return a diagram as an <svg> element of its size; equal diagrams have equal elements."""
+    """Return a diagram as an <svg> element of its size, reproducible to the byte."""
     chart, width, height = diagram.draw()
     fluid = replace(chart, fluid=Fluid(NO_MARGINS, POINT))
     svg = write_svg(fluid, diagram.name, diagram.words, width, height)

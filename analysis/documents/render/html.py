@@ -1,4 +1,4 @@
-"""A document as one self-contained HTML page."""
+"""Renderer of a document as one self-contained HTML page."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ COLUMNS = {"": "", "numbers": "n", "names": "who", "sentences": "long"}  # class
 
 
 def write_document(document: Document, path: Path) -> None:
-    """Write the page of a document; equal documents have pages of equal bytes."""
+    """Write the page of a document, reproducible to the byte."""
     write_page(
         path,
         TEMPLATE,
@@ -43,7 +43,7 @@ def write_document(document: Document, path: Path) -> None:
 
 
 class HeadCell(NamedTuple):
-    """A cell of a table's head, over ``columns`` columns and ``rows`` rows; ``kind`` is its class."""
+    """A cell of a table head that spans ``columns`` and ``rows``; ``kind`` is its CSS class."""
 
     text: str
     note: Rich
@@ -53,7 +53,7 @@ class HeadCell(NamedTuple):
 
 
 class BodyRow(NamedTuple):
-    """A row of a table's body: cells with their classes, or one text over all columns."""
+    """A row of a table body: cells with their CSS classes, or one text across all columns."""
 
     content: Sequence[tuple[str, Cell]] = ()
     anchor: str = ""
@@ -63,7 +63,7 @@ class BodyRow(NamedTuple):
 
 
 class TableLayout(NamedTuple):
-    """A table as a page has it: one or two rows of heads, the rows of its body, the number of columns."""
+    """Layout of a table on a page: one or two rows of heads, the rows of its body, the number of columns."""
 
     heads: Sequence[Sequence[HeadCell]]
     rows: Sequence[BodyRow]
@@ -71,7 +71,7 @@ class TableLayout(NamedTuple):
 
 
 def lay_out(table: Table) -> TableLayout:
-    """Return a table with the classes and extents of its cells."""
+    """Return the layout of a table with the classes and spans of its cells."""
     heads = [head if isinstance(head, Head) else Head(head) for head in table.heads]
     plain = [row for row in table.rows if not isinstance(row, RowHeading | RowNote)]
     contents = [row.content if isinstance(row, Row) else row for row in plain]
@@ -98,7 +98,7 @@ def lay_out(table: Table) -> TableLayout:
 
 
 def _kind_of(column: Sequence[Cell]) -> str:
-    """Return the class of a column whose heading does not say which."""
+    """Return the CSS class of a column whose head does not state one."""
     return "n" if column and all(map(is_number, column)) else ""
 
 
@@ -130,7 +130,7 @@ def _body(table: Table, kinds: Sequence[str]) -> list[BodyRow]:
 
 
 def _rows(figures: Sequence[Figure]) -> list[tuple[str, list[tuple[Figure, FigurePanel]]]]:
-    """Return runs of figures of one width in order: ``wide``, or a kind of grid."""
+    """Return runs of consecutive figures of equal width: ``wide``, or a kind of grid."""
     return [(kind, [(figure, panel_of(figure)) for figure in run]) for kind, run in groupby(figures, _kind)]
 
 

@@ -1,4 +1,4 @@
-"""A document as HTML of a notebook's cell."""
+"""Renderer of a document as HTML of a notebook cell."""
 
 from __future__ import annotations
 
@@ -46,12 +46,12 @@ def figures_of(document: Document) -> list[Figure]:
 
 
 def _columns(figures: Sequence[Figure]) -> int:
-    """Return the number of figures in a row."""
+    """Return the number of figures per row."""
     return 3 if figures and figures[0].is_narrow else 2
 
 
 def _key(nodes: Sequence[Node]) -> list[str]:
-    """Return the legend of the first figures where it is that of their first lines."""
+    """Return the legend of the first figures if it refers to their first lines."""
     first = next((node for node in nodes if isinstance(node, Figures)), None)
     if first is None or not first.is_in_order:
         return []
@@ -59,7 +59,7 @@ def _key(nodes: Sequence[Node]) -> list[str]:
 
 
 def plot_figures(figures: Sequence[Figure], key: Sequence[str] = ()) -> Drawing:
-    """Return figures next to each other as one of matplotlib's, with their legends; ``key`` is that of all."""
+    """Return figures side by side as one matplotlib figure with their legends; ``key`` is the common legend."""
     from ..chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
 
     panes = [(each, chart) for each in figures for chart in (each.chart, each.below) if chart is not None]
@@ -89,7 +89,7 @@ def _plot_diagram(nodes: Sequence[Node]) -> Drawing | None:
 
 
 def _heads(node: Table | Listing) -> Sequence[str]:
-    """Return a head for each column; of a listing its heading."""
+    """Return a head for each column; for a listing its heading."""
     if isinstance(node, Table):
         return heads_of(node)
     return [node.heading, *[""] * (len(node.rows[0]) - 1 if node.rows else 0)]
@@ -100,7 +100,7 @@ def _rows(node: Table | Listing) -> Sequence[Sequence[Cell]]:
 
 
 def _cell(cell: Cell) -> Markup | str:
-    """Return a cell as markup; the look of a line needs the style of a page."""
+    """Return the markup of a cell, without looks of lines, which need the style sheet of a page."""
     return cell_text(cell) if isinstance(cell, LegendEntry) else cell_markup(cell)
 
 

@@ -1,4 +1,4 @@
-"""A document as lines of a terminal."""
+"""Renderer of a document as lines of a terminal."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ CONTINUED = 4  # columns before further lines of a statement
 
 
 def document_lines(document: Document) -> list[str]:
-    """Return the lines that a terminal shows of a document; line breaks in names of others are escaped."""
+    """Return the lines of a document for a terminal; line breaks in foreign names are escaped."""
     sections = [line for section in document.sections for line in _section_lines(section)]
     return [on_one_line(line) for line in (*_lines(document.summary), *sections)]
 

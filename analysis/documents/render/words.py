@@ -1,4 +1,4 @@
-"""Cells and sentences of documents as plain text, for a terminal and for a notebook's words."""
+"""Plain text of cells and sentences, for terminals and notebooks."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from ..model import Document, KeyNumbers, Table, Verdict
 
 
 def cell_text(cell: Cell) -> str:
-    """Return a cell as text; a quantity in its displayed unit. A drawing has none."""
+    """Return a cell as text, quantities in their displayed unit; empty for a drawing."""
     match cell:
         case Code(text) | CommandLine(text) | Digest(text) | Displayed(text) | Link(text) | Judged(text):
             return text
@@ -72,7 +72,7 @@ def rich_text(content: Rich) -> str:
 
 
 def heads_of(table: Table) -> list[str]:
-    """Return the headings of all columns as text; of a heading over several columns with it before each."""
+    """Return the headings of all columns as text; a heading across several columns precedes each of theirs."""
     heads = [head if isinstance(head, Head) else Head(head) for head in table.heads]
     return [" ".join(filter(None, (head.text, each))) for head in heads for each in head.below or [""]]
 
@@ -84,10 +84,10 @@ def rows_of(table: Table) -> list[Sequence[Cell]]:
 
 
 def number_line(numbers: KeyNumbers) -> str:
-    """Return key numbers as one line."""
+    """Return key numbers on one line."""
     return "; ".join(f"{name} {cell_text(cell)}" for name, cell in numbers.entries)
 
 
 def lead_text(document: Document) -> str:
-    """Return the answer of a document, that of its verdict."""
+    """Return the answer of a document as text, from its verdict."""
     return next(rich_text(node.lead) for node in document.summary if isinstance(node, Verdict))

@@ -1,1 +1,1 @@
-"""A flight in three dimensions: poses, and what the page stores of a scene."""
+"""Scene of a simulation in three dimensions: poses, and the data that a page stores."""

@@ -1,4 +1,4 @@
-"""The camera of a view as it is at first: at the first body, level with the horizon, with all bodies in view.
+"""Initial camera of a view: aimed at the first body, level with the horizon, with all bodies in view.
 
 web/scene/camera.ts moves it.
 """
@@ -21,23 +21,23 @@ FORWARD = {"x": "y", "y": "x", "z": "x"}
 
 @dataclass(frozen=True)
 class Camera:
-    """Position ``eye`` (m), axes right, up, forward as rows, and the tangent of half the vertical field of view."""
+    """Position ``eye`` (m), axes right, up and forward as rows, and the tangent of half the vertical field of view."""
 
     eye: np.ndarray
     axes: np.ndarray
     tangent: float
 
     def look(self, points: np.ndarray) -> np.ndarray:
-        """Convert points (m), [n, 3], to components along the eye's axes, [n, 3], of which the third is the depth."""
+        """Return points (m), [n, 3], in camera axes, [n, 3]: right, up, depth."""
         return np.asarray((points - self.eye) @ self.axes.T)
 
     def project(self, seen: np.ndarray) -> np.ndarray:
-        """Project points of `look`, [n, 2]: right of the picture's middle and below it, over the picture's height."""
+        """Project points from `look` to the picture, [n, 2]: right of its centre and below it, over its height."""
         return np.asarray(seen[:, :2] * [0.5, -0.5] / (self.tangent * seen[:, 2:]))
 
 
 def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | None:
-    """Return the camera at a sample, or None where the position of the first body is unknown then."""
+    """Return the camera at a sample, or None if the position of the first body is unknown."""
     body, start = scene.bodies[0], scene.camera
     target = position_at(body, row)
     if not np.all(np.isfinite(target)):
@@ -61,7 +61,7 @@ def first_camera(scene: SceneView, ground: Ground | None, row: int) -> Camera | 
 
 
 def _extent(scene: SceneView, row: int) -> float:
-    """Return the extent (m) of other bodies around the first one at a sample; 0 where there are none."""
+    """Return the extent (m) of the other bodies around the first one at a sample; 0 without others."""
     first, *others = scene.bodies
     ends = [
         float(np.linalg.norm(position_at(body, row) - position_at(first, row))) + 0.5 * math.hypot(*body.size)

@@ -1,4 +1,4 @@
-"""Polygons and paths cut at the edges of a picture. Points are those of `Camera.look`: right, up, depth (m)."""
+"""Clipping of polygons and paths at the edges of a picture. Points are those of `Camera.look`: right, up, depth (m)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ WIDER = 1.05  # than the picture, so that no cut is in it
 
 
 def clip_polygon(corners: np.ndarray, tangent: float, aspect: float) -> np.ndarray:
-    """Return the corners, [n, 3], of a convex polygon within a picture of this aspect and tangent of half its field."""
+    """Return the corners, [n, 3], of a convex polygon clipped to a picture of this aspect and tangent of half its
+    field.
+    """
     for plane, offset in _planes(tangent, aspect):
         distance = corners @ plane - offset
         cut: list[np.ndarray] = []
@@ -25,7 +27,7 @@ def clip_polygon(corners: np.ndarray, tangent: float, aspect: float) -> np.ndarr
 
 
 def visible_stretches(points: np.ndarray, tangent: float, aspect: float) -> list[np.ndarray]:
-    """Return the stretches of a path through points, [n, 3], that are in the picture; points of nan interrupt it."""
+    """Return the visible stretches of a path through points, [n, 3]; NaN points interrupt it."""
     starts, ends = points[:-1], points[1:]
     low, high = np.zeros(len(starts)), np.where(np.all(np.isfinite(starts + ends), axis=1), 1.0, -1.0)
     for plane, offset in _planes(tangent, aspect):
@@ -49,7 +51,7 @@ def visible_stretches(points: np.ndarray, tangent: float, aspect: float) -> list
 
 
 def _planes(tangent: float, aspect: float) -> list[tuple[np.ndarray, float]]:
-    """Return normals of planes around the visible space and their distances from the eye; inside is beyond these."""
+    """Return the planes that bound the visible space: inward normals, and distances from the eye."""
     wide, high = WIDER * aspect * tangent, WIDER * tangent
     sides = ((1.0, 0.0, wide), (-1.0, 0.0, wide), (0.0, 1.0, high), (0.0, -1.0, high))
     return [(np.array([0.0, 0.0, 1.0]), NEAR), *((np.array(side), 0.0) for side in sides)]

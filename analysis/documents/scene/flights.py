@@ -1,6 +1,6 @@
-"""Several flights of a system in one scene: their bodies at common times, failures marked.
+"""Several simulations of a system in one scene: their bodies at common times, failures marked.
 
-What a scene declares of forces, lines and arrows is left out, since campaigns seldom record it.
+Forces, lines and arrows of the declared scene are omitted, since campaigns seldom record their signals.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ from .view import BodyView, FlightName, SceneView, SiteView, find_origin, ground
 
 @dataclass(frozen=True)
 class RecordedFlight:
-    """A trial of a variant with what it recorded; ``colour`` is that of its variant, ``label`` its name in a view."""
+    """A trial of a variant with its recorded signals; ``colour`` is that of its variant, ``label`` its name in a
+    view.
+    """
 
     name: FlightName
     label: str
@@ -32,17 +34,16 @@ class RecordedFlight:
 
 @dataclass(frozen=True)
 class FlightsView:
-    """A scene of several flights, and the sentences below it."""
+    """A scene of several simulations, and the sentences below it."""
 
     scene: SceneView
     notes: list[str]
 
 
 def flights_view(scene: SceneFigure, flights: Sequence[RecordedFlight]) -> FlightsView | None:
-    """Return the scene of all flights, or None where they recorded no position of a body.
+    """Return the scene of all simulations, or None if they recorded no position of a body.
 
-    Flights have samples at times of their own; between these, positions are on straight lines. After its end a flight
-    stays where it was.
+    Positions are interpolated linearly at common times. After its end a simulation keeps its last position.
     """
     located = [body for body in scene.bodies if body.position is not None and _is_recorded(body.position, flights)]
     if not located or not flights:
@@ -122,12 +123,12 @@ def _body_view(
 
 
 def _resample(values: np.ndarray, times: np.ndarray, time: np.ndarray) -> np.ndarray:
-    """Resample values, [k, n], of a flight at other times; beyond its ends with those of its ends."""
+    """Return values, [k, n], at other times; before the first and after the last sample they are constant."""
     return np.stack([np.interp(time, times, row) for row in values])
 
 
 def _position_of(site: Site, flights: Sequence[RecordedFlight]) -> np.ndarray | None:
-    """Return the position of a site, [3], or None if it is not constant in all flights."""
+    """Return the position of a site, [3], or None unless it is constant in all simulations."""
     if not isinstance(site.position, Signal):
         return np.array(site.position)
     if not all(set(site.position.names) <= set(each.flight.signals) for each in flights):

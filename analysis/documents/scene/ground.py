@@ -1,4 +1,4 @@
-"""The ground of a view: heights, what it hides, its horizon. Points (m) are relative to the view's origin."""
+"""Ground of a view: heights, visibility, horizon. Points (m) are relative to the view's origin."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ SUNK = 0.5  # m: what is less below the ground is not hidden
 
 @dataclass(frozen=True)
 class Ground:
-    """A sphere around ``centre`` (m) whose grid is laid about ``normal``; or a plane through ``centre``, across z."""
+    """A sphere around ``centre`` (m), with a grid about ``normal``; or a plane through ``centre``, perpendicular to
+    z.
+    """
 
     centre: np.ndarray
     radius: float
@@ -29,7 +31,7 @@ class Ground:
         return float(np.linalg.norm(point - self.centre)) - self.radius
 
     def level(self, point: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return unit vectors up, and along the grid, below a point, [3]."""
+        """Return unit vectors upwards, and along the grid, below a point, [3]."""
         if math.isinf(self.radius):
             return np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])
         up = (point - self.centre) / np.linalg.norm(point - self.centre)
@@ -45,7 +47,7 @@ class Ground:
         return np.linalg.norm(start + fraction[:, None] * way, axis=1) < self.radius - SUNK
 
     def horizon(self, eye: np.ndarray) -> np.ndarray:
-        """Return the edge of the ground visible from the eye, [n, 3]: of a sphere, the points of tangency."""
+        """Return the horizon as viewed from the eye, [n, 3]: for a sphere the points of tangency."""
         up, along = self.level(eye)
         across = np.cross(up, along)
         if math.isinf(self.radius):
@@ -59,7 +61,7 @@ class Ground:
 
 
 def ground_of(scene: SceneView) -> Ground | None:
-    """Return the ground of a view, or None where it has none."""
+    """Return the ground of a view, or None without one."""
     if scene.ground is None:
         return None
     origin = np.array(scene.origin)

@@ -1,4 +1,4 @@
-"""Names and marks over a picture of a scene, and the axes of its frame, as the page's script has them."""
+"""Names and marks over the picture of a scene, and the axes of its frame, as in the page's script."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ AXIS = 22.0  # length
 def draw_names(
     scene: SceneView, arrows: Iterable[ArrowStrokes], camera: Camera, ground: Ground | None, row: int
 ) -> Iterator[Markup]:
-    """Draw names of small bodies, sites and arrows, and rings around those too small to be visible."""
+    """Draw names of small bodies, sites and arrows, and rings around bodies too small to be visible."""
     points: list[BodyView | SiteView] = [*scene.bodies, *scene.sites]
     for point in points:
         extent = 0.0
@@ -44,7 +44,7 @@ def draw_names(
 
 
 def _on_picture(camera: Camera, ground: Ground | None, point: np.ndarray) -> tuple[float, float] | None:
-    """Return a point on the picture; None if it is outside, behind the camera or hidden by the ground."""
+    """Return the projection of a point; None if it is outside, behind the camera or hidden by the ground."""
     seen = camera.look(point[None])
     if not seen[0, 2] > 0.0 or (ground is not None and ground.hides(camera.eye, point[None])[0]):
         return None
@@ -53,7 +53,7 @@ def _on_picture(camera: Camera, ground: Ground | None, point: np.ndarray) -> tup
 
 
 def draw_axes(scene: SceneView, camera: Camera) -> Iterator[Markup]:
-    """Draw the axes of the frame with their names, as the camera sees them; fainter where they point away."""
+    """Draw the axes of the frame with their names, as viewed by the camera; fainter if they point away."""
     for name, axis, colour, (x, y, depth) in zip(scene.axes, "xyz", AXES, camera.axes.T, strict=True):
         opacity = 0.55 if depth > 0.2 else 1.0
         markup = Markup('<path d="M{:g} {:g}l{:.1f} {:.1f}" style="stroke:{}" stroke-width="1.6" opacity="{:g}"/>')

@@ -64,7 +64,7 @@ def _plume(body: Body, thrust: Thrust, result: Result) -> str:
 
 
 def plume_length(body: Body) -> float:
-    """Return the drawn length (m) of the plume of the largest thrust of a run."""
+    """Return the drawn length (m) of the plume at a run's largest thrust."""
     return 2.0 * max(body.size)
 
 

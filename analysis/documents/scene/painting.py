@@ -1,4 +1,4 @@
-"""The order in which strokes of a picture are drawn so that nearer ones hide farther ones (after Newell et al. 1972).
+"""Drawing order of a picture's strokes such that nearer ones hide farther ones (after Newell et al. 1972).
 
 Points are those of `Camera.look`: right, up, depth (m), with the eye at the origin.
 """
@@ -16,7 +16,7 @@ SAME = 1e-6  # of the depth: what is nearer to a plane is on it
 
 
 class Stroke(NamedTuple):
-    """Something drawn: its points, [n, 3], and the outward normal, [3], of a facet that the eye sees from outside."""
+    """A drawn element: its points, [n, 3], and for a facet its outward normal, [3]."""
 
     points: np.ndarray
     markup: Markup
@@ -28,7 +28,7 @@ class Stroke(NamedTuple):
 
 
 def in_order(strokes: list[Stroke]) -> list[Stroke]:
-    """Return the strokes, each after those that it may hide; by depth alone where they hide each other in a circle."""
+    """Return the strokes, each after those that it may hide; by depth alone if they hide each other cyclically."""
     by_depth = sorted(strokes, key=lambda stroke: -stroke.depth)
     flat = [stroke.points[:, :2] / stroke.points[:, 2:] for stroke in by_depth]
     boxes = [(points.min(axis=0), points.max(axis=0)) for points in flat]
@@ -49,12 +49,12 @@ def in_order(strokes: list[Stroke]) -> list[Stroke]:
 
 
 def _lies_behind(stroke: Stroke, other: Stroke) -> bool:
-    """Return True if a plane of one of the two has the stroke on the far side and the other one on the eye's side."""
+    """Return True if the plane of either has ``stroke`` on its far side and the other on the side of the eye."""
     if other.normal is not None and np.all(_heights(stroke, other) <= SAME * other.depth):
         return True
     return stroke.normal is not None and bool(np.all(_heights(other, stroke) >= -SAME * stroke.depth))
 
 
 def _heights(stroke: Stroke, facet: Stroke) -> np.ndarray:
-    """Return the heights (m) of a stroke's points over the plane of a facet, [n]."""
+    """Return the heights (m) of a stroke's points above the plane of a facet, [n]."""
     return np.asarray((stroke.points - facet.points[0]) @ facet.normal)

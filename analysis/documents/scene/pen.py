@@ -1,4 +1,4 @@
-"""Means to draw pictures of a scene: their size, colours of light and dark pages, paths and names as SVG."""
+"""SVG elements for pictures of a scene: size, colours of light and dark pages, paths and names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ AXES = ("light-dark(#d9480f, #ff922b)", "light-dark(#2b8a3e, #69db7c)", "light-d
 
 
 def to_units(points: np.ndarray) -> np.ndarray:
-    """Convert points of `Camera.project`, [n, 2], in units of the picture."""
+    """Return points of `Camera.project`, [n, 2], in units of the picture."""
     return np.asarray(points * HEIGHT + [WIDTH / 2.0, HEIGHT / 2.0])
 
 
@@ -24,18 +24,18 @@ def path(points: np.ndarray) -> str:
 
 
 def text(label: str, x: float, y: float, kind: str = "name", colour: str = INK) -> Markup:
-    """Return a name, centred, with an edge in the colour of the sky."""
+    """Return a centred name with an outline in the colour of the sky."""
     markup = Markup('<text class="{}" x="{:.1f}" y="{:.1f}" style="fill:{};stroke:{}">{}</text>')
     return markup.format(kind, x, y, colour, SKY, label)
 
 
 def lighter(colour: str) -> str:
-    """Return a colour that is a quarter lighter where the page is dark."""
+    """Return a colour that is a quarter lighter on dark pages."""
     light = "#" + "".join(f"{round(0.75 * int(colour[k : k + 2], 16) + 0.25 * 255):02x}" for k in (1, 3, 5))
     return f"light-dark({colour}, {light})"
 
 
 def point_of(scene: SceneView, name: str, row: int) -> np.ndarray:
-    """Return the position of a body or a site by its name (m), [3]."""
+    """Return the position (m), [3], of a body or a site by name."""
     points: list[BodyView | SiteView] = [*scene.bodies, *scene.sites]
     return next(position_at(each, row) for each in points if each.name == name)

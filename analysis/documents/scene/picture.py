@@ -1,4 +1,4 @@
-"""A view at one sample as SVG, for pages without scripts: what the page's script shows at first, without flames."""
+"""View at one sample as SVG, for pages without scripts: the initial view of the page's script, without flames."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ STEP = 0.5  # units, from point to point of a path
 
 
 def draw_ends(scene: SceneView) -> list[tuple[float, Markup]]:
-    """Draw the first and the last sample at which the first body has a position: times (s) and pictures."""
+    """Draw the first and the last sample with a position of the first body; return times (s) and pictures."""
     known = np.flatnonzero(np.all(np.isfinite(scene.bodies[0].position), axis=0))
     rows = sorted({int(known[0]), int(known[-1])}) if known.size else []
     pictures = ((float(scene.time[row]), draw_scene(scene, row)) for row in rows)
@@ -30,7 +30,7 @@ def draw_ends(scene: SceneView) -> list[tuple[float, Markup]]:
 
 
 def draw_scene(scene: SceneView, row: int) -> Markup | None:
-    """Draw the <svg> element of a view at a sample; None where the first body has no position then."""
+    """Draw the <svg> element of a view at a sample; None if the first body has no position."""
     ground = ground_of(scene)
     camera = first_camera(scene, ground, row)
     if camera is None:
@@ -73,7 +73,7 @@ def _draw_paths(scene: SceneView, camera: Camera, ground: Ground | None) -> Iter
 
 
 def _thin(points: np.ndarray) -> np.ndarray:
-    """Return points of a path, [n, 2], without those that are nearer than `STEP` to the one before; its end stays."""
+    """Return the points of a path, [n, 2], without those closer than `STEP` to the previous one; the end is kept."""
     chosen = [0]
     for index in range(1, len(points)):
         if index == len(points) - 1 or math.dist(points[index], points[chosen[-1]]) > STEP / HEIGHT:

@@ -1,4 +1,4 @@
-"""Position and attitude of a body of a scene at every sample of a flight."""
+"""Position and attitude of a scene's body at every sample of a simulation."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ from .quaternions import carry_axis, make_continuous, multiply, normalise, turn
 
 
 class Pose(NamedTuple):
-    """Positions (m), [3, n], and unit quaternions from body to scene, scalar first, [4, n]; nan where unknown."""
+    """Positions (m), [3, n], and unit quaternions from body to scene, scalar first, [4, n]; NaN where unknown."""
 
     position: np.ndarray
     attitude: np.ndarray
 
 
 class LocalFrame(NamedTuple):
-    """East, north, up at a ground point: its longitude and latitude (rad), the sphere's radius (m)."""
+    """East, north, up at a ground point: its longitude and latitude (rad), and the sphere's radius (m)."""
 
     longitude: float
     latitude: float
@@ -41,7 +41,7 @@ class LocalFrame(NamedTuple):
 
 
 def compute_poses(scene: SceneFigure, flight: Flight) -> list[Pose]:
-    """Return the pose of each body at each sample, in the scene's frame."""
+    """Return the pose of each body at each sample in the scene's frame."""
     frame = local_frame(scene, flight)
     return [Pose(positions(body, flight, frame), attitudes(body, flight, frame)) for body in scene.bodies]
 
@@ -58,7 +58,7 @@ def local_frame(scene: SceneFigure, flight: Flight) -> LocalFrame | None:
 
 
 def positions(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarray:
-    """Return positions (m) of a body at each sample, [3, n]; nan where unknown."""
+    """Return positions (m) of a body at each sample, [3, n]; NaN where unknown."""
     position: Position | None = body.position
     if isinstance(position, Cartesian):
         values = position.signal.values(flight)
@@ -70,10 +70,10 @@ def positions(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarra
 
 
 def to_local(longitude: np.ndarray, latitude: np.ndarray, height: np.ndarray, frame: LocalFrame) -> np.ndarray:
-    """Return positions (m) in a local frame, [3, n], from longitude, latitude (rad) and height (m).
+    """Return positions (m), [3, n], in a local frame from longitude, latitude (rad) and height (m).
 
-    With d the difference in longitude, half angles keep positions near the ground point exact:
-    up = h - 2 (R + h) (sin^2((lat - lat0)/2) + cos lat cos lat0 sin^2(d/2)).
+    With d the difference in longitude, half angles maintain precision near the ground point: up = h - 2 (R + h)
+    (sin^2((lat - lat0)/2) + cos lat cos lat0 sin^2(d/2)).
     """
     sine, cosine = np.sin(frame.latitude), np.cos(frame.latitude)
     difference = longitude - frame.longitude
@@ -86,12 +86,12 @@ def to_local(longitude: np.ndarray, latitude: np.ndarray, height: np.ndarray, fr
 
 
 def attitudes(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarray:
-    """Return unit quaternions from body to scene at each sample, scalar first, [4, n]; nan where unknown."""
+    """Return unit quaternions from body to scene at each sample, scalar first, [4, n]; NaN where unknown."""
     return make_continuous(_attitudes(body, flight, frame))
 
 
 def signals_of(part: Position | Attitude | Site | None) -> set[str]:
-    """Return the names of the recorded signals that a position, an attitude or a site is computed from."""
+    """Return the recorded signals from which a position, an attitude or a site is computed."""
     stated = () if part is None else (getattr(part, each.name) for each in fields(part))
     signals = (signal for each in stated for signal in (each if isinstance(each, tuple) else (each,)))
     return {name for signal in signals if isinstance(signal, Signal) for name in signal.names}
@@ -113,7 +113,7 @@ def _attitudes(body: Body, flight: Flight, frame: LocalFrame | None) -> np.ndarr
 
 
 def _wind_attitudes(attitude: WindAngles, position: Geographic, flight: Flight, frame: LocalFrame) -> np.ndarray:
-    """Return quaternions from body by velocity axes and the local horizon to the frame of the scene."""
+    """Return quaternions from body axes, via velocity axes and the local horizon, to the frame of the scene."""
     longitude, latitude = position.longitude.values(flight)[0], position.latitude.values(flight)[0]
     bank, sideslip_angle, angle_of_attack, flight_path_angle, heading = (
         signal.values(flight)[0]

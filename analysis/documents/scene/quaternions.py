@@ -11,14 +11,14 @@ AXES = "xyz"
 
 
 def multiply(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Return the product of quaternions: the turn ``second`` about the axes that ``first`` has rotated."""
+    """Return the product of quaternions: rotation ``first``, followed by ``second`` about the rotated axes."""
     a, u = first[0], first[1:]
     b, v = second[0], second[1:]
     return np.concatenate([(a * b - np.sum(u * v, axis=0))[None], a * v + b * u + np.cross(u, v, axis=0)])
 
 
 def turn(turns: Iterable[tuple[str, np.ndarray]], size: int) -> np.ndarray:
-    """Compose turns by angles (rad), [n], each about the axis x, y or z as the turns before have left it."""
+    """Return the composition of rotations by angles (rad), [n], each about its axis as rotated by the previous ones."""
     total = np.zeros((4, size))
     total[0] = 1.0
     for axis, angle in turns:
@@ -30,20 +30,20 @@ def turn(turns: Iterable[tuple[str, np.ndarray]], size: int) -> np.ndarray:
 
 
 def rotate(quaternion: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    """Rotate vectors, [3, n], from body axes to axes of the reference."""
+    """Rotate vectors, [3, n], from body axes to reference axes."""
     u = quaternion[1:]
     across = 2.0 * np.cross(u, vector, axis=0)
     return vector + quaternion[0] * across + np.cross(u, across, axis=0)
 
 
 def normalise(vector: np.ndarray) -> np.ndarray:
-    """Scale vectors or quaternions to length 1, with nan for those of length 0."""
+    """Scale vectors or quaternions to norm 1; those of norm 0 become NaN."""
     length = np.sqrt(np.sum(vector**2, axis=0))
     return vector / np.where(length > 0.0, length, np.nan)
 
 
 def make_continuous(quaternion: np.ndarray) -> np.ndarray:
-    """Return the same attitudes, each with the sign that is nearer to the sample before; nan stays nan."""
+    """Return the same attitudes with signs chosen to be nearest to the previous sample; NaN is unchanged."""
     finite = np.flatnonzero(np.all(np.isfinite(quaternion), axis=0))
     chosen = quaternion[:, finite]
     signs = np.where(np.sum(chosen[:, 1:] * chosen[:, :-1], axis=0) < 0.0, -1.0, 1.0)
@@ -53,10 +53,11 @@ def make_continuous(quaternion: np.ndarray) -> np.ndarray:
 
 
 def carry_axis(axis: np.ndarray) -> np.ndarray:
-    """Return attitudes whose z axis has these directions, [3, n], without a turn about it from sample to sample.
+    """Return attitudes with z axes along these directions, [3, n], without rotation about z between samples.
 
-    The first turns z there the shortest way. Between samples the turn is the shortest one, too, so that roll, which is
-    unknown, brings no turning of its own, wherever the axis points. nan where an axis is not finite or has no length.
+    The first attitude rotates z to its direction by the shortest rotation. The rotation from sample to sample is the
+    shortest, too, so the unknown roll adds no rotation, whatever the direction. NaN where a direction is non-finite or
+    zero.
     """
     unit = normalise(axis)
     carried = np.full((4, unit.shape[1]), np.nan)
@@ -71,7 +72,9 @@ def carry_axis(axis: np.ndarray) -> np.ndarray:
 
 
 def _shortest(start: tuple[float, ...], end: tuple[float, ...]) -> tuple[float, ...]:
-    """Return the shortest turn from one unit vector to another; about any axis across where they are opposite."""
+    """Return the shortest rotation from one unit vector to another; about any perpendicular axis if they are
+    opposite.
+    """
     x, y, z = start
     cosine = x * end[0] + y * end[1] + z * end[2]
     if cosine < -1.0 + 1e-12:
@@ -84,7 +87,7 @@ def _shortest(start: tuple[float, ...], end: tuple[float, ...]) -> tuple[float, 
 
 
 def _product(first: tuple[float, ...], second: tuple[float, ...]) -> tuple[float, float, float, float]:
-    """Return the product of two quaternions, as `multiply`."""
+    """Return the product of two quaternions as in `multiply`."""
     a, b, c, d = first
     e, f, g, h = second
     return (

@@ -1,6 +1,6 @@
-"""Bodies as a few plane facets, for pictures without a script; web/scene/objects/shapes.ts has them in detail.
+"""Bodies as a few plane facets, for pictures without scripts; web/scene/objects/shapes.ts draws them in detail.
 
-Each solid is a frustum with its axis along z, or a box, in fractions of the body's extents.
+Each solid is a box, or a frustum about z, in fractions of the body's extents.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ LEG = 0.02  # width
 
 
 class Facet(NamedTuple):
-    """A plane convex facet of a ``colour``: its corners (m, body), [n, 3], and its outward unit normal, [3]."""
+    """A plane convex facet with a ``colour``: its corners (m, body axes), [n, 3], and its outward unit normal, [3]."""
 
     colour: str
     corners: np.ndarray
@@ -28,7 +28,7 @@ class Facet(NamedTuple):
 
 
 def facets_of(body: BodyView) -> list[Facet]:
-    """Return the facets of a body and of its panels."""
+    """Return the facets of a body and its panels."""
     size, at = np.array(body.size), np.array(body.at)
     facets = [_facet(colour, corners * size + at, middle * size + at) for colour, corners, middle in _unit(body)]
     for panel in body.panels:
@@ -37,7 +37,7 @@ def facets_of(body: BodyView) -> list[Facet]:
 
 
 def _facet(colour: str, corners: np.ndarray, middle: np.ndarray) -> Facet:
-    """Return a facet of the convex solid around ``middle``."""
+    """Return a facet of a convex solid around ``middle``."""
     normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
     normal = normal / np.linalg.norm(normal)
     return Facet(colour, corners, normal if normal @ (corners.mean(axis=0) - middle) > 0.0 else -normal)
@@ -47,7 +47,7 @@ Solid = tuple[str, list[np.ndarray]]
 
 
 def _unit(body: BodyView) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
-    """Yield colour, corners and the middle of the solid of each facet of a shape with extents 1."""
+    """Yield, for each facet of a shape of extents 1, its colour, its corners, and the centre of its solid."""
     solids = {"box": _plain, "cylinder": _cylinder, "capsule": _capsule, "lander": _lander}
     for colour, facets in _satellite(body.size) if body.shape == "satellite" else solids[body.shape]():
         middle = np.concatenate(facets).mean(axis=0)
@@ -87,7 +87,7 @@ def _lander() -> list[Solid]:
 
 
 def _satellite(size: Sequence[float]) -> list[Solid]:
-    """Return a bus with a panel on either side of it along the longer of y and z."""
+    """Return a bus with a panel at either side, along the longer of y and z."""
     along = 2 if size[2] > size[1] else 1
     bus = min(size[3 - along] / size[along], 0.36)
     extents = np.array([1.0, 1.0, 1.0])
@@ -109,14 +109,14 @@ def _box(middle: Sequence[float] | np.ndarray, extents: Sequence[float] | np.nda
 
 
 def _frustum(bottom: float, top: float, low: float, high: float, sides: int = SIDES) -> list[np.ndarray]:
-    """Return faces between a regular polygon of this radius at z = ``low`` and one at z = ``high``."""
+    """Return the faces between a regular polygon of this radius at z = ``low`` and one at z = ``high``."""
     angle = (np.arange(sides) + 0.5) * 2.0 * np.pi / sides
     circle = np.stack([np.cos(angle), np.sin(angle), np.zeros(sides)], axis=1)
     return _between(bottom * circle + [0.0, 0.0, low], top * circle + [0.0, 0.0, high])
 
 
 def _between(bottom: np.ndarray, top: np.ndarray) -> list[np.ndarray]:
-    """Return both ends, [n, 3], and the sides between them."""
+    """Return the two end polygons, [n, 3], and the faces between them."""
     after = np.roll(np.arange(len(bottom)), -1)
     sides = [np.stack([bottom[k], bottom[n], top[n], top[k]]) for k, n in enumerate(after)]
     return [bottom, top, *sides]

@@ -1,4 +1,4 @@
-"""Bodies, arrows and lines of a view at one sample as strokes of a picture, with their depths."""
+"""Bodies, arrows and lines of a view at one sample as strokes with depths."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ DARKEST = 0.6  # of a facet's colour
 
 
 def body_strokes(scene: SceneView, camera: Camera, row: int) -> Iterator[Stroke]:
-    """Yield the facets of bodies that the camera sees from outside."""
+    """Yield the facets of bodies that face the camera."""
     for body in scene.bodies:
         turn = attitude_at(body, row)
         if turn is None:
@@ -41,7 +41,7 @@ def body_strokes(scene: SceneView, camera: Camera, row: int) -> Iterator[Stroke]
 
 
 def attitude_at(body: BodyView, row: int) -> np.ndarray | None:
-    """Return the matrix from body to scene, or None where position or attitude is unknown."""
+    """Return the rotation matrix from body to scene, or None if position or attitude is unknown."""
     quaternion = np.array([column[row] for column in body.attitude])
     if not quaternion.size or not np.all(np.isfinite([*quaternion, *position_at(body, row)])):
         return None
@@ -51,7 +51,7 @@ def attitude_at(body: BodyView, row: int) -> np.ndarray | None:
 
 
 def line_strokes(scene: SceneView, camera: Camera, ground: Ground | None, row: int) -> Iterator[Stroke]:
-    """Yield the lines that are shown at this sample."""
+    """Yield the lines that are visible at this sample."""
     for line in scene.lines:
         if line.condition is not None and line.condition[row] == 0.0:
             continue
@@ -77,7 +77,7 @@ class ArrowStrokes(NamedTuple):
 
 
 def arrow_strokes(scene: SceneView, camera: Camera, ground: Ground | None, row: int) -> Iterator[ArrowStrokes]:
-    """Yield the arrows whose origin and direction are known, before the camera and not behind the ground."""
+    """Yield the arrows with known origin and direction that are in front of the camera and not hidden by the ground."""
     for arrow in scene.arrows:
         ends = _arrow_ends(scene, camera, arrow, row)
         if ends is None or (ground is not None and ground.hides(camera.eye, ends[:1])[0]):
@@ -103,7 +103,7 @@ def arrow_strokes(scene: SceneView, camera: Camera, ground: Ground | None, row: 
 
 
 def _head(ends: np.ndarray, width: float) -> np.ndarray:
-    """Return the corners of an arrow's head, [3, 2], with its tip second; ``ends`` are those of its axis, [2, 2]."""
+    """Return the corners of an arrow head, [3, 2], with the tip second; ``ends`` are those of its shaft, [2, 2]."""
     along = ends[1] - ends[0]
     length = float(np.linalg.norm(along))
     across = np.array([-along[1], along[0]]) * (width / (2.0 * length) if length > 0.0 else 0.0)
@@ -111,7 +111,7 @@ def _head(ends: np.ndarray, width: float) -> np.ndarray:
 
 
 def _arrow_ends(scene: SceneView, camera: Camera, arrow: ArrowView, row: int) -> np.ndarray | None:
-    """Return both ends (m) of an arrow, [2, 3], or None where direction or origin is unknown, or behind the camera."""
+    """Return both ends (m) of an arrow, [2, 3], or None if direction or origin is unknown, or behind the camera."""
     start = point_of(scene, arrow.start, row)
     direction = np.array([column[row] for column in arrow.direction])
     depth = float(camera.look(start[None])[0, 2])

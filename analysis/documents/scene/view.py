@@ -1,7 +1,7 @@
-"""Data of a scene for a page's script: the poses of its bodies and all that is drawn with them.
+"""Data of a scene for a page's script: poses of its bodies, and everything drawn with them.
 
-Positions are relative to `SceneView.origin`, so that float32 is exact to less than a millimetre where a flight ends.
-Arrays are columns of the page, [samples].
+Positions are relative to `SceneView.origin`, so float32 resolves less than a millimetre at the end of a flight. Arrays
+are columns of the page, [samples].
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from .quaternions import normalise, rotate
 
 @dataclass(frozen=True, kw_only=True)
 class ThrustView:
-    """A force: its values in ``unit``, where it acts and along which direction (body), and its plume's ``length`` (m).
+    """A force: values in ``unit``, point and direction of action (body axes), and the plume's ``length`` (m).
 
     The plume has this length at the ``largest`` magnitude.
     """
@@ -54,7 +54,7 @@ class ThrustView:
 
 @dataclass(frozen=True, kw_only=True)
 class JetView:
-    """A jet: its force over the ``largest`` of its group, or the time (s) that its pulse still lasts, with its sign."""
+    """A jet: its force relative to the ``largest`` of its group, or the signed remaining time (s) of its pulse."""
 
     values: np.ndarray
     largest: float
@@ -66,7 +66,7 @@ class JetView:
 
 @dataclass(frozen=True)
 class FlightName:
-    """Trial and variant of a body, and whether that trial failed."""
+    """Trial and variant of a body, and whether the trial failed."""
 
     variant: str
     trial: int
@@ -75,9 +75,9 @@ class FlightName:
 
 @dataclass(frozen=True)
 class BodyView:
-    """A body: three columns of position (m) and four of its attitude, a quaternion from body to scene, scalar first.
+    """A body: three columns of position (m), and four of its attitude quaternion from body to scene, scalar first.
 
-    ``attitude`` is empty where it is unknown, ``flight`` is given in a scene of several flights.
+    ``attitude`` is empty if unknown; ``flight`` is stated in a scene of several simulations.
     """
 
     name: str
@@ -104,7 +104,7 @@ class SiteView:
 
 @dataclass(frozen=True)
 class LineView:
-    """A line from a named point to another; to the ground below where ``end`` is missing."""
+    """A line from a named point to another, or without ``end`` to the ground below."""
 
     start: str
     end: str | None = None
@@ -113,9 +113,9 @@ class LineView:
 
 @dataclass(frozen=True)
 class ArrowView:
-    """An arrow from a named point: three columns of its unit vector in the scene's frame, nan where that is unknown.
+    """An arrow from a named point: three columns of a unit vector in the scene's frame, NaN where unknown.
 
-    Its ``length`` is in m, or ``on_screen`` a fraction of the view's height.
+    ``length`` is in m, or if ``on_screen`` a fraction of the view's height.
     """
 
     name: str
@@ -128,9 +128,9 @@ class ArrowView:
 
 @dataclass(frozen=True)
 class GroundView:
-    """The ground: z = 0, or of a sphere its ``radius`` and ``centre`` (m, in the scene's frame).
+    """The ground: the plane z = 0, or a sphere by ``radius`` and ``centre`` (m, in the scene's frame).
 
-    The grid of a sphere is laid on the great circle with this ``normal``.
+    The grid of a sphere is aligned with the great circle of this ``normal``.
     """
 
     name: str
@@ -141,10 +141,10 @@ class GroundView:
 
 @dataclass(frozen=True)
 class CameraStart:
-    """The camera as it is at first: its ``field`` upwards, its direction from a body (rad), its distance.
+    """The initial camera: its vertical ``field``, its direction from a body (rad), its distance.
 
-    The azimuth is counted from forward about up. The distance is ``diagonals`` diagonals of the body, or such that all
-    bodies are in view, with this ``room`` around them.
+    The azimuth is measured from forward about up. The distance is ``diagonals`` diagonals of the body, or such that all
+    bodies are in view with a margin of ``room``.
     """
 
     field: float
@@ -159,7 +159,7 @@ START = CameraStart(field=math.radians(40.0), azimuth=2.5, elevation=0.25, diago
 
 @dataclass(frozen=True, kw_only=True)
 class SceneView:
-    """A scene of a flight with samples at ``time`` (s)."""
+    """A scene of a simulation with samples at ``time`` (s)."""
 
     title: str
     axes: AxisNames
@@ -175,7 +175,7 @@ class SceneView:
 
 
 def scene_view(scene: SceneFigure, result: Result) -> SceneView | None:
-    """Return the scene of a flight, or None for one without samples."""
+    """Return the scene of a simulation, or None without samples."""
     if not result.time.size:
         return None
     poses = compute_poses(scene, result)
@@ -206,18 +206,18 @@ def scene_view(scene: SceneFigure, result: Result) -> SceneView | None:
 
 
 def position_at(point: BodyView | SiteView, row: int) -> np.ndarray:
-    """Return the position of a body or a site at a sample (m), [3], relative to the view's origin."""
+    """Return the position (m), [3], of a body or a site at a sample, relative to the view's origin."""
     return np.array([column[row] for column in point.position])
 
 
 def find_origin(position: np.ndarray) -> np.ndarray:
-    """Find the origin of a view's positions: the last finite position, [3]."""
+    """Return the origin of a view's positions: the last finite position, [3]."""
     finite = position[:, np.all(np.isfinite(position), axis=0)]
     return finite[:, -1] if finite.size else np.zeros(3)
 
 
 def ground_view(scene: SceneFigure, position: np.ndarray) -> GroundView | None:
-    """Return the ground of a scene below a flight with these positions (m), [3, n], or None where it has none."""
+    """Return the ground of a scene below a path with these positions (m), [3, n], or None without one."""
     surface = scene.surface
     if surface is None:
         return None
@@ -263,10 +263,10 @@ def _jets(jets: Jets, result: Result) -> list[JetView]:
 
 
 def remaining_pulses(time: np.ndarray, lengths: np.ndarray, count: np.ndarray | None) -> np.ndarray:
-    """Return the remaining time (s) of signed pulses at each sample, [jets, n]; 0 where none is fired.
+    """Return the signed remaining time (s) of pulses at each sample, [jets, n]; 0 without a pulse.
 
-    A pulse of ``lengths``, [jets, n], starts at its sample; with ``count``, [n], only where that differs from the
-    sample before.
+    A pulse of ``lengths``, [jets, n], starts at its sample; with ``count``, [n], only if that differs from the previous
+    sample.
     """
     if count is None:
         return np.where(np.isfinite(lengths), lengths, 0.0)
@@ -290,7 +290,7 @@ def _line(line: Line, result: Result) -> LineView:
 
 
 def _arrow(arrow: Arrow, frame: np.ndarray | None, colour: str, flight: Result) -> ArrowView:
-    """Return an arrow whose components are in axes of this attitude, [4, n], or in those of the scene."""
+    """Return an arrow with components in axes of this attitude, [4, n], or in those of the scene."""
     direction = normalise(arrow.signal.values(flight))
     return ArrowView(
         name=arrow.name,

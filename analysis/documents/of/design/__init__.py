@@ -1,1 +1,1 @@
-"""Documents of design: transfers, bounds, laws and searches for them, with their figures."""
+"""Documents of design: transfers, bounds, laws and searches, with their figures."""

@@ -1,4 +1,4 @@
-"""The document of the bound of a single-burn braking and landing."""
+"""Document of the propellant bound of a single-burn braking and landing."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ PITCH = "Angle of thrust above the site's horizontal, deg"
 
 
 def landing_bound_document(study: LandingStudy, file: Path | None = None) -> Document:
-    """Return the document of a bound: its propellant, what confirms it, its path; ``file`` is where it is stored."""
+    """Return the document of a bound: propellant, verification, trajectory; ``file`` is the file that stores it, if
+    any.
+    """
     bound, series = study.bound, bound_series(study)
     numbers: list[tuple[str, Cell]] = [
         ("propellant", Quantity(study.propellant, "kg", 6)),
@@ -61,7 +63,7 @@ def _limits(study: LandingStudy) -> Sequence[Inline]:
 
 
 def _checks(study: LandingStudy) -> list[Sequence[Inline]]:
-    """Return the residual of the convex form, the bounds of its stages, the direct method."""
+    """Return the residual of the convex form, the bounds of its stages, and the result of the direct method."""
     sentences: list[Sequence[Inline]] = [
         ["largest thrust residual of the convex form: ", Quantity(study.looseness, "m/s2", 1)]
     ]
@@ -79,7 +81,7 @@ def _checks(study: LandingStudy) -> list[Sequence[Inline]]:
 
 
 def _json(study: LandingStudy) -> dict[str, object]:
-    """Return all of a study for other programs: SI, but angular acceleration."""
+    """Return a study as JSON for other programs: in SI, except angular acceleration."""
     bound, direct = study.bound, study.direct
     return {
         "vehicle": limits_document(study.vehicle),

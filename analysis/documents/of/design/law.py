@@ -1,4 +1,4 @@
-"""The document of a network operator's law: its formula, parameters and graph."""
+"""Document of a network operator's law: formula, parameters and graph."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def law_document(law: NetworkOperator) -> Document:
 
 
 def formula_nodes(law: NetworkOperator) -> Sequence[Node]:
-    """Return the formula, a row for each node of it that is used more than once and for each output; the parameters."""
+    """Return the parameters and the formula, a row for each output and for each node that is used more than once."""
     rows = [[Code(f"{OUTPUTS.get(name, '')}{name} = {right}")] for name, right in formula(law).items()]
     numbers = ", ".join(f"q{index} = {number:.10g}" for index, number in enumerate(law.q, 1))
     return [Table(["formula"], rows, listed=len(rows)), Text([Code(numbers), f"; exp saturates {law.exp_saturation}"])]

@@ -1,4 +1,4 @@
-"""A law's graph as a drawing: sources on the left, what is done to them on the edges, outputs on the right."""
+"""Drawing of a law's graph: sources on the left, functions on the edges, outputs on the right."""
 
 from __future__ import annotations
 
@@ -45,12 +45,12 @@ Point = tuple[float, float]
 
 
 def law_diagram(law: NetworkOperator) -> Diagram:
-    """Return the graph of a law."""
+    """Return the graph of a law as a diagram."""
     return Diagram("law", f"Graph of {law.name}", partial(law_chart, law))
 
 
 def law_chart(law: NetworkOperator) -> tuple[Chart, float, float]:
-    """Return the graph of what the outputs depend on, without axes; and its width and height, pt."""
+    """Return the graph of the nodes on which outputs depend, without axes, and its width and height (pt)."""
     nodes = {node.number: node for node in nodes_of(expression_tree(law.matrix))}
     edges = [(other.number, node.number) for node in nodes.values() for _, other in node.terms]
     layout = GraphLayout(list(nodes), edges)
@@ -79,9 +79,9 @@ def law_chart(law: NetworkOperator) -> tuple[Chart, float, float]:
 
 
 def _trace(points: list[Point], offset: float) -> np.ndarray:
-    """Return a smooth line through the points, level at each of them, [points, 2].
+    """Return a smooth line through the points, [points, 2], horizontal at each of them.
 
-    It begins ``offset`` columns right of the first, and ends at the rim of the last node.
+    It begins ``offset`` columns to the right of the first point, and ends at the rim of the last node.
     """
     begins = [(points[0][0] + offset, points[0][1]), *points[1:-1]]
     ends = [*points[1:-1], (points[-1][0] - RADIUS / COLUMN, points[-1][1])]
@@ -96,7 +96,7 @@ def _trace(points: list[Point], offset: float) -> np.ndarray:
 
 
 def _edge(trace: np.ndarray) -> list[Curve]:
-    """Return the line of an edge, and the head of an arrow at its end."""
+    """Return the line of an edge, and the arrow head at its end."""
     step = (trace[-1] - trace[-2]) * (COLUMN, -ROW)
     angle = math.atan2(step[1], step[0])
     begin = trace[-1] - HEAD * np.array([math.cos(angle) / COLUMN, -math.sin(angle) / ROW])
@@ -105,7 +105,7 @@ def _edge(trace: np.ndarray) -> list[Curve]:
 
 
 def _label_points(traces: dict[Edge, np.ndarray], labelled: list[Edge], nodes: list[Point]) -> dict[Edge, Point]:
-    """Return the centres of the labels of edges: each on its edge, as far as possible from other items."""
+    """Return the centres of the labels of edges, each on its edge, as far as possible from other items."""
     sizes = np.array([COLUMN / LABEL[0], ROW / LABEL[1]])
     positions: dict[Edge, Point] = {}
     for edge in sorted(labelled, key=lambda edge: (len(traces[edge]), edge)):
@@ -124,7 +124,7 @@ def _label_points(traces: dict[Edge, np.ndarray], labelled: list[Edge], nodes: l
 
 
 def _columns(trace: np.ndarray) -> np.ndarray:
-    """Return abscissae at which a label may stand: not close to either end."""
+    """Return the candidate abscissas of a label, not close to either end of its edge."""
     return np.linspace(trace[0, 0] + 0.3, trace[-1, 0] - 0.3, 9 * int(np.ceil(trace[-1, 0] - trace[0, 0])))
 
 
@@ -133,12 +133,12 @@ def _source(node: OperationNode) -> str:
 
 
 def _half_width(node: OperationNode) -> float:
-    """Return half the width of the box of a source that gathers nothing, 0 for other nodes; in columns."""
+    """Return half the width, in columns, of the box of a source without inputs; 0 for other nodes."""
     return 0.0 if node.terms or not node.source else (text_width(_source(node), TEXT) / 2.0 + ROOM) / COLUMN
 
 
 def _box(node: OperationNode, at: Point) -> list[Area]:
-    """Return the box of a source that gathers nothing."""
+    """Return the box of a source without inputs."""
     across, down = _half_width(node), (TEXT / 2.0 + ROOM) / ROW
     if not across:
         return []
@@ -148,7 +148,7 @@ def _box(node: OperationNode, at: Point) -> list[Area]:
 
 
 def _circle(node: OperationNode, at: Point) -> list[Curve]:
-    """Return the circle of a node that gathers, or is an output."""
+    """Return the circle of an output, or of a node that combines inputs."""
     if node.source and not node.terms:
         return []
     colour = VERMILION if node.number in OUTPUT_NAMES else INK
@@ -156,7 +156,9 @@ def _circle(node: OperationNode, at: Point) -> list[Curve]:
 
 
 def _names(node: OperationNode, at: Point) -> Iterator[ChartNote]:
-    """Yield the name of a source in its box; or the operation in a circle, and below it the node's number."""
+    """Yield the texts of a node: a source's name in its box, or an operation in its circle and the node's number
+    below.
+    """
     source = _source(node)
     if source and not node.terms:
         yield _note(source, at, INK, TEXT)

@@ -42,7 +42,7 @@ class Series(NamedTuple):
 
 
 class PlanPoint(NamedTuple):
-    """One plan among those of a curve: where it lies, its propellant fraction, its look."""
+    """A plan marked on a curve: abscissa, propellant fraction, look."""
 
     at: float
     propellant: float
@@ -50,18 +50,18 @@ class PlanPoint(NamedTuple):
 
 
 def plan_series(study: HoverStudy) -> list[Series]:
-    """Return the plans of a transfer that are computed; the first one is the programme."""
+    """Return the computed plans of a transfer; the first is the programme."""
     plans = zip(NAMES, (study.path, study.optimum, study.bound), strict=True)
     return [Series(name, plan, look(index)) for index, (name, plan) in enumerate(plans) if plan is not None]
 
 
 def bound_series(study: LandingStudy) -> list[Series]:
-    """Return the bound of a landing."""
+    """Return the bound of a landing as the only plan."""
     return [Series("bound", study.bound, look(0))]
 
 
 def time_figures(series: Sequence[Series], pitch: str) -> list[Figure]:
-    """Return the angle of thrust, called ``pitch``, and throttle over time."""
+    """Return figures of the thrust angle, named ``pitch``, and of the throttle over time."""
     words = "; ".join(f"{one.name} {number(one.path.duration)} s" for one in series)
     throttle = "Throttle, fraction of the largest thrust"
     return [
@@ -71,7 +71,7 @@ def time_figures(series: Sequence[Series], pitch: str) -> list[Figure]:
 
 
 def pitch_chart(series: Sequence[Series]) -> Chart:
-    """Return the angle of thrust of each plan."""
+    """Return the thrust angle (deg) of each plan over time (s)."""
     curves = [
         line(one.path.middle, np.degrees(one.path.pitch), one.look.colour, dashes=one.look.lengths, name=one.name,
              unit="deg")
@@ -82,7 +82,7 @@ def pitch_chart(series: Sequence[Series]) -> Chart:
 
 
 def throttle_chart(series: Sequence[Series]) -> Chart:
-    """Return the throttle of each plan, which holds over an interval."""
+    """Return the throttle of each plan over time (s), constant within an interval."""
     curves = [
         line(one.path.time, np.append(one.path.throttle, one.path.throttle[-1]), one.look.colour,
              dashes=one.look.lengths, name=one.name, steps=True)
@@ -129,7 +129,7 @@ def curve_chart(curve: PropellantCurve, quantity: str, points: Sequence[PlanPoin
 
 
 def path_figure(series: Sequence[Series]) -> list[Figure]:
-    """Return the paths along and up to one scale. Arrows are thrust along the first one."""
+    """Return the paths, distance and height on equal scales, with thrust arrows along the first one."""
     rows = [np.stack([*one.path.position.T, np.append(one.path.pitch, one.path.pitch[-1])]) for one in series]
     spans = [max(float(np.ptp(each[axis])) for each in rows) for axis in (0, 1)]
     upright = min(max(LOWEST, HALF_WIDTH * spans[1] / max(spans[0], 1.0)), HIGHEST)
@@ -144,7 +144,7 @@ def path_figure(series: Sequence[Series]) -> list[Figure]:
 
 
 def bound_figure(study: LandingStudy, series: Sequence[Series]) -> list[Figure]:
-    """Return range and altitude of a landing, each axis to its scale, as wide as the page."""
+    """Return range and altitude of a landing, each axis on its own scale, as wide as the page."""
     path, radius = study.bound, study.landing.radius
     x, y = path.position[:, 0], path.position[:, 1] + radius
     central = np.arctan2(x, y)
@@ -161,9 +161,9 @@ def _path_words(series: Sequence[Series]) -> str:
 def path_chart(
     series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str], scaled: str, intervals: int
 ) -> Chart:
-    """Return the paths over time; the dot is the end of the first, along which arrows are.
+    """Return the paths; a dot marks the end of the first, along which thrust arrows are drawn.
 
-    ``shown`` are positions and thrust angles in what is drawn, a row each: abscissa and ordinate (m), angle (rad).
+    ``shown`` are positions and thrust angles of the drawn paths, a row each: abscissa and ordinate (m), angle (rad).
     """
     scales = [far(np.concatenate([rows[axis] for rows in shown])) for axis in (0, 1)]
     factors = (scales[0][0], scales[1][0])
@@ -186,7 +186,9 @@ def path_chart(
 
 
 def _arrows(path: PlannedPath, rows: np.ndarray, factors: tuple[float, float]) -> list[charts.Curve]:
-    """Return thrust at even times, its angle as it is whatever the scales; an engine at its least has a short arrow."""
+    """Return thrust arrows at equal intervals of time, with true angles on any scale; minimum thrust is a short
+    arrow.
+    """
     times = (np.arange(ARROWS) + 0.5) * path.duration / ARROWS
     interval = np.minimum(np.searchsorted(path.time, times, side="right") - 1, path.throttle.size - 1)
     angles, throttles = rows[2][interval], np.maximum(path.throttle[interval], 0.25)

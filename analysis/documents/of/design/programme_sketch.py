@@ -1,4 +1,4 @@
-"""The sketch of a hover transfer's programme: what its times and its threshold are, at their values."""
+"""Sketch of a hover transfer's programme, which explains its times and its threshold at their values."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ def sketch_figure(programme: Programme) -> list[Figure]:
 
 
 def sketch_chart(programme: Programme) -> Chart:
-    """Return the tilt of thrust from the vertical over time, deg, with t2, t5, w, tp and t7 as dimensions.
+    """Return the tilt of thrust from the vertical (deg) over time, with t2, t5, w, tp and t7 as dimensions.
 
-    Full thrust is shaded; a dashed level is k of the largest tilt towards the target, which the initial burn begins and
-    ends at where w is below t1 and d (`docs/systems/hover_transfer.md`).
+    Full thrust is shaded. A dashed line is the fraction k of the largest tilt towards the target, at which the initial
+    burn begins and ends if w is below t1 and d (`docs/systems/hover_transfer.md`).
     """
     t2, t5, w, tp, t7 = programme.times
     switches = [time for burn in programme.burns for time in burn]
@@ -78,13 +78,13 @@ def sketch_chart(programme: Programme) -> Chart:
 
 
 def _dimension(begin: float, end: float, at: float) -> list[Curve]:
-    """Return a line between two abscissas with an arrow's head at either end."""
+    """Return a dimension line between two abscissas, with arrow heads at both ends."""
     heads = [mark(x, at, marker(kind, HEAD, INK, width=0.0), beyond=True) for kind, x in (("<", begin), (">", end))]
     return [line(np.array([begin, end]), np.full(2, at), INK, width=0.8), *heads]
 
 
 def _text(text: str, at: tuple[float, float], colour: str, side: str) -> ChartNote:
-    """Return a text above a point, over a pale background."""
+    """Return a text above a point, on a pale background."""
     return ChartNote(
         text, at, (False, False), (0.0, 3.0), (side, "baseline"), colour.lower(), TICK_SIZE,
         backing=Backing("#ffffff", 0.7, 0.5),

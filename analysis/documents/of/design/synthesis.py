@@ -1,4 +1,4 @@
-"""The document of a search for a law: how it ended, the chosen law, the Pareto set."""
+"""Document of a search for a law: its end, the chosen law, the Pareto set."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .law_figures import law_diagram
 
 
 def synthesis_document(result: SynthesisOutcome) -> Document:
-    """Return the document of a search as far as it came."""
+    """Return the document of a search, which may be unfinished."""
     state, chosen, law = result.search.state, result.search.choose(), result.law
     evaluation = chosen.evaluation
     verdict = Verdict(
@@ -33,7 +33,7 @@ def synthesis_document(result: SynthesisOutcome) -> Document:
 
 
 def _pareto_set(result: SynthesisOutcome) -> Table:
-    """Return successes and objectives, in the order of the first objective."""
+    """Return successes and objectives, ordered by the first objective."""
     rows: list[list[Cell]] = [
         [
             Phrase([f"{candidate.evaluation.successes} of {candidate.evaluation.flown}"]),

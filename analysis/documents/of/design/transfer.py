@@ -1,4 +1,4 @@
-"""The document of a transfer between two hovers: its plans, their times, the conditions of the optimum."""
+"""Document of a transfer between two hovers: plans, their times, and the optimality conditions."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Times = dict[str, float | None]
 
 
 def transfer_document(study: HoverStudy) -> Document:
-    """Return the document of a study; its curves are computed where they are drawn."""
+    """Return the document of a study; curves are computed when they are drawn."""
     series = plan_series(study)
     legend = [LegendEntry(one.look, [one.name]) for one in series]
     path = Note(
@@ -56,7 +56,7 @@ def burns_phrase(burns: Iterable[tuple[float, float]]) -> list[Inline]:
 
 
 def _tenths(time: float) -> Quantity:
-    """Return a time (s) to a tenth: what a grid resolves."""
+    """Return a time (s) rounded to a tenth, the resolution of a grid."""
     return Quantity(time, digits=len(f"{time:.1f}") - 1)
 
 
@@ -87,7 +87,7 @@ def _summary(study: HoverStudy) -> list[Node]:
 
 
 def _plans(study: HoverStudy, series: Sequence[Series]) -> Table:
-    """Return propellant, duration and burns of each plan, the grids of those that have one."""
+    """Return propellant, duration and burns of each plan, and the grid of plans that have one."""
     gridded = [study.optimum, study.bound]
     others = (("finite switches", study.finite), ("turn in free fall", study.free_fall))
     rows: list[tuple[Cell, float, float, int | None, Iterable[tuple[float, float]]]] = [
@@ -122,7 +122,7 @@ def _plans(study: HoverStudy, series: Sequence[Series]) -> Table:
 
 
 def _limits(study: HoverStudy) -> Note:
-    """Return a note of what the plans may use, and which are not computed."""
+    """Return a note on the limits of the plans, and on plans that are not computed."""
     plans = zip(NAMES[1:], (study.optimum, study.bound), strict=True)
     missing = ", ".join(name for name, plan in plans if plan is None)
     margins = ", the control margins" if study.margins else ""
@@ -133,7 +133,7 @@ def _limits(study: HoverStudy) -> Note:
 
 
 def _times(study: HoverStudy) -> Table:
-    """Return the times of each plan that has them, in those columns that one of them has."""
+    """Return the times of the plans that have them, without empty columns."""
     t2, t5, w, tp, t7 = study.programme.times
     rows: dict[str, Times] = {
         NAMES[0]: {"t2": t2, "t5": t5, "w": w, "k": study.programme.threshold, "tp": tp, "t7": t7}
@@ -153,7 +153,7 @@ def _times(study: HoverStudy) -> Table:
 
 
 def _remarks(study: HoverStudy) -> list[Text]:
-    """Return the attitude of the programme, the cost of finite switches, the turn in free fall."""
+    """Return remarks on the attitude of the programme, the cost of finite switches, and the turn in free fall."""
     low, high = study.programme.extremes
     remarks: list[list[Inline]] = [
         [
@@ -182,7 +182,7 @@ def _remarks(study: HoverStudy) -> list[Text]:
 
 
 def _sketched(study: HoverStudy) -> Note:
-    """Return a note of what the sketch of the programme has."""
+    """Return a note that explains the sketch of the programme."""
     programme = study.programme
     level = (
         " Dashed: k of the largest tilt, at which the initial burn begins and ends unless it reaches beyond the first "
@@ -196,7 +196,7 @@ def _sketched(study: HoverStudy) -> Note:
 
 
 def _conditions(adjoint: AdjointSolution) -> list[Text]:
-    """Return costates at the start, and the residuals of the conditions."""
+    """Return initial costates, and the residuals of the optimality conditions."""
     begin, end = adjoint.singular_span
     rms, largest = adjoint.tangent_residual
     first, last = adjoint.reversals
@@ -222,12 +222,12 @@ def _conditions(adjoint: AdjointSolution) -> list[Text]:
 
 
 def _decade(residual: float) -> Quantity:
-    """Return the next power of ten: what lies below the precision of a solver differs from machine to machine."""
+    """Return the next power of ten, because residuals below a solver's precision differ between machines."""
     return Quantity(10.0 ** math.ceil(math.log10(residual)) if residual > 0.0 else 0.0, digits=1)
 
 
 def _comparisons(study: HoverStudy) -> Table:
-    """Return the programme and the turn in free fall over distance; none where there is no such programme."""
+    """Return programme and turn in free fall over distance; none without a programme of this kind."""
     mass = study.vehicle.mass
     rows: list[list[Cell]] = []
     for each in study.comparisons:

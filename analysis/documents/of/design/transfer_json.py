@@ -1,4 +1,4 @@
-"""A transfer between two hovers as JSON: times in s, angles in deg, propellant over the initial mass and in kg."""
+"""Transfer between two hovers as JSON: times in s, angles in deg, propellant in kg and over the initial mass."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAMES = ("t2_s", "t5_s", "w_s", "tp_s", "t7_s")
 
 
 def transfer_json(study: HoverStudy) -> dict[str, object]:
-    """Return all of a study for other programs."""
+    """Return a study as JSON for other programs."""
     programme = study.programme
     minimum, largest = (math.degrees(angle) for angle in programme.extremes)
     return {
@@ -100,5 +100,5 @@ def _curve(curve: PropellantCurve | None, name: str) -> dict[str, list[float] | 
 
 
 def _known(number: float) -> float | None:
-    """Return a number for JSON, which has no nan: None."""
+    """Return a number for JSON, with NaN as None."""
     return None if math.isnan(number) else number

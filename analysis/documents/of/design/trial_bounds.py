@@ -1,4 +1,4 @@
-"""The document of the bounds of a campaign's trials."""
+"""Document of the propellant bounds of a campaign's trials."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ from ...model import Document, Listing, Text
 def trial_bounds_document(
     campaign: str, propellant: np.ndarray, duration: np.ndarray, intervals: int, file: Path | None
 ) -> Document:
-    """Return the document of least ``propellant`` (kg) and its ``duration`` (s) of all trials, nan where none is known.
+    """Return the document of bounds on ``propellant`` (kg) with their ``duration`` (s), (trials,), NaN where
+    unknown.
 
-    ``file`` is that of the stored table.
+    ``file`` is the stored table, if any.
     """
     known = propellant[np.isfinite(propellant)]
     rows = []

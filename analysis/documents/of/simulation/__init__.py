@@ -1,1 +1,1 @@
-"""A simulation as a document: figures of its system, trajectories, histories, limits, final values."""
+"""Document of a simulation: figures of its system, trajectories, histories, limits, final values."""

@@ -1,4 +1,4 @@
-"""Values of a simulation's signals as tables: the most important ones at the end, and all of them."""
+"""Tables of a simulation's values: final values of the most important signals, and statistics of all."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ KEY_VECTORS = ("position", "velocity")
 
 
 class KeyValue(NamedTuple):
-    """Final values of a signal or of a vector's elements, with a ``note``: the elements' axes, magnitude, maximum."""
+    """Final values of a signal or of a vector's elements, with a ``note`` on axes, magnitude or maximum."""
 
     label: str
     note: str
@@ -30,9 +30,9 @@ class KeyValue(NamedTuple):
 def key_values(result: Result) -> list[KeyValue]:
     """Return the final values of the most important signals.
 
-    These are the system's connectors, positions and velocities with their magnitudes (inputs that repeat them are
-    left out), and the highest status of each component. A system without any of these has all its signals here, if
-    they are at most `MOST_KEYS`.
+    These are the system's connectors, positions and velocities with their magnitudes (without inputs that repeat them),
+    and the highest status of each component. Without any of these all signals are included, if they are at most
+    `MOST_KEYS`.
     """
     if not result.time.size:
         return []
@@ -57,7 +57,7 @@ def key_values(result: Result) -> list[KeyValue]:
 
 
 def final_values(result: Result) -> Node:
-    """Return the table of key values, or why there is none."""
+    """Return the table of key values, or the reason why there is none."""
     rows = [
         (row.label, Faint(row.note), Vector(row.values, row.unit), display_unit(row.unit)) for row in key_values(result)
     ]

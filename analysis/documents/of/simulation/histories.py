@@ -1,4 +1,4 @@
-"""Signals of a run over time: on its page a panel for each, states and commands first; or those chosen by name."""
+"""Signals of a run over time: on its page a panel for each, states and commands first; or signals chosen by name."""
 
 from __future__ import annotations
 
@@ -42,10 +42,10 @@ SPIKE = 8.0  # a range so many times that of the middle 98 % of the values is cl
 
 @dataclass(frozen=True)
 class ComponentHistory:
-    """One component's signals over time: its figures, and the signals without a figure.
+    """Signals of one component over time: figures, and signals without a figure.
 
-    ``legend`` is that of its vectors' elements, for all ways in which they are named. ``constant`` are (label, values,
-    unit) of constant groups; ``copies`` are (label, label of the group with the same values).
+    ``legend`` explains the elements of its vectors, for each way in which they are named. ``constant`` are (label,
+    values, unit) of constant groups; ``copies`` are (label, label of the group with the same values).
     """
 
     component: str
@@ -56,7 +56,7 @@ class ComponentHistory:
 
     @property
     def is_in_order(self) -> bool:
-        """True if no element is along a named axis: entries of the legend are then for the lines in their order."""
+        """True if no element is along a named axis, so legend entries apply to the lines in order."""
         return all(name.startswith("[") for entry in self.legend for name in entry.lines)
 
     @property
@@ -86,9 +86,9 @@ def _constant(label: str, values: Sequence[float | int | bool], unit: str | None
 
 @dataclass(frozen=True)
 class Histories:
-    """Sections of the states and commands, ``first``, and of the ``rest``, which the page folds.
+    """Sections of the states and commands (``first``), and of the ``rest``, which the page folds.
 
-    Where no signal has the name of a state or command, the first `MOST` panels are ``first``.
+    If no signal has the name of a state or command, the first `MOST` panels are ``first``.
     """
 
     first: list[ComponentHistory]
@@ -97,12 +97,12 @@ class Histories:
 
     @property
     def folded(self) -> int:
-        """Number of figures that the page folds."""
+        """The number of figures that the page folds."""
         return sum(len(history.figures) for history in self.rest)
 
 
 def time_histories(result: Result) -> Histories:
-    """Return the sections of all components in the order of the record; a run without rows has none."""
+    """Return the sections of all components in the order of the record; none for a run without rows."""
     if not result.time.size:
         return Histories([], [], False)
     groups = signal_groups(result)
@@ -131,7 +131,7 @@ def _fold_history(
     result: Result,
     position: int,
 ) -> ComponentHistory:
-    """Return the section of a component's other signals: with a panel, constant, or copies of others."""
+    """Return the folded section of a component's other signals: with a panel, constant, or copies of others."""
     constant = [group for group in groups if _is_constant(group, result)]
     copies = [(group, originals[group]) for group in groups if originals[group] != group and group not in constant]
     varying = [group for group in groups if group not in constant and originals[group] == group]
@@ -151,7 +151,7 @@ def _is_constant(group: SignalGroup, result: Result) -> bool:
 
 
 def _figures(groups: list[SignalGroup], result: Result, name: str, *, is_reduced: bool) -> list[Figure]:
-    """Return a figure for each: Real signals first, grouped by unit, units in order of appearance."""
+    """Return a figure for each group: Real signals first, sorted by unit in order of first occurrence."""
     kinds = [(not group.is_real, group.unit) for group in groups]
     first = {kind: index for index, kind in reversed(list(enumerate(kinds)))}
     ranked = sorted(groups, key=lambda group: (not group.is_real, first[not group.is_real, group.unit]))
@@ -170,7 +170,7 @@ def _figures(groups: list[SignalGroup], result: Result, name: str, *, is_reduced
 
 
 def _legend(groups: list[SignalGroup]) -> list[LegendEntry]:
-    """Return the line styles of elements along named axes, and those of the longest of the other vectors."""
+    """Return the line styles of elements along named axes, and those of the longest other vector."""
     vectors = [group for group in groups if group.indices]
     unnamed = max((group.labels for group in vectors if not group.is_named), key=len, default=())
     series = [*(group.labels for group in vectors if group.is_named), unnamed]
@@ -181,7 +181,7 @@ def _legend(groups: list[SignalGroup]) -> list[LegendEntry]:
 def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, int] = (5, 4)) -> Chart:
     """Return the chart of a scalar or a vector over time; Integers and Booleans as steps.
 
-    ``intervals`` are the most intervals between ticks of the abscissa and of the ordinate.
+    ``intervals`` are the maximum numbers of intervals between ticks of abscissa and ordinate.
     """
     values, factor = group.values(result), display_factor(group.unit)
     curves = [
@@ -204,7 +204,7 @@ def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, i
 
 
 def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[ChartNote]]:
-    """Return the ends of the ordinate, clipped where a few extreme values would flatten the rest, and a note on it."""
+    """Return the ends of the ordinate, clipped if few extreme values would flatten the rest, and a note on clipping."""
     finite = values[np.isfinite(values)]
     if not finite.size:
         return axis_ends(finite), [_annotation("no finite value", (0.5, 0.5), ("center", "center"), 9.0)]
@@ -225,7 +225,7 @@ def _annotation(text: str, at: tuple[float, float], align: tuple[str, str], size
 
 
 def signal_plot(result: Result, names: Sequence[str]) -> Drawing:
-    """Return a panel for each signal or vector, below each other over the same time.
+    """Return a panel for each signal or vector, below each other over a common time.
 
     Raises KeyError for an unknown name.
     """

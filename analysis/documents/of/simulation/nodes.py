@@ -1,4 +1,4 @@
-"""The figures of a simulation in other documents: those of its system, trajectories, signals over time."""
+"""Figures of a simulation for other documents: declared figures, trajectories, signals over time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .trajectory import trajectory_figures, trajectory_legend, trajectory_readin
 
 
 def simulation_nodes(simulation: Result, figures: Sequence[FigureDeclaration]) -> list[Node]:
-    """Return the ``figures`` that the system declares, trajectories, states and commands, and other signals folded."""
+    """Return the declared ``figures``, trajectories, states and commands, and other signals folded."""
     histories = time_histories(simulation)
     others = f"Other signals: {histories.folded} plots, constant and duplicate signals"
     trajectory = trajectory_nodes(simulation)
@@ -28,7 +28,7 @@ def simulation_nodes(simulation: Result, figures: Sequence[FigureDeclaration]) -
 
 
 def trajectory_nodes(simulation: Result) -> list[Node]:
-    """Return the views of trajectories with their caption; none where no component has a position."""
+    """Return the views of trajectories with their caption; none without a position."""
     views = trajectory_figures(simulation)
     if not views:
         return []

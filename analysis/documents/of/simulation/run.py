@@ -1,4 +1,4 @@
-"""The document of one run: termination, limits, scene, the system's figures, trajectory, all signals, provenance."""
+"""Document of one run: termination, limits, scene, declared figures, trajectory, all signals, provenance."""
 
 from __future__ import annotations
 
@@ -58,10 +58,10 @@ ENDINGS = {
 
 @dataclass(frozen=True, kw_only=True)
 class RunContext:
-    """The system and the command behind a run's result, as far as its document states them.
+    """System and command of a run, as stated in its document.
 
-    ``figures`` are those that the SSD declares; ``draw_diagram`` returns the block diagram of the system; ``command``
-    simulates the run again; ``lines`` are those of a terminal.
+    ``figures`` are those declared by the SSD; ``draw_diagram`` returns the block diagram; ``command`` repeats the run;
+    ``lines`` are those of a terminal.
     """
 
     title: str
@@ -72,7 +72,7 @@ class RunContext:
 
 
 def run_document(result: Result, context: RunContext, json: object = None) -> Document:
-    """Return the document of a run; the page is composed only when it is written."""
+    """Return the document of a run; its page is composed only when it is written."""
 
     @cache
     def groups() -> tuple[list[Group], list[FigureGroup]]:
@@ -167,7 +167,7 @@ def _sections(result: Result, context: RunContext, groups: Sequence[FigureGroup]
 
 
 def _scene(figures: Sequence[FigureDeclaration], result: Result) -> Section | None:
-    """Return the section of the scene that a system declares; None without one, and for a run without samples."""
+    """Return the section of the declared scene; None without one, and for a run without samples."""
     declared = next((figure for figure in figures if isinstance(figure, SceneFigure)), None)
     view = None if declared is None else scene_view(declared, result)
     if declared is None or view is None:
@@ -192,6 +192,6 @@ def _parameters(parameters: Mapping[str, float | str]) -> list[Node]:
 
 
 def _files(provenance: Mapping[str, Any]) -> list[tuple[str, str, str]]:
-    """Return component, name and SHA-256 of the system and of its FMUs."""
+    """Return name and SHA-256 of the system and of each component's FMU."""
     fmus = ((component, fmu["fmu"], fmu["sha256"]) for component, fmu in provenance["fmus"].items())
     return [("system", provenance["system"], provenance["system_sha256"]), *fmus]

@@ -1,4 +1,4 @@
-"""A run in a notebook: its end, limits or key values, and one plot."""
+"""Summary of a run for a notebook: its end, limits or key values, and one plot."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MOST_PLOTTED = 3  # signals of a run without a path
 
 
 def notebook_nodes(result: Result, figures: Sequence[FigureDeclaration]) -> list[Node]:
-    """Return what a notebook shows of a run."""
+    """Return the nodes of a run for a notebook."""
     tables = [
         Table((figure.title, "value", "limit", "unit", ""), limit_rows(figure, result))
         for figure in figures

@@ -1,4 +1,4 @@
-"""Times along a path: the rows that are marked, and their labels."""
+"""Times along a path: rows to mark, and their labels."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ CAPITAL = 0.73  # of the size of a text, the height of digits
 
 
 class Extent(NamedTuple):
-    """A rectangle in the area of the axes (pt, from its lower left corner)."""
+    """A rectangle within the axes (pt, from their lower left corner)."""
 
     left: float
     bottom: float
@@ -42,11 +42,11 @@ def mark_rows(time: np.ndarray) -> np.ndarray:
 def time_notes(
     chart: Chart, size: tuple[float, float], paths: Sequence[np.ndarray], time: np.ndarray, rows: np.ndarray
 ) -> list[ChartNote]:
-    """Return the times at marks of the first of the ``paths``, next to its line.
+    """Return labels with the times at marks of the first of the ``paths``, next to its line.
 
-    A label is where it covers neither marks of any path nor another label; a time without such a place, or at a mark
-    next to another one, is left out, but for that of the end. ``size`` (pt) is that of the area of the axes; paths are
-    in their units, [2, samples]; marks are at ``rows``.
+    A label covers neither marks of any path nor another label. A time without space for it, or whose mark is close to
+    another, has no label, except at the end. ``size`` (pt) is that of the plotting area; paths are in units of the
+    axes, [2, samples]; marks are at ``rows``.
     """
     corner = np.array([chart.x.ends[0], chart.y.ends[0]])[:, None]
     ranges = np.ptp([chart.x.ends, chart.y.ends], axis=1)[:, None]
@@ -71,7 +71,7 @@ def time_notes(
 
 
 def _candidates(path: np.ndarray, rows: np.ndarray, row: int, *, is_left: bool) -> list[tuple[float, float]]:
-    """Return offsets (pt) of a label from its mark, those next to the line before those over it."""
+    """Return candidate offsets (pt) of a label from its mark: first next to the line, then on it."""
     if row == rows[-1]:
         side, below = 8.0 if is_left else -8.0, path[1, rows[max(0, rows.size - 2)]] >= path[1, -1]
         return [(across, up) for across in (side, -side) for up in ((-13.0, 6.0) if below else (6.0, -13.0))]
@@ -95,7 +95,7 @@ def _extent(note: ChartNote, mark: np.ndarray) -> Extent:
 
 
 def _is_free(text: Extent, marks: np.ndarray, occupied: Sequence[Extent], area: np.ndarray) -> bool:
-    """Return True if a text lies within the axes and covers neither a mark nor another text."""
+    """Return True if a text is within the axes and covers neither a mark nor another text."""
     covered = (marks[0] > text.left - RADIUS) & (marks[0] < text.right + RADIUS)
     covered &= (marks[1] > text.bottom - RADIUS) & (marks[1] < text.top + RADIUS)
     is_apart = all(

@@ -32,7 +32,7 @@ FAR = 0.35  # rad along the ground, beyond which the ground track replaces the p
 
 
 def trajectory_figures(result: Result) -> list[Figure]:
-    """Return the views for the page; none where no component has a position."""
+    """Return the views for a page; none without a position."""
     components = ", ".join(group.component for group in position_groups(result))
     figures = []
     for view in _views(result):
@@ -45,7 +45,7 @@ def trajectory_figures(result: Result) -> list[Figure]:
 
 
 def trajectory_plot(result: Result) -> Drawing | None:
-    """Return all views in one figure, below each other; None where no component has a position."""
+    """Return all views in one figure, below each other; None without a position."""
     views = _views(result)
     if not views:
         return None
@@ -61,12 +61,12 @@ def trajectory_plot(result: Result) -> Drawing | None:
 
 
 def trajectory_legend(result: Result) -> list[LegendEntry]:
-    """Return the components' lines with their names; none for a single one."""
+    """Return the components' lines with their names; empty for a single component."""
     return legend_of(tuple(group.label for group in position_groups(result)))
 
 
 def trajectory_reading(result: Result) -> str:
-    """Return the caption of the panels."""
+    """Return the caption that explains the panels."""
     caption = "Dots: elapsed time; circle: end of the flight."
     groups = position_groups(result)
     radius = _radius(groups, [group.values(result) for group in groups], result) if result.time.size else None
@@ -82,9 +82,9 @@ def trajectory_reading(result: Result) -> str:
 
 
 def _views(result: Result) -> list[View]:
-    """Return the horizontal and vertical view; none where no component has a position.
+    """Return the horizontal and the vertical view; none without a position.
 
-    Over a round body the vertical view is altitude over downrange, else both are elements of the position.
+    Over a round body the vertical view is altitude over downrange; otherwise both are elements of the position.
     """
     groups = position_groups(result)
     if not groups or not result.time.size:
@@ -104,7 +104,7 @@ def _views(result: Result) -> list[View]:
 
 
 def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: Result) -> float | None:
-    """Return the radius (m) of the body, from the first component with a position and its altitude; None without."""
+    """Return the radius (m) of the body from the first component with position and altitude; None without one."""
     for group, path in zip(groups, paths, strict=True):
         altitude = f"{group.component}.altitude"
         if result.units.get(altitude) == "m" and (radius := radius_of(path, result[altitude])) is not None:
@@ -113,13 +113,15 @@ def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: 
 
 
 def _axes(groups: Sequence[SignalGroup]) -> tuple[str, ...]:
-    """Return the names of the elements of positions: axes where all positions are along the same ones, else indices."""
+    """Return the names of the elements of positions: axes if all positions have the same, else indices."""
     named = {group.labels if group.is_named else () for group in groups}
     return named.pop() if len(named) == 1 and () not in named else INDICES
 
 
 def _flat_views(paths: Sequence[np.ndarray], groups: Sequence[SignalGroup], time: np.ndarray) -> list[View]:
-    """Return the plan view (elements 1 and 2) and side view (3 over the wider one); in a plane the side view alone."""
+    """Return plan view (elements 1 and 2) and side view (3 over the wider one); for planar motion the side view
+    only.
+    """
     axes, labels = _axes(groups), [group.label for group in groups]
     spans = np.ptp(np.concatenate(paths, axis=1), axis=1)
     across = 0 if spans[0] >= spans[1] else 1

@@ -1,4 +1,4 @@
-"""A view of trajectories as a chart: paths, times along the first one, their ends, the ground."""
+"""View of trajectories as a chart: paths, times along the first one, ends, ground."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ GROUND = 0.05  # of the height: depth of the grey ground
 class View(NamedTuple):
     """A view: heading, identifier, and paths of abscissas and ordinates in m, [2, samples], at times (s), [samples].
 
-    ``labels`` are those of the paths, ``names`` those of the axes; ``has_ground``: the ground is at 0.
+    ``labels`` are those of the paths, ``names`` those of the axes; ``has_ground`` draws the ground at 0.
     """
 
     title: str
@@ -43,9 +43,11 @@ class View(NamedTuple):
 
 
 def view_chart(view: View, width: float, height: float, *, fluid: bool = True) -> tuple[Chart, str, str]:
-    """Return the chart of a view in a figure of this size (pt), the label of its ordinate, and the words on its scales.
+    """Return the chart of a view in a figure of this size (pt), the label of its ordinate, and a remark on its
+    scales.
 
-    Its curves are the paths, then of each the dots at times and the circle at the end. ``fluid``: as `to_scale`.
+    Its curves are the paths, followed by the dots at times and the circle at the end of each. ``fluid`` is as in
+    `to_scale`.
     """
     everything = np.concatenate(view.paths, axis=1)
     ranges = np.ptp(everything, axis=1)
@@ -86,5 +88,5 @@ def _curves(view: View, paths: Sequence[np.ndarray], rows: np.ndarray) -> list[C
 
 
 def _is_legible_to_scale(width: float, height: float) -> bool:
-    """Return True if equal scales of both axes leave the path legible."""
+    """Return True if the path remains legible with equal scales of both axes."""
     return height > 0.0 and 1.0 / MAXIMUM_RATIO <= width / height <= MAXIMUM_RATIO

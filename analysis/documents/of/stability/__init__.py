@@ -1,1 +1,1 @@
-"""The page of a stability study."""
+"""Document of a stability study."""

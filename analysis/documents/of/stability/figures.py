@@ -1,4 +1,4 @@
-"""The figures of a stability study with their words for a screen reader, and single figures by their names."""
+"""Figures of a stability study with their texts for screen readers, and single figures by name."""
 
 from __future__ import annotations
 
@@ -35,18 +35,18 @@ SIGHT = "sight"  # key of the figures that are seen at first sight
 
 
 def _small(label: str, name: str, words: str, chart: Chart, height: float = HEIGHT) -> Figure:
-    """Return a figure of which three stand in a row."""
+    """Return a figure of a third of the page's width."""
     return Figure(label, name, words, chart, height, is_narrow=True)
 
 
 def _stack(label: str, name: str, words: str, charts: tuple[Chart, Chart]) -> Figure:
-    """Return such a figure of two charts over one abscissa."""
+    """Return a figure of a third of the page's width with two charts over one abscissa."""
     upper, lower = charts
     return Figure(label, name, words, upper, HEIGHT, is_narrow=True, below=lower)
 
 
 def _plane(label: str, name: str, words: str, chart: Chart, height: float = HEIGHT) -> Figure:
-    """Return such a figure of a complex plane, whose axes have one scale."""
+    """Return a figure of a third of the page's width with a complex plane on equal scales."""
     return _small(label, name, words, _to_scale(chart, PANEL_WIDTH, height), height)
 
 
@@ -62,7 +62,7 @@ def _to_scale(chart: Chart, width: float, height: float, *, fluid: bool = True) 
 
 
 def sight_figures(loop: LoopReport, name: str) -> list[Figure]:
-    """Return the figures at first sight of a loop: Bode and Nichols with margins and limits."""
+    """Return the first figures of a loop: Bode and Nichols diagram with margins and limits."""
     nichols = f"Nichols diagram of {loop.name}: {margin_words(loop)}"
     return [
         bode_figure(loop, "Bode", f"{name}-bode", SIGHT_HEIGHT),
@@ -77,7 +77,7 @@ def bode_figure(loop: LoopReport, label: str, name: str, height: float) -> Figur
 
 
 def loop_figures(loop: LoopReport, name: str) -> list[Figure]:
-    """Return the other figures of a loop: Nyquist; poles, those near z = 1, step response."""
+    """Return the other figures of a loop: Nyquist diagram, poles (also near z = 1), step response."""
     unstable = loop.margins.unstable
     modulus = margin_words(loop) if unstable else f"modulus margin {number(float(loop.robust.modulus_margin), 3)}"
     words = f"Nyquist diagram of {loop.name}: {modulus}"
@@ -98,7 +98,7 @@ def loop_figures(loop: LoopReport, name: str) -> list[Figure]:
 
 
 def figures_by_part(loop: LoopReport, name: str) -> ByPart:
-    """Return all figures of a loop: those at first sight, by an empty key those of no part, and the parts'."""
+    """Return all figures of a loop: the first ones, those of its parts by name, and the rest under an empty key."""
     return {
         SIGHT: sight_figures(loop, name),
         "": loop_figures(loop, name),
@@ -142,7 +142,7 @@ def _smallest_size(sizes: np.ndarray) -> str:
 
 
 def amplitude_figures(loop: LoopReport, name: str) -> list[Figure]:
-    """Return gain and phase over the amplitude, where there are several."""
+    """Return gain and phase over the amplitude, if there are several amplitudes."""
     if len(loop.amplitudes) < 2:
         return []
     words = f"Gain and phase of {loop.name} over {len(loop.amplitudes)} amplitudes at the cut"
@@ -150,7 +150,7 @@ def amplitude_figures(loop: LoopReport, name: str) -> list[Figure]:
 
 
 def nonlinear_figures(loop: LoopReport, name: str, index: int) -> list[Figure]:
-    """Return the describing function of one element, and harmonic balance."""
+    """Return the describing function of one element, and the harmonic balance."""
     element = loop.nonlinearities[index]
     cycles = len(element.cycles)
     words = f"Describing function of {element.name} with {cycles} predicted limit cycle{'s' if cycles != 1 else ''}"
@@ -198,7 +198,7 @@ class LoopDiagram(StrEnum):
 def loop_charts(loop: LoopReport, diagram: LoopDiagram) -> list[Chart]:
     """Return the charts of one diagram of a loop, for figures of `SIZE`.
 
-    Raises ValueError where the study has not what it takes.
+    Raises ValueError if the study lacks the data for it.
     """
     lacking = {
         LoopDiagram.POLES: "no poles: it has no linear model" if not poles_of(loop).size else "",

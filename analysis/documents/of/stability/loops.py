@@ -1,4 +1,4 @@
-"""The loops of a stability study, an article each: at first sight margins, Bode and Nichols, the rest folded."""
+"""Loops of a stability study, an article each: first margins, Bode and Nichols diagram, the rest folded."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ HOW_TO_READ = (
 
 
 def loop_nodes(report: StabilityStudy) -> list[Node]:
-    """Return what L is, how to read figures and tables, and all loops."""
+    """Return the definition of L, explanations of figures and tables, and all loops."""
     figures = [figures_by_part(loop, anchor(index)) for index, loop in enumerate(report.loops)]
     shared = share(report.loops, figures)
     paper = paper_of(shared)
@@ -84,7 +84,7 @@ def _article(report: StabilityStudy, index: int, shared: Shared, paper: Paper) -
 
 
 def _cut(loop: LoopReport) -> list[tuple[str, str]]:
-    """Return where a loop is broken, its sign, and which other loops are closed."""
+    """Return where a loop is cut, its sign, and which other loops remain closed."""
     return [
         ("loop broken at", loop.cut),
         ("return signal", "the same connector" if loop.returned == loop.cut else loop.returned),
@@ -99,7 +99,7 @@ def _figures(figures: Sequence[Figure]) -> list[Node]:
 
 
 def _elsewhere(report: StabilityStudy, shared: Shared, *, at_sight: bool) -> list[Node]:
-    """Return where the figures are that stand with another loop: those at first sight, or the others."""
+    """Return a reference to figures shown with another loop: the first ones, or the others."""
     labelled = {
         other: [label for label in labels if (label in SEEN) == at_sight] for other, labels in shared.elsewhere.items()
     }
@@ -112,7 +112,7 @@ def _elsewhere(report: StabilityStudy, shared: Shared, *, at_sight: bool) -> lis
 
 
 def _blocks(known: Sequence[Part]) -> list[list[Part]]:
-    """Return parts that are laid out as one; the short ones next to the long table of the method are one block."""
+    """Return the parts that are laid out together; short ones next to the long table of the method form one block."""
     blocks: list[list[Part]] = []
     for part in known:
         if part.key != "robust":
@@ -122,7 +122,7 @@ def _blocks(known: Sequence[Part]) -> list[list[Part]]:
 
 
 def _tiles(block: Sequence[Part], shared: Shared, paper: Paper) -> list[Tile]:
-    """Return a block of parts, with several figures of a part below it, a single one next to it."""
+    """Return a block of parts, with several figures of a part below it, or a single one next to it."""
     nodes = [
         node
         for part in block

@@ -1,4 +1,4 @@
-"""Tables of all loops: requirements with their verdicts, margins, simultaneous margins, margins in both orders."""
+"""Tables of all loops: requirements with verdicts, margins, simultaneous margins, margins in both orders."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ SCOPES = {Scope.NOMINAL: "nominal", Scope.DISPERSED: "dispersed", Scope.JOINT: "
 
 
 def verdict_table(report: StabilityStudy, judgements: Sequence[JudgedRequirement]) -> Table:
-    """Return a row for each requirement: value, limit, verdict and, where there is none, why; one is the tightest."""
+    """Return a row for each requirement: value, limit, and verdict or why there is none; the tightest is marked."""
     nearest = tightest(report) if len(judgements) > 1 else None
     rows = [
         (
@@ -81,7 +81,7 @@ def loop_table(loop: LoopReport) -> Table:
 
 
 def margin_cells(loop: LoopReport) -> Sequence[Cell]:
-    """Return the nearest margins of a loop, and whether it is stable."""
+    """Return the nearest margins of a loop, and its stability."""
     unstable = state(loop.margins)
     return (
         gain_margin(loop.margins),
@@ -95,7 +95,7 @@ def margin_cells(loop: LoopReport) -> Sequence[Cell]:
 
 
 def joint_table(report: StabilityStudy) -> Table:
-    """Return disk margins of several channels that vary at once and independently."""
+    """Return disk margins of several channels that vary simultaneously and independently."""
     rows: list[tuple[Cell, ...]] = []
     for joint in report.joint:
         margins: tuple[Cell, ...] = (
@@ -113,7 +113,7 @@ def joint_table(report: StabilityStudy) -> Table:
 
 
 def order_table(report: StabilityStudy) -> Table:
-    """Return two rows for each loop, without and with feedthrough; none where there is one order only."""
+    """Return two rows for each loop, without and with feedthrough; none if there is only one order."""
     others = {(loop.name, loop.point): loop for loop in order_loops(report)}
     rows: list[tuple[Cell, ...]] = []
     for loop in report.loops:

@@ -1,4 +1,4 @@
-"""Sentences of a study in both orders of FMUs with undeclared dependencies, on the page and in the terminal."""
+"""Sentences on a study in both orders of FMUs with undeclared dependencies, for page and terminal."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from ....stability.results.requirement import MarginRequirement, MarginVerdict
 
 
 def order_loops(report: StabilityStudy) -> tuple[LoopReport, ...]:
-    """Return the loops in the other order, none where there is one order only."""
+    """Return the loops in the other order; none if there is only one order."""
     return () if report.orders is None or report.orders.report is None else report.orders.report.loops
 
 
 def order_sentences(report: StabilityStudy) -> list[str]:
-    """Return the assumption and the other order in words, none where every FMU on a loop declares its dependencies."""
+    """Return the assumption and the other order in words; none if all FMUs on loops declare their dependencies."""
     orders = report.orders
     if orders is None:
         return []
@@ -39,7 +39,7 @@ def order_sentences(report: StabilityStudy) -> list[str]:
 
 
 def withheld_line(report: StabilityStudy, subject: LoopReport | JointReport, item: MarginRequirement) -> str:
-    """Return the reason why a requirement is withheld, and what decides it."""
+    """Return why a requirement is withheld, and what would decide it."""
     assert report.orders is not None
     assert item.as_feedthrough is not None
     names = report.orders.direct
@@ -52,7 +52,7 @@ def withheld_line(report: StabilityStudy, subject: LoopReport | JointReport, ite
 
 
 def order_note(item: MarginRequirement) -> str:
-    """Return the note of a table on a requirement: its own, or the reason why it is withheld."""
+    """Return a requirement's note for a table: its own, or why it is withheld."""
     if item.verdict is not MarginVerdict.WITHHELD or item.as_feedthrough is None:
         return item.note
     return f"{_value(item.as_feedthrough)} as feedthrough"

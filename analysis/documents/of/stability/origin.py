@@ -1,4 +1,4 @@
-"""Subject of a stability study: facts, limits, parameters, hashes."""
+"""Provenance of a stability study: facts, limits, parameters, hashes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ELSEWHERE = {"system", "system_sha256", "fmus", "parameters", "assumptions"}  # 
 
 
 def origin_nodes(report: StabilityStudy) -> list[Node]:
-    """Return everything that a study depends on."""
+    """Return everything that the numbers of a study depend on."""
     limits, hashes = limit_table(report), hash_table(report)
     parameters = [
         [f"{name} = ", numeral(value, digits=10)] for name, value in report.provenance.get("parameters", {}).items()
@@ -43,7 +43,7 @@ def _declared(limits: dict[str, float]) -> list[Inline]:
 
 
 def limit_table(report: StabilityStudy) -> Table:
-    """Return the limits that were used, each once."""
+    """Return the applied limits, each once."""
     rows: dict[tuple[str, str], tuple[Cell, ...]] = {}
     for _, item in report.judgements():
         rows.setdefault((item.title, str(item.limit)), (SCOPES[item.scope], item.title, limit(item)))
@@ -63,7 +63,7 @@ def hash_table(report: StabilityStudy) -> Table:
 
 
 def facts(report: StabilityStudy) -> list[tuple[str, Cell]]:
-    """Return the rest of the provenance: seed, step, versions and so on."""
+    """Return the other provenance: seed, step, versions and so on."""
     return [
         (key.replace("_", " "), Phrase([*fact(value), " s"] if key in TIMES else fact(value)))
         for key, value in report.provenance.items()
@@ -72,7 +72,7 @@ def facts(report: StabilityStudy) -> list[tuple[str, Cell]]:
 
 
 def fact(value: object) -> list[Inline]:
-    """Return one fact: a number, a text, or several of them."""
+    """Return one fact as a cell: a number, a text, or several."""
     if value is None or value in ([], {}, ()):
         return ["none"]
     if isinstance(value, dict):

@@ -1,4 +1,4 @@
-"""Margins over the time of flight: a loop's margins at several operating points, with the margins that are required."""
+"""Margins over the time of flight: a loop's margins at several operating points, with the required margins."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ BEYOND = 1.15  # of the largest decisive margin, up to which axes reach
 
 @dataclass(frozen=True)
 class Course:
-    """Loops with the same margins over time: each one's reports, ascending in time (s).
+    """Loops with equal margins over time; each loop has a report per time (s), ascending.
 
-    By quantity ``upper`` are the nearest margins upwards or in lag and ``lower``, below 0, those downwards or in lead,
-    nan where there is none; ``sizes`` are those of the nearer of both, `UNSTABLE` and `UNLIMITED` among them.
+    For each quantity, ``upper`` are the nearest margins for increasing gain or lag, and ``lower`` (negative) those for
+    decreasing gain or lead, NaN without one; ``sizes`` are those of the nearer margin, or `UNSTABLE` and `UNLIMITED`.
     """
 
     loops: tuple[tuple[LoopReport, ...], ...]
@@ -50,7 +50,9 @@ class Course:
 
 
 def _sides(loop: LoopReport, quantity: MarginQuantity) -> tuple[float, float]:
-    """Return the nearest margin up or in lag, and the nearest down or in lead, in the quantity's unit."""
+    """Return the nearest margin for increasing gain or lag, and that for decreasing gain or lead, in the quantity's
+    unit.
+    """
     if loop.margins.unstable:
         return math.nan, math.nan
     if quantity is MarginQuantity.MODULUS:
@@ -66,7 +68,7 @@ def _sides(loop: LoopReport, quantity: MarginQuantity) -> tuple[float, float]:
 
 
 def courses(report: StabilityStudy) -> list[Course]:
-    """Return loops that are studied at several times of the same flight: with the same settings, at different times."""
+    """Return the loops studied at several times with the same settings."""
     points = {point.name: point for point in report.points}
     flights: dict[tuple[str, str], list[LoopReport]] = {}
     for loop in report.loops:
@@ -103,15 +105,16 @@ def _requirements(course: Course) -> set[tuple[MarginQuantity, float]]:
 
 
 def course_look(index: int) -> Look:
-    """Return the look of the index-th course; vermilion is the limits'."""
+    """Return the look of the index-th course; vermilion is reserved for limits."""
     return look(index + (index >= COLOURS.index(VERMILION)))
 
 
 def over_time_chart(histories: Sequence[Course], quantity: MarginQuantity) -> Chart:
-    """Return one margin of all loops over time, downwards or in lead below 0; what is less than required is shaded.
+    """Return one margin of all loops over time, negative for decreasing gain or lead; insufficient margins are
+    shaded.
 
-    The nearer margin of each loop is filled, the other hollow. A cross at 0 is an unstable loop, a triangle at the top
-    one without a crossover.
+    The mark of the nearer margin of each loop is filled, that of the other hollow. A cross at 0 is an unstable loop, a
+    triangle at the top a loop without a crossover.
     """
     limits = sorted({limit for course in histories for key, limit in _requirements(course) if key is quantity})
     is_below = any(np.any(np.isclose(-course.lower[quantity], course.sizes[quantity])) for course in histories)
@@ -164,7 +167,7 @@ def _margin_curves(course: Course, quantity: MarginQuantity, style: Look, top: f
 
 
 def over_time_nodes(histories: Sequence[Course], report: StabilityStudy) -> list[Node]:
-    """Return the margins of loops over the time of flight, and at which operating points they were studied."""
+    """Return figures of the margins over the time of flight, and the operating points at which they were studied."""
     studied = {loop.point for history in histories for loops in history.loops for loop in loops}
     points = sorted((point for point in report.points if point.name in studied), key=lambda point: point.time)
     times = [part for point in points for part in (", ", f"{point.name} at ", numeral(point.time), " s")]

@@ -1,4 +1,4 @@
-"""Printout of a stability study: of a few loops everything, of many what a board asks for first."""
+"""Selection of a stability study's content for paper: everything for few loops, the essential figures for many."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ FIRST = "Bode"  # which every loop has
 
 @dataclass(frozen=True)
 class Paper:
-    """``kinds``: the figures that are printed; None: all, and the tables of the loops that draw their own."""
+    """Selection for paper: ``kinds`` of figures to print; None: all, with tables of the loops with separate figures."""
 
     kinds: tuple[str, ...] | None
 
     @property
     def words(self) -> str:
-        """The statement of what is left out, for the reader of the paper."""
+        """The statement of what is omitted on paper."""
         if self.kinds is None:
             return "Printed without the tables of loops whose figures are shown with another loop."
         return (
@@ -35,7 +35,7 @@ class Paper:
         )
 
     def mark(self, figures: Sequence[Figure]) -> list[Figure]:
-        """Return figures, those that are not printed as such."""
+        """Return figures marked as printed or not printed."""
         return [replace(figure, is_printed=self.kinds is None or kind_of(figure) in self.kinds) for figure in figures]
 
     def prints(self, part: str, shared: Shared) -> bool:
@@ -44,17 +44,19 @@ class Paper:
 
 
 def kind_of(figure: Figure) -> str:
-    """Return the label of a figure without the loops that it is of."""
+    """Return the label of a figure without the names of its loops."""
     return figure.label.partition(":")[0]
 
 
 def draws(shared: Shared) -> bool:
-    """Return True if a loop has separate figures instead of another one's."""
+    """Return True if a loop has separate figures instead of references to those of another loop."""
     return FIRST in [kind_of(figure) for figures in shared.figures.values() for figure in figures]
 
 
 def paper_of(shared: Sequence[Shared]) -> Paper:
-    """Return all of `FEW` loops; otherwise kinds of figures in their order, as long as they are not too many."""
+    """Return the selection for loops: everything for up to `FEW`, else kinds of figures in order up to a total
+    number.
+    """
     if sum(map(draws, shared)) <= FEW:
         return Paper(None)
     labels = [kind_of(figure) for one in shared for figures in one.figures.values() for figure in figures]

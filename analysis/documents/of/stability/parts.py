@@ -1,4 +1,4 @@
-"""Parts of one loop: a heading, a table and a note each."""
+"""Parts of one loop's article: a heading, a table and a note each."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from .words import (
 
 @dataclass(frozen=True)
 class Part:
-    """A heading with a table of ``rows``; a note and a ``command`` stand below it, figures follow."""
+    """A heading with a table of ``rows``, followed by a note, a ``command`` and figures."""
 
     key: str
     heading: str
@@ -49,7 +49,7 @@ class Part:
 
 
 def method(loop: LoopReport) -> Part:
-    """Return linearised and measured response side by side, and whether they agree."""
+    """Return linearised and measured response side by side, and their agreement."""
     rows: list[tuple[Cell, ...]] = []
     if loop.linearised is not None:
         a = loop.linearised
@@ -86,7 +86,7 @@ def method(loop: LoopReport) -> Part:
 
 
 def classical(loop: LoopReport) -> Part:
-    """Return every crossing, the delay margin and the encirclements."""
+    """Return all crossings, the delay margin, and the number of encirclements."""
     margins = loop.classical
     rows: list[tuple[Cell, ...]] = []
     kind = "crossing" if loop.margins.unstable else "margin"
@@ -119,7 +119,7 @@ def classical(loop: LoopReport) -> Part:
 
 
 def robust(loop: LoopReport) -> Part:
-    """Return distances from the critical point."""
+    """Return the distances from the critical point: modulus margin, sensitivity peaks, disk margin."""
     margins = loop.robust
     token = state(loop.margins)
     rows: list[tuple[Cell, ...]] = [
@@ -135,7 +135,7 @@ def robust(loop: LoopReport) -> Part:
 
 
 def upper(modes: tuple[Mode, ...]) -> list[Mode]:
-    """Return modes without the lower ones of conjugate pairs."""
+    """Return modes without the lower pole of conjugate pairs."""
     return [
         mode
         for mode in modes
@@ -144,7 +144,7 @@ def upper(modes: tuple[Mode, ...]) -> list[Mode]:
 
 
 def modes(loop: LoopReport) -> Part:
-    """Return closed-loop modes; of a conjugate pair one."""
+    """Return closed-loop modes, one per conjugate pair."""
     rows: list[tuple[Cell, ...]] = [
         (
             complex_number(mode.z),
@@ -180,7 +180,7 @@ def structure(loop: LoopReport) -> Part:
 
 
 def dispersion_rows(dispersion: Dispersion) -> Part:
-    """Return least, 5 % and median margins over the campaign, and the command that studies the worst case again."""
+    """Return least, 5 % and median margins over the campaign, and the command that studies the worst trial."""
     rows: list[tuple[Cell, ...]] = []
     for quantity in MARGINS:
         unit = "" if quantity.unit == "1" else f", {quantity.unit}"
@@ -199,7 +199,7 @@ def dispersion_rows(dispersion: Dispersion) -> Part:
 
 
 def nonlinear(nonlinearity: Nonlinearity, index: int) -> Part:
-    """Return limit cycles that harmonic balance predicts, and what the simulation shows."""
+    """Return the limit cycles predicted by harmonic balance, and those found by simulation."""
     rows: list[tuple[Cell, ...]] = []
     for cycle in nonlinearity.cycles:
         lasting = cycle.simulated_amplitude is not None
@@ -261,7 +261,7 @@ def sampling(loop: LoopReport) -> Part:
 
 
 def parts(loop: LoopReport) -> list[Part]:
-    """Return everything that is known about a loop, in the order of the page."""
+    """Return all available parts of a loop, in the order of the page."""
     sections = [method(loop), classical(loop), robust(loop)]
     if loop.structure is not None:
         sections.append(structure(loop))
@@ -278,7 +278,7 @@ def parts(loop: LoopReport) -> list[Part]:
 
 
 def list_absent(loop: LoopReport) -> list[str]:
-    """Return the parts that a loop's study did not include; one that failed has a reason and is not among them."""
+    """Return the analyses that a loop's study does not include, except failed ones, which have a reason."""
     there = {
         "linearisation": loop.linearised is not None,
         "frequency-response test": loop.measured_response is not None,

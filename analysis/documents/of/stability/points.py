@@ -1,4 +1,4 @@
-"""Operating points of a stability study: where, how far from a trim, with which settings."""
+"""Operating points of a stability study: time, distance from a trim, settings."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .words import fold_long, names, numbers, numeral, per_cent, sentences
 
 
 def point_nodes(points: Sequence[PointReport]) -> list[Node]:
-    """Return the table of operating points, and folded their trims and settings."""
+    """Return the table of operating points, and folded tables of trims and settings."""
     if not points:
         return [Missing("no operating point")]
     trims = trim_table(points)
@@ -38,7 +38,7 @@ def _settings(point: PointReport) -> list[Inline]:
 
 
 def point_table(points: Sequence[PointReport]) -> Table:
-    """Return for each point the state that drifts most, and how long the frozen-time linearisation is valid."""
+    """Return, for each point, the state that drifts most, and how long the frozen-time linearisation is valid."""
     rows: list[tuple[Cell, ...]] = []
     for point in points:
         fastest: Cell = "none"
@@ -56,7 +56,7 @@ def point_table(points: Sequence[PointReport]) -> Table:
 
 
 def trim_table(points: Sequence[PointReport]) -> Table:
-    """Return the states that change most at each operating point while it is taken as frozen."""
+    """Return, for each operating point, the states that change most while they are assumed constant."""
     rows: list[tuple[Cell, ...]] = [
         (point.name, name, numeral(value, unit, 6), numeral(change, unit), display_unit(unit))
         for point in points

@@ -1,4 +1,4 @@
-"""Text of a study of stability: a line for each loop, and one for each requirement that is not met."""
+"""Text of a stability study: a line for each loop, and for each requirement that is not met."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .tightest import tightest_nodes
 
 
 def stability_lines(report: StabilityStudy) -> list[str]:
-    """Return a study in lines of text: loops, notes on feedthrough, sweeps, the verdict."""
+    """Return a study as lines of text: loops, notes on feedthrough, sweeps, verdict."""
     lines, others = list[str](), {(loop.name, loop.point): loop for loop in order_loops(report)}
     for loop in report.loops:
         lines += _lines(loop)
@@ -29,7 +29,7 @@ def stability_lines(report: StabilityStudy) -> list[str]:
 
 
 def stability_problems(report: StabilityStudy) -> list[str]:
-    """Return a line for each requirement that is not met or withheld, and for everything that could not be studied."""
+    """Return a line for each requirement not met or withheld, and for everything that could not be studied."""
     judged = list(report.judgements())
     failures = [item for item in judged if item.requirement.verdict is MarginVerdict.FAIL]
     lines = [
@@ -50,7 +50,7 @@ def stability_problems(report: StabilityStudy) -> list[str]:
 
 
 def _verdict_line(lost: Unstudied) -> str:
-    """Describe a loop that has a verdict though no margins."""
+    """Return the line of a loop that has a verdict but no margins."""
     verdict = f": {lost.verdict}" if lost.verdict is MarginVerdict.FAIL else ""
     return f"{lost.name} at {lost.point}: {lost.text}{verdict}"
 
@@ -67,7 +67,7 @@ def _unit(item: MarginRequirement) -> str:
 
 
 def _words(sizes: Mapping[MarginQuantity, float], sides: Mapping[MarginQuantity, str] | None = None) -> str:
-    """Return sizes of margins, ``gain margin 12.39 dB, phase margin 44.28 deg``, and which of them are one-sided."""
+    """Return margins in words, ``gain margin 12.39 dB, phase margin 44.28 deg``, and which of them are one-sided."""
     words = []
     for quantity, size in sizes.items():
         if size == UNLIMITED:
@@ -89,7 +89,7 @@ def _margins(loop: LoopReport) -> str:
 
 
 def _lines(loop: LoopReport) -> Iterator[str]:
-    """Yield a loop's line, and below it one for each quantity that is not available, and one for the campaign."""
+    """Yield the line of a loop, followed by a line for each missing quantity, and one for the campaign."""
     words = _margins(loop)
     if loop.agreement is not None:
         words += (

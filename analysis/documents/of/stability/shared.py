@@ -1,7 +1,7 @@
-"""Figures that are the same for several loops, as those of three identical axes, stand with the first of them.
+"""Figures common to several loops, such as identical axes, are shown once, with the first loop.
 
-Two figures are the same if they have the same words, lines and marks, and no point of one is further than `TOLERANCE`
-from its place in the other: less than half the width of a line.
+Two figures are equal if they have the same texts, lines and marks, and no point differs by more than `TOLERANCE`, less
+than half the width of a line.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ ByPart = dict[str, list[Figure]]  # by the part of a loop's section that they be
 
 @dataclass(frozen=True)
 class FigureContent:
-    """Content of a figure: everything but points, and the points (pt)."""
+    """Content of a figure for comparison: everything but points, and the points (pt)."""
 
     strokes: Sequence[object]
     points: np.ndarray
@@ -33,7 +33,7 @@ class FigureContent:
 
 @dataclass(frozen=True)
 class Shared:
-    """The figures that stand with a loop, and by the number of another loop the labels of those that stand there."""
+    """The figures shown with a loop, and the labels of those shown with another loop, by its index."""
 
     figures: ByPart
     elsewhere: dict[int, list[str]]
@@ -47,7 +47,7 @@ class _Distinct:
 
 
 def picture_of(figure: Figure) -> FigureContent:
-    """Return what a figure shows; points outside of the axes are at their edges."""
+    """Return the content of a figure; points outside the axes are moved to their edges."""
     charts = [chart for chart in (figure.chart, figure.below) if chart is not None]
     width, height = POINTS * (PANEL_WIDTH if figure.is_narrow else HALF_WIDTH), POINTS * figure.height
     points = [each for chart in charts for each in _points(chart, width, height)]
@@ -66,7 +66,7 @@ def _look(mark: Any) -> list[object]:
 
 
 def _points(chart: Chart, width: float, height: float) -> Iterator[np.ndarray]:
-    """Yield coordinates (pt) of everything in a chart, if its axes fill the figure."""
+    """Yield the coordinates (pt) of everything in a chart whose axes would fill the figure."""
 
     def across(x: object, *, of_axes: bool = False) -> np.ndarray:
         return width * _fractions(chart.x, x, of_axes)
@@ -100,14 +100,16 @@ def _fractions(axis: Axis, values: object, of_axes: bool) -> np.ndarray:
 
 
 def alike(one: FigureContent, other: FigureContent) -> bool:
-    """Return True if two pictures are indistinguishable."""
+    """Return True if two figures are indistinguishable."""
     if one.strokes != other.strokes or one.points.size != other.points.size:
         return False
     return np.allclose(one.points, other.points, rtol=0.0, atol=TOLERANCE, equal_nan=True)
 
 
 def share(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[Shared]:
-    """Return the figures that stand with each loop: each of ``figures``, those of each, with the first that has it."""
+    """Return the figures to show with each loop: each of ``figures``, those of all loops, with the first that has
+    it.
+    """
     distinct: dict[str, list[_Distinct]] = {}
     retained: list[dict[str, list[_Distinct]]] = []
     elsewhere: list[dict[int, list[str]]] = [{} for _ in loops]
@@ -131,7 +133,7 @@ def share(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[Shared
 
 
 def _titled(one: _Distinct, loops: Sequence[LoopReport]) -> Figure:
-    """Return a figure whose label names its loops where there are several."""
+    """Return a figure whose label names its loops if there are several."""
     if len(one.loops) == 1:
         return one.figure
     names = together([loops[index] for index in one.loops])
@@ -139,7 +141,7 @@ def _titled(one: _Distinct, loops: Sequence[LoopReport]) -> Figure:
 
 
 def together(loops: Sequence[LoopReport]) -> str:
-    """Return names of loops, the elements of a vector brought together, with operating points where these differ."""
+    """Return the names of loops, with elements of a vector combined, and with operating points if these differ."""
     points = len({loop.point for loop in loops}) > 1
     stems: dict[tuple[str, str], list[str]] = {}
     for loop in loops:

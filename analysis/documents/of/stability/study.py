@@ -1,4 +1,4 @@
-"""The document of a stability study, in the order in which a board reads it: verdict, margins, loops, origin."""
+"""Document of a stability study in the order of a review board: verdict, margins, loops, origin."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from .words import fold_long, gain_margin, phase_margin, size, verdict
 def stability_document(report: StabilityStudy, command: str = "") -> Document:
     """Return the document of a study, which ``command`` repeats.
 
-    How long it took is in a terminal only, so that its page is always the same.
+    The computing time is shown only in a terminal, so that the page is reproducible.
     """
     summary: list[Node] = [
         Printed(stability_lines(report)),

@@ -1,4 +1,4 @@
-"""Margins over parameters: figures, and for each sweep where limits are crossed."""
+"""Margins over parameters: figures, and the crossings of limits in each sweep."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .words import UNSTABLE_WORD, gain_margin, numbers, numeral, phase_margin, s
 
 
 def sweep_nodes(report: StabilityStudy) -> list[Node]:
-    """Return all sweeps of a study."""
+    """Return the nodes of all sweeps of a study."""
     return [
         Figures(
             lambda: [sweep_figure(sweep, report, f"sweep-{index + 1}") for index, sweep in enumerate(report.sweeps)]
@@ -50,7 +50,7 @@ def value_table(sweep: SweepReport) -> Table:
 
 
 def crossing_table(sweep: SweepReport) -> Table:
-    """Return where which limit is crossed."""
+    """Return the parameter values at which limits are crossed."""
     rows = [
         (
             UNSTABLE_WORD if crossing.quantity is MarginQuantity.STABILITY else f"{crossing.quantity} misses its limit",

@@ -1,4 +1,4 @@
-"""The requirement on margins that is nearest to its limit, and the dispersion of its loop, in a line each."""
+"""The margin nearest to its limit, and the dispersion of its loop, a line each."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ from .words import crossing_text, limit, link, size
 
 
 def tightest(report: StabilityStudy, scopes: tuple[Scope, ...] = tuple(Scope)) -> JudgedRequirement | None:
-    """Return the requirement on a margin with the least relative reserve, the first of equal ones.
+    """Return the margin requirement with the least relative reserve, the first of equal ones; None without limits.
 
-    Instability has less than any margin, that of the loop less than that of its trials. None: no margin has a limit.
+    Instability counts as less reserve than any margin, that of the loop as less than that of its trials.
     """
     known = [each for each in report.judgements() if _is_margin(each.requirement) and each.requirement.scope in scopes]
     return min(known, key=lambda each: (_reserve(each.requirement), scopes.index(each.requirement.scope)), default=None)
 
 
 def is_tightest(report: StabilityStudy, subject: LoopReport | JointReport) -> bool:
-    """Return True if a loop, one of several, has the tightest margin."""
+    """Return True if a loop, among several, has the tightest margin."""
     nearest = tightest(report)
     return nearest is not None and nearest.subject is subject and len(report.loops) + len(report.joint) > 1
 
 
 def with_mark(report: StabilityStudy, loop: LoopReport, name: Inline) -> Cell:
-    """Return the name of a loop for a table, marked where it has the tightest margin."""
+    """Return the name of a loop for a table, marked if it has the tightest margin."""
     return Phrase([name, " ", Strong(TIGHTEST)]) if is_tightest(report, loop) else name
 
 
 def tightest_nodes(report: StabilityStudy) -> list[Text]:
-    """Return the tightest margin with its limit, or that no margin has one; nothing without a loop."""
+    """Return a statement of the tightest margin with its limit, or that no margin has a limit; none without loops."""
     if not report.loops:
         return []
     nearest = tightest(report)
@@ -47,7 +47,7 @@ def tightest_nodes(report: StabilityStudy) -> list[Text]:
 
 
 def dispersion_nodes(report: StabilityStudy) -> list[Text]:
-    """Return how the margins of the loop with the tightest ones vary over a campaign, or how to vary them."""
+    """Return how the margins of the tightest loop vary over a campaign, or how to disperse them."""
     nearest = tightest(report, (Scope.DISPERSED,))
     dispersed = [loop for loop in report.loops if loop.dispersion is not None]
     if not dispersed:

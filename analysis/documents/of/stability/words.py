@@ -1,7 +1,7 @@
 """Cells of a stability study: dB and degrees, infinite margins, verdicts.
 
-No cell is "inf" or "nan": an infinite margin has no crossing, an unstable loop has no margins, any other number that
-is not finite is a dash.
+No cell is "inf" or "nan": an infinite margin has no crossing, an unstable loop has no margins, and any other non-finite
+number is a dash.
 """
 
 from __future__ import annotations
@@ -37,12 +37,12 @@ LONG = 30  # rows; longer tables are folded
 
 
 def names(*texts: str) -> list[Head]:
-    """Return heads of columns of names, which remain in one line."""
+    """Return heads of columns of names, which stay on one line."""
     return [Head(text, column="names") for text in texts]
 
 
 def numbers(*texts: str) -> list[Head]:
-    """Return heads of columns of numbers, some of which are words."""
+    """Return heads of columns of numbers, with words in some cells."""
     return [Head(text, column="numbers") for text in texts]
 
 
@@ -52,7 +52,7 @@ def sentences(*texts: str) -> list[Head]:
 
 
 def fold_long(table: Table, rows: str) -> Node:
-    """Return a table, folded if it is long; ``rows`` is their name."""
+    """Return a table, folded if it is long; ``rows`` names what its rows are."""
     return Fold(f"All {len(table.rows)} {rows}", [table]) if len(table.rows) > LONG else table
 
 
@@ -63,7 +63,7 @@ def _display(exact: float | complex, displayed: float, digits: int, infinite: st
 
 
 def numeral(value: Any, unit: str | None = None, digits: int = 4, infinite: str = NONE) -> Quantity | str:
-    """Return a number in the displayed unit (degrees for radians), without the unit."""
+    """Return a number as a cell in the displayed unit (degrees for radians), without the unit."""
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, float) and not math.isfinite(value):
@@ -72,18 +72,18 @@ def numeral(value: Any, unit: str | None = None, digits: int = 4, infinite: str 
 
 
 def anchor(index: int) -> str:
-    """Return the anchor of a loop's article; names may hold characters that an anchor cannot."""
+    """Return the anchor of a loop's article, a number because names may contain other characters."""
     return f"loop-{index + 1}"
 
 
 def link(report: StabilityStudy, subject: LoopReport | JointReport) -> Link | str:
-    """Return the name of a loop, which leads to its article, or of channels, which have none."""
+    """Return the name of a loop with a link to its article, or of channels, which have none."""
     index = next((index for index, loop in enumerate(report.loops) if loop is subject), None)
     return subject.name if index is None else Link(subject.name, anchor(index))
 
 
 def in_decibels(factor: float | None, infinite: str = NO_CROSSING, *, absolute: bool = False) -> Inline:
-    """Return a factor in dB, without the unit; ``absolute``: its distance from 1, up or down."""
+    """Return a factor in dB, without the unit; with ``absolute`` its distance from 1 in either direction."""
     if factor is None:
         return numeral(None)
     displayed = decibel_size(factor) if absolute else decibels(float(factor))
@@ -101,7 +101,7 @@ def per_cent(value: float | None) -> Inline:
 
 
 def complex_number(value: complex, digits: int = 4) -> Inline:
-    """Return a complex number in Cartesian form; the upper one of a pair stands for both, with ±."""
+    """Return a complex number in Cartesian form; the upper pole of a conjugate pair stands for both, with ±."""
     value = complex(value)
     if not (math.isfinite(value.real) and math.isfinite(value.imag)):
         return numeral(None)
@@ -112,7 +112,7 @@ def complex_number(value: complex, digits: int = 4) -> Inline:
 
 
 def left_out(part: str, reason: str, loop: LoopReport) -> Rich:
-    """Return why a part of a loop's study is missing; without a count of encirclements, what judges stability."""
+    """Return why a part of a loop's study is missing; without a count of encirclements also how stability is judged."""
     if part != "encirclements" or loop.classical.encirclements is not None:
         return f"{part} is not applicable: {reason}"
     words = f"Encirclements of {MINUS}1 are not counted: {reason}"
@@ -123,10 +123,10 @@ def left_out(part: str, reason: str, loop: LoopReport) -> Rich:
 
 
 def mode_numbers(z: complex, s: complex, damping: float, frequency: float) -> tuple[Cell, Cell, Cell]:
-    """Return s (rad/s), damping and frequency (rad/s) of a closed-loop pole z; dashes where they mean nothing.
+    """Return s (rad/s), damping and frequency (rad/s) of a closed-loop pole z; dashes where they are meaningless.
 
-    ln(z)/T of a real z below 0 has an imaginary part, that of half the sampling rate, and no conjugate: there is one
-    pole, which changes its sign with every sample. At z = 0 there is no logarithm.
+    For real negative z, ln(z)/T has an imaginary part, half the sampling frequency, but no conjugate: it is a single
+    pole that changes sign with every sample. At z = 0 there is no logarithm.
     """
     if z.imag == 0.0 and z.real <= 0.0:
         return numeral(None), numeral(None), numeral(None)
@@ -134,7 +134,7 @@ def mode_numbers(z: complex, s: complex, damping: float, frequency: float) -> tu
 
 
 def state(margins: LoopMargins) -> Strong | None:
-    """Return the word in the place of margins that an unstable loop does not have."""
+    """Return the word that replaces the margins of an unstable loop; None for others."""
     return Strong(UNSTABLE_WORD) if margins.unstable else None
 
 
@@ -147,7 +147,7 @@ def gain_margin(margins: LoopMargins) -> Cell:
 
 
 def phase_margin(margins: LoopMargins) -> Cell:
-    """Return a phase margin in degrees; a lead is marked as one."""
+    """Return a phase margin in degrees; a lead is marked."""
     if margins.unstable or not math.isfinite(margins.phase):
         return state(margins) or NO_CROSSING
     displayed = _display(float(margins.phase), degree_size(margins.phase), 4, NO_CROSSING)
@@ -155,7 +155,7 @@ def phase_margin(margins: LoopMargins) -> Cell:
 
 
 def size(value: float | None) -> Inline:
-    """Return the size of a margin in its unit: a number, unstable, or without a crossing."""
+    """Return a margin in its unit: a number, "unstable", or "no crossing"."""
     return Strong(UNSTABLE_WORD) if value == UNSTABLE else numeral(value, infinite=NO_CROSSING)
 
 
@@ -165,12 +165,12 @@ def samples(delay: float, period: float) -> Quantity | str:
 
 
 def verdict(word: MarginVerdict) -> Judged:
-    """Return a verdict with its sign and colour."""
+    """Return a verdict with its symbol and colour."""
     return Judged(f"{SIGNS[word]} {word}", GRADES[word])
 
 
 def text_of_closed_loop(stable: bool | None) -> str:
-    """Return whether the closed loop is stable, in a word or two."""
+    """Return the stability of the closed loop in a word or two."""
     return {True: "stable", False: "unstable", None: "not known"}[None if stable is None else bool(stable)]
 
 

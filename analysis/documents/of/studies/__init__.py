@@ -1,1 +1,1 @@
-"""Documents of studies that choose the draws of a campaign: rare failure, worst case, sensitivity."""
+"""Documents of studies that choose the samples of a campaign: rare failure, worst case, sensitivity."""

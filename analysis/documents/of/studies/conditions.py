@@ -1,4 +1,4 @@
-"""Common statements of all studies: the conditions of their numbers, dispersed parameters, replays, provenance."""
+"""Statements common to all studies: conditions of their numbers, dispersed parameters, replays, provenance."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ UNWRITTEN: Rich = [
 
 
 def condition_of(study: StudyResult) -> str:
-    """Return what all numbers of a study are conditional on; empty where they are not."""
+    """Return the condition of all numbers of a study; empty if they are unconditional."""
     return study.conditions.removeprefix(", ")
 
 
 def condition_nodes(study: StudyResult, noise: str = "random") -> list[Node]:
-    """Return the statements on system, campaign, dispersed parameters, noise, faults and assumptions.
+    """Return statements on system, campaign, dispersed parameters, noise, faults and assumptions.
 
-    ``noise`` is how the random noise of components is simulated.
+    ``noise`` describes how the random noise of components is simulated.
     """
     provenance = study.facts
     (variant,) = provenance["fmus"]
@@ -43,7 +43,7 @@ def condition_nodes(study: StudyResult, noise: str = "random") -> list[Node]:
 
 
 def campaign_name(label: str) -> str:
-    """Return a campaign's name as commands take it: of a system's own campaign its stem, else the file."""
+    """Return a campaign's name as commands accept it: the stem of a system's own campaign, else the file."""
     inside = label.partition("!")[2]
     return PurePosixPath(inside).stem if inside else label
 
@@ -66,7 +66,7 @@ def _noise(noise: Noise, random: str) -> str:
 def closing_sections(
     study: StudyResult, replays: Sequence[tuple[str, str]], missing: Rich = UNWRITTEN
 ) -> list[Section]:
-    """Return replays, dispersed parameters and provenance; ``missing`` says why there are no replays."""
+    """Return replays, dispersed parameters and provenance; ``missing`` states why there are no replays."""
     return [
         Section("Replay", [Commands(replays, missing)]),
         Section("Dispersed parameters", [Only(Medium.PAGE, lambda: _draws(study))]),

@@ -1,4 +1,4 @@
-"""The document of a rare failure: probability, interval and their conditions, levels, design points, replays."""
+"""Document of a rare failure: probability, interval and their conditions, levels, design points, replays."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ DECIMALS = 3  # of acceptance rates
 
 
 def rare_document(study: RareOutcome, folder: Path | None = None) -> Document:
-    """Return the document of a rare failure; ``folder`` is where it has been written, if it has."""
+    """Return the document of a rare failure; ``folder`` is the folder that stores it, if any."""
     condition = condition_of(study)
     verdict = Verdict(
         [*_estimate(study), study.conditions],
@@ -68,7 +68,7 @@ def rare_document(study: RareOutcome, folder: Path | None = None) -> Document:
 
 
 def _estimate(study: RareOutcome) -> Rich:
-    """Return the probability with its interval, or what bounds it; no more digits than the interval leaves."""
+    """Return the probability with its interval, or its bound, with no more digits than the interval justifies."""
     low, high = (Quantity(end, digits=max(study.digits, 2)) for end in study.interval)
     estimate = Quantity(study.probability, digits=study.digits)
     if study.probability is None:
@@ -79,7 +79,7 @@ def _estimate(study: RareOutcome) -> Rich:
 
 
 def _bound(study: RareOutcome) -> Rich:
-    """Return why levels ended, and how many Monte Carlo simulations bound what is below."""
+    """Return why levels ended, and how many Monte Carlo simulations would bound smaller probabilities."""
     trials = study.brute_force
     if trials is None:
         return f"{study.why_levels_ended}; what is below that level is bounded as Monte Carlo bounds it"
@@ -164,7 +164,7 @@ def _design_nodes(study: RareOutcome) -> list[Node]:
 
 
 def design_table(study: RareOutcome) -> Table:
-    """Return a row for each design point: distance, limit state, dispersed parameters, the noise of each component."""
+    """Return a row for each design point: distance, limit state, dispersed parameters, noise of each component."""
     names, sources, units = study.space.names, study.noise.sources, study.units
     rows: list[tuple[Cell, ...]] = [
         (
@@ -200,7 +200,7 @@ def _influence(study: RareOutcome) -> list[Node]:
 
 
 def _replays(study: RareOutcome, folder: Path | None) -> list[tuple[str, str]]:
-    """Return commands with what they do: design points where they were written, a lower bound where levels ended."""
+    """Return commands with their purposes: the replay of stored design points, and Monte Carlo for a lower bound."""
     command = study.replay(folder, 0) if study.failures else ""
     replays = [("design point 0; trial K of the file is design point K", command)] if command else []
     if study.monte_carlo:

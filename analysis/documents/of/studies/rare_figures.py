@@ -1,4 +1,4 @@
-"""The figures of a rare failure: limit state over simulations, exceedance probability, design points, intervals."""
+"""Figures of a rare failure: limit state over simulations, exceedance probability, design points, intervals."""
 
 from __future__ import annotations
 
@@ -75,17 +75,17 @@ def limit_state_chart(study: RareOutcome) -> Chart:
 
 
 def curve_legend(chart: Chart) -> list[LegendEntry]:
-    """Return the named curves of a chart."""
+    """Return legend entries for the named curves of a chart."""
     return [LegendEntry(curve, [curve.name]) for curve in chart.curves if curve.name]
 
 
 def number_above(text: str, at: float) -> ChartNote:
-    """Return a number above the axes, at an abscissa."""
+    """Return a number above the axes at an abscissa."""
     return ChartNote(text, (at, 1.0), (False, True), (0.0, 2.0), ("center", "bottom"), INK, 8.5)
 
 
 def limits_of(values: np.ndarray) -> tuple[float, float]:
-    """Return ends of an axis that shows all limit-state values but the smallest few, and 0."""
+    """Return the ends of an axis that shows 0 and all limit-state values but the few smallest."""
     finite = values[np.isfinite(values)]
     low = min(float(quantiles(finite, [CUT])[0]), 0.0) if finite.size else -1.0
     high = max(float(finite.max()), 0.0) if finite.size else 1.0
@@ -94,13 +94,13 @@ def limits_of(values: np.ndarray) -> tuple[float, float]:
 
 
 def exceedance_figures(study: RareOutcome) -> list[Figure]:
-    """Return how probable it is that the limit state is above a value."""
+    """Return the probability that the limit state exceeds a value."""
     words, chart = "Probability that the limit state exceeds a value", exceedance_chart(study)
     return [Figure("Exceedance probability", "exceedance", words, chart, HEIGHT, legend=curve_legend(chart))]
 
 
 def exceedance_chart(study: RareOutcome) -> Chart:
-    """Return the first level's empirical curve, the thresholds of levels, the failure with its interval."""
+    """Return the empirical curve of the first level, the thresholds of levels, and the failure with its interval."""
     spans = level_spans(study)
     factor = display_factor(study.margin_unit)
     first = np.sort(factor * study.flown.values[: spans[0].last])
@@ -158,7 +158,7 @@ def design_figures(study: RareOutcome) -> list[Figure]:
 
 
 def design_chart(study: RareOutcome, one: str, other: str) -> Chart:
-    """Return one pair: level 1 in grey, failures in colour, design points with their numbers."""
+    """Return the chart of one pair: level 1 in grey, failures in colour, design points with their numbers."""
     units = [study.units.get(name) for name in (one, other)]
     factors = [display_factor(unit) for unit in units]
     x, y = (factor * study.flown.draws[name] for factor, name in zip(factors, (one, other), strict=True))
@@ -188,14 +188,14 @@ def design_chart(study: RareOutcome, one: str, other: str) -> Chart:
 
 
 def interval_figures(study: RareOutcome) -> list[Figure]:
-    """Return the interval of this study and those of Monte Carlo."""
+    """Return the interval of this study, and those of Monte Carlo."""
     rows = equivalents(study)
     words, chart = f"{PERCENT} intervals of the probability", interval_chart(rows, study.probability)
     return [Figure("", "interval", words, chart, 0.8 + 0.5 * len(rows), is_wide=True)]
 
 
 def interval_chart(rows: Sequence[Equivalent], probability: float | None) -> Chart:
-    """Return a lane for each with its name above; an interval that begins at 0 goes on to the left, with an arrow."""
+    """Return a lane for each interval with its name above; one from 0 extends to the left end with an arrow."""
     positive = [end for row in rows for end in (row.low, row.high, probability or 0.0) if end > 0.0]
     left = 0.3 * min(positive)
     curves, notes = [], []

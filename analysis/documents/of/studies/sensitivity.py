@@ -1,4 +1,4 @@
-"""The document of a sensitivity study: which dispersed parameters drive which metrics, and under which conditions."""
+"""Document of a sensitivity study: the dispersed parameters that drive each metric, and the conditions."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PERCENT = f"{100 * CONFIDENCE:g} %"
 
 
 def sensitivity_document(study: SensitivityOutcome, folder: Path | None = None) -> Document:
-    """Return the document of a sensitivity study; ``folder`` is where it has been written, if it has."""
+    """Return the document of a sensitivity study; ``folder`` is the folder that stores it, if any."""
     condition = condition_of(study)
     count = len(study.with_indices) + len(study.without_indices)
     noise = "random; all of these components are one input, the noise realisation"
@@ -68,7 +68,7 @@ def _drivers(study: SensitivityOutcome) -> list[Node]:
 
 
 def driver_table(study: SensitivityOutcome) -> Table:
-    """Return a row for each metric: its parameter with the largest total index, and the sum of first-order indices."""
+    """Return a row for each metric: the parameter with the largest total index, and the sum of first-order indices."""
     rows: list[tuple[Cell, ...]] = []
     for metric in study.with_indices:
         bars = bars_of(study, metric)
@@ -98,7 +98,7 @@ def _indices(study: SensitivityOutcome) -> list[Node]:
 
 
 def index_table(study: SensitivityOutcome, metric: str) -> Table:
-    """Return a row for each parameter with the indices of one metric, by total index."""
+    """Return a row for each parameter with the indices of one metric, ordered by total index."""
     rows = [
         (
             bar.name,

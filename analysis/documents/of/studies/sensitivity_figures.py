@@ -1,4 +1,4 @@
-"""The figures of a sensitivity study: for each metric the indices of parameters as bars with their intervals."""
+"""Figures of a sensitivity study: for each metric the indices of parameters as bars with confidence intervals."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ ORDERS = (BLUE, SKY)  # total, first order
 
 
 class IndexBar(NamedTuple):
-    """A parameter's indices for a metric, each with the two ends of its interval."""
+    """A parameter's indices for a metric, each with the ends of its interval."""
 
     name: str
     total: float
@@ -38,7 +38,7 @@ class IndexBar(NamedTuple):
 
 
 def bars_of(study: SensitivityOutcome, metric: str) -> list[IndexBar]:
-    """Return a bar for each parameter, by total index, the largest first."""
+    """Return a bar for each parameter, in descending order of total index."""
     bars = [
         IndexBar(
             name,
@@ -55,13 +55,13 @@ def bars_of(study: SensitivityOutcome, metric: str) -> list[IndexBar]:
 
 
 def _ends(interval: list[float | None]) -> tuple[float, float]:
-    """Return the ends of an interval, nan where JSON has none."""
+    """Return the ends of an interval, NaN where JSON has None."""
     low, high = (math.nan if end is None else end for end in interval)
     return low, high
 
 
 def index_figures(study: SensitivityOutcome, metrics: Sequence[str]) -> list[Figure]:
-    """Return a figure of the indices of each metric."""
+    """Return a figure of the indices for each metric."""
     figures = []
     for index, metric in enumerate(metrics):
         bars = bars_of(study, metric)[:MOST]
@@ -71,7 +71,7 @@ def index_figures(study: SensitivityOutcome, metrics: Sequence[str]) -> list[Fig
 
 
 def index_chart(bars: Sequence[IndexBar]) -> Chart:
-    """Return two bars for each parameter with its intervals: total above, first-order below."""
+    """Return two bars for each parameter with confidence intervals: total above, first-order below."""
     areas, curves = [], []
     for lane, bar in enumerate(bars):
         for size, ends, offset, colour in (

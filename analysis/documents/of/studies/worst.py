@@ -1,4 +1,4 @@
-"""The document of a worst case: its number and conditions, the search, random trials, the box, its simulation."""
+"""Document of a worst case: value and conditions, search, random trials, box, simulation."""
 
 from __future__ import annotations
 
@@ -33,10 +33,9 @@ Simulate = Callable[[], tuple[Result, Sequence[FigureDeclaration]]]
 
 
 def worst_document(study: WorstOutcome, folder: Path | None = None, simulate: Simulate | None = None) -> Document:
-    """Return the document of a worst case; ``folder`` is where it has been written, if it has.
+    """Return the document of a worst case; ``folder`` is the folder that stores it, if any.
 
-    ``simulate`` returns the worst case with all signals, and the figures that the system declares; None where a margin
-    was studied.
+    ``simulate`` returns the worst case with all signals and the figures that the system declares; None for a margin.
     """
     condition = condition_of(study)
     replay = study.replay(folder, 0)
@@ -115,7 +114,7 @@ def _verdict(study: WorstOutcome) -> Verdict:
 
 
 def _sized(study: WorstOutcome, size: float | str | None, *, is_bare: bool = False) -> Quantity | str:
-    """Return a number of the objective; that of a simulation without one is that it failed."""
+    """Return a value of the objective; for a simulation without one that it failed."""
     return _cell(size, study.unit, is_bare=is_bare)
 
 
@@ -126,7 +125,7 @@ def _cell(size: float | str | None, unit: str | None, *, is_bare: bool = True) -
 
 
 def _fresh(study: WorstOutcome) -> list[Node]:
-    """Return what fresh noise does to the worst case; nothing where the noise is not random."""
+    """Return the effect of new noise on the worst case; none if noise is not random."""
     if study.fresh is None or study.over is None:
         return []
     fresh = study.fresh.document(study.as_json)
@@ -141,7 +140,7 @@ def _fresh(study: WorstOutcome) -> list[Node]:
 
 
 def _noise(study: WorstOutcome) -> str:
-    """Return how the search had random noise."""
+    """Return how the search treated random noise."""
     assert study.over is not None
     count = study.over.count
     if study.noise_matters is False:
@@ -158,7 +157,7 @@ def _of_realisations(study: WorstOutcome) -> str:
 
 
 def _phases(study: WorstOutcome) -> Table:
-    """Return a row for each phase of the search, with the worst number up to its end, as displayed."""
+    """Return a row for each phase of the search, with the worst value by its end, as displayed."""
     worst = objective_of(study).worst_so_far()
     rows: list[tuple[Cell, ...]] = []
     end = 0
@@ -170,7 +169,7 @@ def _phases(study: WorstOutcome) -> Table:
 
 
 def metric_table(study: WorstOutcome) -> Table:
-    """Return a row for each metric: worst case and worst random trial."""
+    """Return a row for each metric: in the worst case and in the worst random trial."""
     worst, random, units = study.worst["metrics"], study.worst_random["metrics"], study.units
     rows = [
         (label_with_unit(name, units.get(name)), *(_cell(each[name], units.get(name)) for each in (worst, random)))
@@ -217,7 +216,9 @@ def _simulation(study: WorstOutcome, simulate: Simulate) -> list[Node]:
 
 
 def simulate_worst(study: WorstOutcome, plan: BatchPlan) -> tuple[Result, list[FigureDeclaration]]:
-    """Return the worst case with the bits of the search; ``plan`` is that of the study. Raises InputError."""
+    """Simulate the worst case, identical to the search to the last bit; ``plan`` is that of the study. Raises
+    InputError.
+    """
     plotted = study.flown.draws
     names = [*input_names(plan.campaign), *(name for name in plotted if stream_component(name) is not None)]
     given = GivenDraws(*part_streams({name: plotted[name][[study.row]] for name in names}))

@@ -1,4 +1,4 @@
-"""The figures of a worst case: the search, the random trials with the worst, the search box."""
+"""Figures of a worst case: the search, the random trials with the worst case, the search box."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ LANE = 0.52  # in
 
 
 def search_figures(study: WorstOutcome) -> list[Figure]:
-    """Return the objective over the points of the search, the worst so far, the phases."""
+    """Return the objective over the points of the search, with the worst so far and the phases."""
     chart = search_chart(study)
     words = f"{study.badness.text} at {objective_of(study).values.size} points of the search"
     return [Figure("", "search", words, chart, HEIGHT, is_wide=True, legend=curve_legend(chart))]
 
 
 def search_chart(study: WorstOutcome) -> Chart:
-    """Return every point as a dot, the worst so far as a line, phases by their numbers."""
+    """Return every point as a dot, the worst so far as a line, and phases by number."""
     objective = objective_of(study)
     numbers = np.arange(1.0, objective.values.size + 1.0)
     low, high = objective.limits()
@@ -69,7 +69,7 @@ def search_chart(study: WorstOutcome) -> Chart:
 
 
 class MarkedAbscissa(NamedTuple):
-    """An abscissa that a chart marks if it is finite, as displayed: dashed unless it is the search's."""
+    """An abscissa to mark on a chart if it is finite, as displayed; dashed unless it is the search's result."""
 
     at: float
     colour: str
@@ -77,7 +77,7 @@ class MarkedAbscissa(NamedTuple):
 
     @property
     def dashes(self) -> tuple[float, ...]:
-        """Dashes of the line."""
+        """The dashes of its line."""
         return () if self.colour == VERMILION else DASHED
 
 
@@ -86,7 +86,7 @@ def _rules(levels: Sequence[MarkedAbscissa]) -> list[Rule]:
 
 
 def _legend(first: str, levels: Sequence[MarkedAbscissa]) -> list[LegendEntry]:
-    """Return what is ``first`` in grey, and the levels with their numbers."""
+    """Return legend entries: ``first`` in grey, then the marked levels with their numbers."""
     finite = [each for each in levels if math.isfinite(each.at)]
     return [
         LegendEntry(Look(GREY, "-", ""), [first]),
@@ -100,7 +100,7 @@ def _legend(first: str, levels: Sequence[MarkedAbscissa]) -> list[LegendEntry]:
 
 
 def random_figures(study: WorstOutcome) -> list[Figure]:
-    """Return the random trials with the worst case, and the worst case under fresh noise where that changes it."""
+    """Return the random trials with the worst case, and if new noise changes it, the worst case under new noise."""
     words = f"{study.badness.text}: {study.random_trials} random trials and the worst case"
     legend = _legend(f"{study.random_trials} random trials", _trial_levels(objective_of(study)))
     figures = [Figure("Worst case against random trials", "trials", words, trials_chart(study), HEIGHT, legend=legend)]
@@ -120,7 +120,7 @@ def _trial_levels(objective: ObjectiveValues) -> list[MarkedAbscissa]:
 
 
 def trials_chart(study: WorstOutcome) -> Chart:
-    """Return the histogram of the random trials, marks at the worst of them and at the worst case."""
+    """Return the histogram of the random trials, with marks at the worst of them and at the worst case."""
     objective = objective_of(study)
     trials = objective.values[: study.random_trials]
     finite = trials[np.isfinite(trials)]
@@ -142,7 +142,7 @@ def trials_chart(study: WorstOutcome) -> Chart:
 
 
 def _fresh_levels(study: WorstOutcome) -> list[MarkedAbscissa]:
-    """Return the realisations' quantile, their worst, and the value of the search."""
+    """Return the quantile and the worst of the realisations, and the value of the search."""
     assert study.fresh is not None
     assert study.over is not None
     middle = () if study.fresh.quantile == 1.0 else ((study.fresh.at_quantile, BLUE, f"their {study.over.name}"),)
@@ -155,7 +155,7 @@ def _fresh_levels(study: WorstOutcome) -> list[MarkedAbscissa]:
 
 
 def fresh_chart(study: WorstOutcome) -> Chart:
-    """Return the fraction of fresh realisations up to a value, marks at the levels of `_fresh_levels`."""
+    """Return the fraction of new realisations up to a value, with marks at `_fresh_levels`."""
     assert study.fresh is not None
     ranked = select_values(study, np.sort(study.fresh.values))
     fraction = np.arange(1.0, ranked.size + 1.0) / ranked.size
@@ -176,7 +176,7 @@ BOX_LEGEND = [LegendEntry(RANDOM, ["worst random trial"]), LegendEntry(WORST, ["
 
 
 def box_figures(study: WorstOutcome) -> list[Figure]:
-    """Return where in the search box the worst case lies, a lane for each dispersed parameter."""
+    """Return the position of the worst case in the search box, a lane for each dispersed parameter."""
     lanes = box_lanes(study)
     words = f"The worst case within the search box of {len(lanes)} parameters"
     height = 0.7 + LANE * len(lanes)
@@ -184,7 +184,7 @@ def box_figures(study: WorstOutcome) -> list[Figure]:
 
 
 def box_chart(lanes: Sequence[Lane]) -> Chart:
-    """Return positions as fractions of the box; the ends' values stand at the ends."""
+    """Return positions as fractions of the box, with the values of its ends as labels."""
     curves, areas, notes = [], [], []
     for index, lane in enumerate(lanes):
         areas.append(outline(np.array([0.0, 1.0]), np.full(2, float(index)), GRID, 5.0))

@@ -1,4 +1,4 @@
-"""A search for the worst case as its document has it: the objective of its points, lanes of the search box."""
+"""Data of a worst-case search for its document: objective of its points, lanes of the search box."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ CUT = 0.02  # of the simulations, those farthest from the worst may lie outside 
 
 
 class ObjectiveValues(NamedTuple):
-    """The objective of all points of a search in their order, as a page shows it.
+    """The objective of all points of a search in order, as displayed.
 
-    ``values`` (points,) are nan where there is none, and ``failed`` says which did not come to their end, or are
-    unstable. ``rising`` says that a larger value is worse; a margin is worse where it is smaller. ``worst`` and
-    ``random`` are the places of the worst point and of the worst random trial.
+    ``values`` (points,) are NaN without one; ``failed`` marks points that did not complete or are unstable. ``rising``
+    is True if larger values are worse, False for a margin. ``worst`` and ``random`` are the indices of the worst point
+    and of the worst random trial.
     """
 
     label: str
@@ -30,7 +30,7 @@ class ObjectiveValues(NamedTuple):
     random: int
 
     def limits(self) -> tuple[float, float]:
-        """Return ends of an axis with the worst value on it, and all but a few of the others."""
+        """Return the ends of an axis that shows the worst value, and all but a few of the others."""
         finite = self.values[np.isfinite(self.values)]
         if not finite.size:
             return -1.0, 1.0
@@ -41,14 +41,15 @@ class ObjectiveValues(NamedTuple):
         return low - margin, high + margin
 
     def worst_so_far(self) -> np.ndarray:
-        """Return the worst value up to each point; nan before the first."""
+        """Return the worst value up to each point; NaN before the first value."""
         return np.fmax.accumulate(self.values) if self.rising else np.fmin.accumulate(self.values)
 
 
 def point_values(study: WorstOutcome) -> np.ndarray:
-    """Return the objective (points,) of every point of the search, the larger the worse; fresh noise is left out.
+    """Return the objective of every point of the search, (points,), larger is worse, without new noise.
 
-    Each point flies the realisations of the noise in a row; where noise does not matter, one after the random trials.
+    Each point is simulated with all realisations of the noise in a row; after the random trials only once if noise does
+    not matter.
     """
     count = 1 if study.over is None else study.over.count
     later = 1 if study.noise_matters is False else count
@@ -63,7 +64,7 @@ def point_values(study: WorstOutcome) -> np.ndarray:
 
 
 def objective_of(study: WorstOutcome) -> ObjectiveValues:
-    """Return the objective of all points in the order in which they were flown, angles in degrees."""
+    """Return the objective of all points in the order of simulation, angles in degrees."""
     values = point_values(study)
     displayed = select_values(study, values)
     label = label_with_unit(study.badness.text, study.unit)
@@ -74,14 +75,14 @@ def objective_of(study: WorstOutcome) -> ObjectiveValues:
 
 
 def select_values(study: WorstOutcome, values: np.ndarray) -> np.ndarray:
-    """Return the numbers that values of the objective stand for, in the unit that is shown; nan where there is none."""
+    """Return the displayed numbers for values of the objective, in the displayed unit; NaN where there is none."""
     sizes = np.array([study.badness.size(float(value)) for value in values])
     known = np.isfinite(sizes) & (np.abs(sizes) < MOST)
     return np.where(known, sizes * display_factor(study.unit), np.nan)
 
 
 class Lane(NamedTuple):
-    """A dispersed parameter in the box: its ends, and its values at the worst case and the worst random trial."""
+    """A dispersed parameter in the box: its ends, and its values in the worst case and in the worst random trial."""
 
     name: str
     unit: str

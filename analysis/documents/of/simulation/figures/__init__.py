@@ -1,1 +1,1 @@
-"""The figures that a system declares, as nodes of a document."""
+"""Figures that a system declares, as nodes of a document."""

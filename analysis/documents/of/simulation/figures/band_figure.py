@@ -28,21 +28,21 @@ WIDE = 4.0  # range of the signal over the width of the band from which a zoom i
 
 
 def inside(band: BandFigure, result: Result) -> np.ndarray:
-    """Return whether each sample of each element is within the band, limits included; nan is not."""
+    """Return True for each sample of each element within the band, limits included; NaN is outside."""
     values = band.values(result)
     low, high = (-np.inf if band.low is None else band.low), (np.inf if band.high is None else band.high)
     return (values >= low) & (values <= high) & np.isfinite(values)
 
 
 def settling_row(condition: np.ndarray) -> int | None:
-    """Return the first sample from which a condition holds to the last one; None if it does not hold at the last."""
+    """Return the first sample from which a condition holds until the last; None if it does not hold at the last."""
     failing = np.flatnonzero(~condition)
     row = int(failing[-1]) + 1 if failing.size else 0
     return None if row == condition.size else row
 
 
 def settling_text(name: str, time: np.ndarray, condition: np.ndarray) -> list[Inline]:
-    """Return the settling time of a condition called ``name``: from then on it holds to the end."""
+    """Return the settling time of a condition called ``name``, from which it holds until the end, as text."""
     row = settling_row(condition)
     if row is None:
         return [f"not {name} at the end"]
@@ -53,7 +53,7 @@ def settling_text(name: str, time: np.ndarray, condition: np.ndarray) -> list[In
 
 
 def band_section(band: BandFigure, result: Result, name: str) -> Group:
-    """Return the section of a band; ``name`` must differ between the figures of a page."""
+    """Return the section of a band; ``name`` must be unique among the figures of a page."""
     within, values, time = inside(band, result), band.plot_values(result), result.time
     row = settling_row(np.logical_and.reduce(within))
     factor, unit = display_factor(band.signal.unit_name), display_unit(band.signal.unit_name)
@@ -94,7 +94,7 @@ def band_section(band: BandFigure, result: Result, name: str) -> Group:
 
 
 def _ends(values: np.ndarray, limits: list[float]) -> tuple[float, float]:
-    """Return the ends of the ordinate: those of the values, or of both where a limit is beyond them."""
+    """Return the ends of the ordinate, which enclose the values and any limit beyond them."""
     ends = axis_ends(values)
     for count, limit in enumerate(limits, 1):
         if not ends[0] <= limit <= ends[1]:
@@ -114,7 +114,7 @@ def _spans(band: BandFigure, result: Result) -> list[tuple[float, float]]:
 
 
 def against_chart(band: BandFigure, result: Result, other: Signal) -> Chart:
-    """Return the chart of a band's signal over another one, on a logarithmic scale where that spans decades."""
+    """Return a band's signal over another one, on a logarithmic scale if that spans decades."""
     abscissa, unit = other.plot_values(result)[0], display_unit(other.unit_name)
     label = f"{other.label}, {unit}" if unit else other.label
     placed = np.isfinite(abscissa)
@@ -141,7 +141,7 @@ def against_chart(band: BandFigure, result: Result, other: Signal) -> Chart:
 
 
 def _zoom_limits(values: np.ndarray, low: float, high: float) -> tuple[float, float] | None:
-    """Return the limits of the ordinate; None where the full range shows the band well, or no value is near it."""
+    """Return the limits of the zoomed ordinate; None if the full range shows the band well, or no value is near it."""
     finite = values[np.isfinite(values)]
     width = high - low
     margin = 0.5 * (ZOOM - 1.0) * width

@@ -1,4 +1,4 @@
-"""The figures that a system declares in its SSD, each below its heading, in the groups that the system declares."""
+"""Figures declared in a system's SSD, each below its heading, in the declared groups."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from .words import condition_text
 
 
 class FigureGroup(NamedTuple):
-    """Figures under a common heading, which a page folds where ``is_folded``."""
+    """Figures under a common heading, folded on a page if ``is_folded``."""
 
     title: str
     is_folded: bool
@@ -45,9 +45,9 @@ class FigureGroup(NamedTuple):
 def figure_groups(
     figures: Sequence[FigureDeclaration], result: Result, system: str
 ) -> tuple[list[Group], list[FigureGroup]]:
-    """Return the tables of limits, which a header counts, and other figures by group.
+    """Return the tables of limits, which a header summarises, and other figures by group.
 
-    Figures without a group stand under the ``system``'s name.
+    Figures without a group are under the ``system``'s name.
     """
     limits: list[Group] = []
     by_group: dict[GroupDeclaration, list[Group]] = {}
@@ -61,7 +61,7 @@ def figure_groups(
 
 
 def figure_sections(figures: Sequence[FigureDeclaration], result: Result) -> list[Group]:
-    """Return each figure but a scene below its heading, in the order of the SSD; none for a run without samples."""
+    """Return a section for each figure except scenes, in the order of the SSD; none for a run without samples."""
     return [subsection for _, subsection in _subsections(figures, result, is_counted=True)]
 
 
@@ -102,7 +102,7 @@ def _subsection(figure: FigureDeclaration, result: Result, name: str, is_counted
 
 
 def joint_findings(figures: Sequence[FigureDeclaration], result: Result) -> list[Rich]:
-    """Return the time from which all bands of one name hold, where several have it."""
+    """Return the time from which all bands with a common name hold."""
     conditions: dict[str, list[np.ndarray]] = {}
     for band in figures:
         if isinstance(band, BandFigure) and result.time.size:
@@ -117,7 +117,7 @@ def joint_findings(figures: Sequence[FigureDeclaration], result: Result) -> list
 
 
 def limit_section(limits: LimitsFigure, result: Result, is_counted: bool) -> Group:
-    """Return the table of limits, how many are met and which not if ``is_counted``, or why none is evaluated."""
+    """Return the table of limits, or why none is evaluated; ``is_counted`` adds how many are met, and which are not."""
     violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is LimitVerdict.VIOLATED]
     obstacle = limits.obstacle(result)
     total = len(limits.limits)

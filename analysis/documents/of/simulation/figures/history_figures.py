@@ -1,4 +1,4 @@
-"""Signals over time: scalars with their limits, and estimation errors with the estimator's standard deviation."""
+"""Signals over time: scalars with limits, and estimation errors with the estimator's standard deviation."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ WIDE = 4.0  # range of the errors over that of the last quarter from which a zoo
 
 
 def error_section(error: ErrorFigure, result: Result, name: str) -> Group:
-    """Return the section of an error; ``name`` must differ between the figures of a page."""
+    """Return the section of an error; ``name`` must be unique among the figures of a page."""
     chosen, rows = select_rows(error.rows, result)
     time = result.time[rows]
     estimate = error.estimate.values(result)
@@ -83,7 +83,7 @@ def _figures(
 
 
 def _final_range(values: np.ndarray, sigma: np.ndarray) -> float | None:
-    """Return the largest magnitude of error and sigma in the last quarter; None where the full range shows it well."""
+    """Return the largest magnitude of error and sigma in the last quarter; None if the full range shows it well."""
     sizes = np.fmax(np.abs(values), np.fmax(SIGMAS[0] * sigma, 0.0))
     later = sizes[3 * values.size // 4 :]
     if not np.any(later > 0.0) or np.nanmax(sizes) <= WIDE * np.nanmax(later):
@@ -94,7 +94,9 @@ def _final_range(values: np.ndarray, sigma: np.ndarray) -> float | None:
 def _findings(
     error: ErrorFigure, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, changed: np.ndarray
 ) -> list[Rich]:
-    """Return the fractions of samples within 1 and 3 sigma where the estimate ``changed``; none without a sigma."""
+    """Return the fractions of samples within 1 and 3 sigma, among those with a ``changed`` estimate; none without
+    sigma.
+    """
     start = time[0] if error.after is None else error.after
     counted = np.isfinite(sigma) & np.isfinite(values) & (time >= start - ROUNDING * abs(start))
     repeats = bool(np.any(counted & ~changed))
@@ -143,7 +145,7 @@ def _caption(error: ErrorFigure, sigma: np.ndarray) -> list[Inline]:
 
 
 def curve_section(curve: CurveFigure, result: Result, name: str) -> Group:
-    """Return the section of curves; ``name`` must differ between the figures of a page."""
+    """Return the section of curves; ``name`` must be unique among the figures of a page."""
     chosen, rows = select_rows(curve.rows, result)
     time = result.time[rows]
     values = [np.where(chosen, signal.values(result)[0], np.nan)[rows] for signal in curve.signals]

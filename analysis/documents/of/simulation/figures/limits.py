@@ -1,4 +1,4 @@
-"""Limits on values at the end of a run: verdicts, and the tables, lines and JSON that show them."""
+"""Limits on final values of a run: verdicts, and their tables, lines and JSON."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .words import value_range
 
 
 class LimitVerdict(StrEnum):
-    """Verdict on a run against a limit."""
+    """Verdict on a limit."""
 
     MET = "met"
     VIOLATED = "violated"
@@ -33,14 +33,14 @@ GRADES: dict[LimitVerdict, Grade] = {
 
 
 def evaluate(limits: LimitsFigure, result: Flight) -> list[tuple[Limit, LimitVerdict]]:
-    """Return the limits in their order, each with its verdict."""
+    """Return the limits in order, each with its verdict."""
     if limits.obstacle(result):
         return [(limit, LimitVerdict.NOT_EVALUATED) for limit in limits.limits]
     return [(limit, LimitVerdict.MET if is_met(limit, result) else LimitVerdict.VIOLATED) for limit in limits.limits]
 
 
 def is_met(limit: Limit, result: Flight) -> bool:
-    """Return True if the final value is finite and within a limit, the limit included."""
+    """Return True if the final value is finite and within the limits, ends included."""
     value = limit.value(result)
     above = limit.least is None or value >= limit.least
     below = limit.most is None or value <= limit.most
@@ -48,7 +48,7 @@ def is_met(limit: Limit, result: Flight) -> bool:
 
 
 def limit_lines(limits: LimitsFigure, result: Flight) -> list[str]:
-    """Return a line for each limit, for a terminal; angles in deg."""
+    """Return a line for each limit for a terminal, angles in deg."""
     obstacle = limits.obstacle(result)
     form = "{0} ({2} {3}): {4}, {5}" if obstacle else "{0} {1} {3} ({2} {3}): {4}"
     lines = (form.format(*map(cell_text, row), obstacle) for row in limit_rows(limits, result))
@@ -56,10 +56,7 @@ def limit_lines(limits: LimitsFigure, result: Flight) -> list[str]:
 
 
 def limit_rows(limits: LimitsFigure, result: Flight) -> list[tuple[Cell, ...]]:
-    """Return a row for each limit: its name, the final value, the limit, their unit, the verdict.
-
-    Of several limits that with the least relative reserve is marked.
-    """
+    """Return a row for each limit: name, final value, limit, unit, verdict."""
     evaluated = evaluate(limits, result)
     nearest = None
     if len(evaluated) > 1 and not limits.obstacle(result):
@@ -68,7 +65,7 @@ def limit_rows(limits: LimitsFigure, result: Flight) -> list[tuple[Cell, ...]]:
 
 
 def limit_document(figures: Sequence[FigureDeclaration], result: Flight) -> list[dict[str, Any]]:
-    """Return all limits that a system declares as JSON, an object each."""
+    """Return all limits of a system as JSON, an object each."""
     document: list[dict[str, Any]] = []
     for figure in figures:
         if isinstance(figure, LimitsFigure):
@@ -81,7 +78,7 @@ def limit_document(figures: Sequence[FigureDeclaration], result: Flight) -> list
 
 
 def limit_entries(limits: LimitsFigure, result: Flight) -> list[dict[str, Any]]:
-    """Return limits as JSON: values in ``unit``, None where there is none; the reason where one is not evaluated."""
+    """Return limits as JSON: values in ``unit`` (None: no limit), and the reason if one is not evaluated."""
     obstacle = limits.obstacle(result)
     return [
         {

@@ -1,4 +1,4 @@
-"""A scalar over another: a path, with further positions as marks."""
+"""A scalar over another one as a path, with further positions as marks."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ WHITE = "#ffffff"
 
 
 def path_section(path: PathFigure, result: Result, name: str) -> Group:
-    """Return the section of a path; ``name`` must differ between the figures of a page."""
+    """Return the section of a path; ``name`` must be unique among the figures of a page."""
     chosen, rows = select_rows(path.rows, result)
 
     def plotted(signal: Signal | Arc) -> np.ndarray:
@@ -64,7 +64,7 @@ def path_section(path: PathFigure, result: Result, name: str) -> Group:
 
 
 def path_ends(path: PathFigure, position: np.ndarray, others: Sequence[np.ndarray]) -> tuple[Ends, Ends]:
-    """Return the ends of both axes around a path and the positions of its points, as `path_chart` gets them."""
+    """Return the ends of both axes around a path and its points, for `path_chart`."""
     x, y = np.concatenate([position, *others], axis=1)
     up = axis_ends(y, Y_MARGIN)
     if _over_ground(path) and not up[0] <= 0.0 <= up[1]:
@@ -84,8 +84,8 @@ def path_chart(
 ) -> Chart:
     """Return the chart of a path at times (s), [n], through ``position``, [2, n] in units of the axes.
 
-    Its curves are the path, its end, and for each of its points, ``others``, [2, n], all positions and the last one.
-    ``label`` is that of the abscissa; between its ticks are at most ``intervals`` intervals.
+    Its curves are the path, its end, and for each of its points (``others``, [2, n]) all positions and the last one.
+    ``label`` is that of the abscissa, which has at most ``intervals`` intervals between ticks.
     """
     line = quantity_curve(position[0], position[1], path.y.label, None)
     end = marks(position[0, -1:], position[1, -1:], marker("o", 6.0, BLUE, fill=WHITE))
@@ -98,7 +98,7 @@ def path_chart(
 
 
 def _point_curves(name: str, position: np.ndarray, index: int) -> list[Curve]:
-    """Return marks at all positions of a point, [2, n], the last one larger; none where none is finite."""
+    """Return marks at all positions of a point, [2, n], the last one larger; none if none is finite."""
     finite = position[:, np.all(np.isfinite(position), axis=0)]
     if not finite.size:
         return []
@@ -116,7 +116,7 @@ def _final_mark(index: int) -> Marker:
 
 
 def _scales(path: PathFigure, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
-    """Return the factors of both axes: km where lengths in m are long; the same with equal scales."""
+    """Return the display factors of both axes: km for long lengths in m; equal for equal scales."""
     metres = [signal.unit_name == "m" for signal in (path.x, path.y)]
     if path.equal and all(metres):
         factor, _ = far(np.concatenate([x, y]))
@@ -126,7 +126,7 @@ def _scales(path: PathFigure, x: np.ndarray, y: np.ndarray) -> tuple[float, floa
 
 
 def _over_ground(path: PathFigure) -> bool:
-    """Return True if the ordinate is the altitude over the sphere of the abscissa."""
+    """Return True if the ordinate is the altitude above the sphere of the abscissa."""
     return isinstance(path.x, Arc) and path.y.label.rpartition(".")[2] == "altitude"
 
 

@@ -1,4 +1,4 @@
-"""The phases of a flight: when each was flown and what it used, a timeline, a table, and the propellant budget."""
+"""Phases of a mission: times and consumption, as timeline and table, and the propellant budget."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .words import seconds
 
 @dataclass(frozen=True)
 class PhaseSpan:
-    """A phase from ``begin`` to ``end`` (s); ``spent`` is its consumption, None where that is not declared."""
+    """A phase from ``begin`` to ``end`` (s); ``spent`` is its consumption, None if not declared."""
 
     name: str
     begin: float
@@ -34,9 +34,9 @@ class PhaseSpan:
 
 
 def spans_of(phases: PhasesFigure, flight: Flight) -> list[PhaseSpan]:
-    """Return the phases in the order of the flight; a value without a name is its own name.
+    """Return the phases in order of time; a value without a name becomes its own name.
 
-    A phase lasts from its first sample to the first sample of the next one, the last phase to the end.
+    A phase lasts from its first sample to the first sample of the next one, the last phase until the end.
     """
     values = phases.signal.values(flight)[0]
     starts = [(0, values[0]), *((int(row) + 1, values[row + 1]) for row in np.flatnonzero(np.diff(values)))]
@@ -59,7 +59,7 @@ def spans_of(phases: PhasesFigure, flight: Flight) -> list[PhaseSpan]:
 
 
 def _subphases(named: Sequence[SequencerPhase], flight: Flight, begin: int, end: int) -> list[tuple[int, str]]:
-    """Return the first row and name of the phases with one value between two rows, without phases that have no row."""
+    """Return first row and name of the phases that share a value between two rows; phases without a row are omitted."""
     starts: list[tuple[int, str]] = []
     for phase in named:
         over = end
@@ -72,7 +72,7 @@ def _subphases(named: Sequence[SequencerPhase], flight: Flight, begin: int, end:
 
 
 def statuses_of(phases: PhasesFigure, flight: Flight) -> list[tuple[int, float]] | None:
-    """Return each status with the time (s) of its first occurrence, in order; None where no status is declared."""
+    """Return each status with the time (s) of its first occurrence, in order; None if no status is declared."""
     if phases.status_times is not None:
         times = phases.status_times.values(flight)[:, -1]
         occurred = [(index, float(time)) for index, time in enumerate(times, 1) if time >= 0.0]
@@ -95,7 +95,7 @@ Window = tuple[float, float]
 
 
 def phase_section(phases: PhasesFigure, result: Result, name: str) -> Group:
-    """Return the section of the phases; ``name`` must differ between the figures of a page."""
+    """Return the section of the phases; ``name`` must be unique among the figures of a page."""
     spans, statuses = spans_of(phases, result), statuses_of(phases, result)
     windows = _windows(spans, statuses or [])
     caption: list[Inline] = ["Bars: phases with their duration, s."]
@@ -113,7 +113,7 @@ def phase_section(phases: PhasesFigure, result: Result, name: str) -> Group:
 
 
 def _windows(spans: Sequence[PhaseSpan], statuses: Sequence[tuple[int, float]]) -> list[Window]:
-    """Return the time windows of the plot: the flight, or what is before and after a long interval without an event."""
+    """Return the time windows of the plot: the whole run, or before and after a long interval without events."""
     begin, end = spans[0].begin, spans[-1].end
     events = sorted({begin, end, *(span.begin for span in spans), *(time for _, time in statuses)})
     length, left, right = max(
@@ -128,7 +128,7 @@ def _windows(spans: Sequence[PhaseSpan], statuses: Sequence[tuple[int, float]]) 
 def phase_chart(
     spans: Sequence[PhaseSpan], statuses: Sequence[tuple[int, float]], window: Window, intervals: int
 ) -> Chart:
-    """Return the chart of what is within a window of time: a bar for each phase, a line for each time of a status."""
+    """Return the chart of a time window: a bar for each phase, a line for each time of a status."""
     lanes = list(dict.fromkeys(span.name for span in spans))
     begin, end = window
     inside = [
@@ -161,7 +161,7 @@ def phase_chart(
 
 
 def _duration(span: PhaseSpan, at: float, lane: int, *, before: bool) -> ChartNote:
-    """Return the duration of a phase, after its bar or ``before`` it."""
+    """Return the label with a phase's duration, after or ``before`` its bar."""
     offset, side = (-GAP, "right") if before else (GAP, "left")
     text = number(span.end - span.begin, 4)
     return ChartNote(text, (at, float(lane)), (False, False), (offset, 0.0), (side, "center"), INK, TICK_SIZE)
@@ -181,7 +181,7 @@ def _figures(
     windows: Sequence[Window],
     name: str,
 ) -> list[Figure]:
-    """Return a figure for each of several windows, or one as wide as the page."""
+    """Return a figure for each time window; a single one is as wide as the page."""
     lanes = dict.fromkeys(span.name for span in spans)
     height, description = 0.75 + LANE * len(lanes), f"{phases.title}: {', '.join(lanes)} over time"
     if len(windows) == 1:
@@ -236,7 +236,7 @@ def consumption_by_phase(budget: BudgetFigure, result: Result) -> dict[str, floa
 
 
 def amount(item: BudgetItem, spent: Mapping[str, float], bound: BoundValues | None) -> float | None:
-    """Return the amount of an item; None where one of its phases did not occur or the bound is missing."""
+    """Return the amount of an item; None if one of its phases did not occur, or if the bound is missing."""
     values = {} if bound is None else bound.values
     if any(name not in spent for name in item.phases) or any(name not in values for name in (*item.plus, *item.minus)):
         return None

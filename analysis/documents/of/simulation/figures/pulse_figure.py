@@ -1,4 +1,4 @@
-"""Pulses of jets: a lane for each axis with a bar for each pulse, and the thruster on-time so far."""
+"""Pulses of jets: a lane per axis with a bar per pulse, and the thruster on-time so far."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ THIN = 0.6  # pt, the line at 0 and that of the remainder
 
 
 def pulse_lengths(pulses: PulsesFigure, result: Result) -> np.ndarray:
-    """Return the signed lengths (s) of the pulses that start at each sample, [axes, samples]; 0 where none starts.
+    """Return the signed lengths (s) of the pulses that start at each sample, [axes, samples]; 0 without a pulse.
 
-    Pulses of the last sample are left out: a command acts over the step after its sample.
+    Pulses of the last sample are omitted, since a command acts during the step after its sample.
     """
     lengths = np.nan_to_num(pulses.lengths.values(result), nan=0.0, posinf=0.0, neginf=0.0)
     lengths[:, -1] = 0.0
@@ -37,7 +37,7 @@ def pulse_lengths(pulses: PulsesFigure, result: Result) -> np.ndarray:
 
 
 def pulse_section(pulses: PulsesFigure, result: Result, name: str) -> Group:
-    """Return the section of pulses; ``name`` must differ between the figures of a page."""
+    """Return the section of pulses; ``name`` must be unique among the figures of a page."""
     lengths = pulse_lengths(pulses, result)
     if not np.any(lengths):
         return figure_group(pulses.title, findings=["no pulse was fired"], notes=pulses.notes)
@@ -55,10 +55,10 @@ def pulse_section(pulses: PulsesFigure, result: Result, name: str) -> Group:
 
 
 def pulse_charts(pulses: PulsesFigure, result: Result, lengths: np.ndarray) -> list[tuple[str, Chart]]:
-    """Return a chart of each axis with its heading, and one of the thruster on-time so far, where that is declared.
+    """Return a chart for each axis with its heading, and one of the thruster on-time, if declared.
 
-    A bar stands for a pulse, from 0 to its length (s); all axes have the same ends. ``lengths`` as `pulse_lengths`
-    returns them.
+    A bar from 0 to its length (s) represents a pulse; all ordinates have the same ends. ``lengths`` are as returned by
+    `pulse_lengths`.
     """
     time = result.time
     remainders = np.zeros_like(lengths) if pulses.remainder is None else pulses.remainder.plot_values(result)
@@ -79,7 +79,7 @@ def pulse_charts(pulses: PulsesFigure, result: Result, lengths: np.ndarray) -> l
 
 
 def _line(time: np.ndarray, numbers: np.ndarray) -> Area:
-    """Return strokes from sample to sample, which bars, unlike a curve, may cover; none where one is nan."""
+    """Return strokes between samples, which unlike a curve are drawn below bars; none at NaN."""
     begins = np.flatnonzero(np.isfinite(numbers[:-1]) & np.isfinite(numbers[1:]))
     rows = np.stack([begins, begins + 1], axis=1).ravel()
     return Area(time[rows], numbers[rows], (False, False), FAINT, 1.0, THIN)

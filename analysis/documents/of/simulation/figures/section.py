@@ -1,4 +1,4 @@
-"""Parts of the figures that a system declares: charts over time, legends, a heading with what stands below it."""
+"""Elements of declared figures: charts over time, legends, a heading with its content."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def figure_group(
     table: Table | None = None,
     notes: Sequence[Rich] = (),
 ) -> Group:
-    """Return a heading with figures and their legend, results, a table and captions."""
+    """Return a heading with figures and their legend, findings, a table and captions."""
     nodes: list[Node] = [Figures(lambda: figures, legend, is_in_order=True)] if figures else []
     nodes += map(Text, findings)
     nodes += [table] if table is not None else []
@@ -54,7 +54,7 @@ def time_chart(
 ) -> Chart:
     """Return a chart over time; ``ends`` are those of the ordinate, as displayed.
 
-    There are at most ``intervals`` intervals between the ticks of the abscissa, ``y_intervals`` between the others.
+    There are at most ``intervals`` intervals between ticks of the abscissa, and ``y_intervals`` of the ordinate.
     """
     abscissa = (float(time[0]), float(time[-1] if time[-1] > time[0] else time[0] + 1.0))
     x, y = linear_axis(abscissa, intervals, label="time, s"), linear_axis(ends, y_intervals)
@@ -74,14 +74,14 @@ def history_figure(
 
 
 def select_rows(rows: SampleRange | None, result: Result) -> tuple[np.ndarray, slice]:
-    """Return whether each sample belongs to a figure, and from the first of them to the last; at least one does."""
+    """Return True for each sample of a figure, and the slice from the first to the last; at least one is selected."""
     chosen = np.ones(result.time.size, dtype=bool) if rows is None else rows.select(result)
     selected = np.flatnonzero(chosen)
     return chosen, slice(int(selected[0]), int(selected[-1]) + 1)
 
 
 def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Quantity]:
-    """Return the numbers of a column, all with the decimals of the largest at ``digits`` significant digits."""
+    """Return the numbers of a column with the decimals of the largest at ``digits`` significant digits."""
     sizes = [abs(in_display_unit(value, unit)) for value in values if value is not None and math.isfinite(value)]
     maximum = max(sizes, default=0.0)
     places = max(0, digits - 1 - math.floor(math.log10(maximum))) if maximum > 0.0 else 0

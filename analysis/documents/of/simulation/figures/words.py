@@ -1,4 +1,4 @@
-"""Words of figures: ranges, conditions, times, sentences."""
+"""Texts of figures: ranges, conditions, times, sentences."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from ....figures.declared import SampleRange
 
 
 def condition_text(rows: SampleRange) -> list[Inline]:
-    """Return the condition of a selection of samples."""
+    """Return the condition that selects samples, as text."""
     unit = rows.signal.unit_name
     condition = (
         Quantity(rows.low, unit, is_bare=True) if rows.low == rows.high else value_range(rows.low, rows.high, unit)
@@ -16,7 +16,7 @@ def condition_text(rows: SampleRange) -> list[Inline]:
 
 
 def value_range(low: float | None, high: float | None, unit: str | None) -> Interval:
-    """Return the range between two limits of which at most one is None, without the unit."""
+    """Return the text of a range, without the unit; at most one limit is None."""
     ends = (None if limit is None else Quantity(limit, unit, is_bare=True) for limit in (low, high))
     return Interval(*ends)
 
@@ -27,16 +27,16 @@ def seconds(time: float) -> Quantity:
 
 
 def sentence(words: Rich) -> list[Inline]:
-    """Return a text as a sentence: with a capital first and a full stop last."""
+    """Return a text as a sentence, with an initial capital and a full stop."""
     first, *others = [words] if isinstance(words, str) else words
     return [capital(first) if isinstance(first, str) else first, *others, "."]
 
 
 def capital(words: str) -> str:
-    """Return a text with a capital first."""
+    """Return a text with an initial capital."""
     return words[:1].upper() + words[1:]
 
 
 def join(texts: list[list[Inline]], separator: str) -> list[Inline]:
-    """Return texts as one, with a separator between them."""
+    """Return the texts joined by a separator."""
     return [part for index, text in enumerate(texts) for part in ([separator, *text] if index else text)]

@@ -1,4 +1,4 @@
-"""The Bode diagram of a loop: gain and phase with margins, crossover frequencies and the margins that are required."""
+"""Bode diagram of a loop: gain and phase, with actual and required margins at their crossover frequencies."""
 
 from __future__ import annotations
 
@@ -43,16 +43,16 @@ PHASES = (1.0, 1.5, 3.0, 4.5, 9.0, 10.0)  # deg
 
 
 def bode_charts(loop: LoopReport) -> tuple[Chart, Chart]:
-    """Return gain and phase with the decisive margins as bars, their limits dashed; circles are the measured response.
+    """Return gain and phase, with decisive margins as bars and their limits dashed; circles are measured responses.
 
-    A dotted line through both charts marks the frequency at which each decisive margin is read.
+    A dotted line through both charts marks the frequency of each decisive margin.
     """
     crossings = margin_crossings(loop)
     return _gain_chart(loop, crossings), _phase_chart(loop, crossings)
 
 
 def _gain_chart(loop: LoopReport, crossings: Classical) -> Chart:
-    """Chart the gain: every crossing of -180 deg, a bar to the nearest, and the gain at the required margin."""
+    """Return the gain chart: all crossings of -180 deg, a bar to the nearest, and the gain at the required margin."""
     curve, gain, limit = loop.curve, crossings.gain_margin, limits_of(loop).gain
     abscissa = frequency_axis(float(curve.frequency[0]), float(curve.frequency[-1]))
     curves = [line(curve.frequency, in_db(curve.value), BLUE)]
@@ -80,7 +80,7 @@ def _gain_chart(loop: LoopReport, crossings: Classical) -> Chart:
 
 
 def _phase_chart(loop: LoopReport, crossings: Classical) -> Chart:
-    """Chart the phase: every crossing of 0 dB, a bar to the nearest, and the phase at the required margin."""
+    """Return the phase chart: all crossings of 0 dB, a bar to the nearest, and the phase at the required margin."""
     curve, phase, limit = loop.curve, crossings.phase_margin, limits_of(loop).phase
     centre = phase or crossings.gain_margin
     degrees = phase_of(curve, None if centre is None else centre.frequency)
@@ -119,20 +119,20 @@ def _phase_chart(loop: LoopReport, crossings: Classical) -> Chart:
 
 
 def _crossovers(crossings: Classical) -> list[Rule]:
-    """Return the frequencies at which the decisive margins are read."""
+    """Return the frequencies of the decisive margins."""
     decisive = [each for each in (crossings.gain_margin, crossings.phase_margin) if each is not None]
     return [instant(each.frequency, FAINT, 0.7, DOTS) for each in decisive]
 
 
 def _within(axis: Axis, frequency: float) -> float:
-    """Return a frequency within the axis: a crossing lies at 0 where L is real at its start."""
+    """Return a frequency limited to the axis; a crossing is at 0 if L is real at its start."""
     return min(max(frequency, axis.ends[0]), axis.ends[1])
 
 
 def _requirement(axis: Axis, frequency: float, height: float, words: str, *, to_right: bool) -> tuple[Curve, ChartNote]:
-    """Return a required margin as a short dashed line at its crossover, with its size on the right or the left.
+    """Return a required margin as a short dashed line at its crossover, labelled on the right or the left.
 
-    A response falls: where it lies below the line it has passed it on the left, where above it does so on the right.
+    Responses usually fall: a response below the line has crossed it on the left, one above crosses it on the right.
     """
     low, high = (math.log10(end) for end in axis.ends)
     frequency = _within(axis, frequency)
@@ -151,7 +151,7 @@ def _requirement(axis: Axis, frequency: float, height: float, words: str, *, to_
 
 
 def _gain_ends(gain: np.ndarray, marked: float) -> tuple[float, float]:
-    """Return ends of the gain's axis (dB): all of it, except where a zero or a pole would squeeze the rest."""
+    """Return the ends of the gain axis (dB): the whole gain, unless a zero or a pole would compress the rest."""
     low, high = float(np.min(gain)), max(min(float(np.max(gain)), NEAR), marked, 0.0)
     low = max(min(low, marked, 0.0), min(-FAR, marked - 0.5 * FAR))
     return low - 0.05 * (high - low) - 1.0, high + 0.05 * (high - low) + 1.0

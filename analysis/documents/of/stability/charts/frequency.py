@@ -1,8 +1,9 @@
-"""Responses over frequency in dB over rad/s: what diagrams of a loop share, the limits they show, and sensitivities.
+"""Responses over frequency (dB over rad/s): elements common to the diagrams of a loop, their limits, and
+sensitivities.
 
-The charts are ours and not python-control's `bode_plot`, `nyquist_plot` and the like: those draw through pyplot's
-current figure, which is global, bring titles, legends and mathematical type of their own, cannot show a measured
-response beside a computed one, and know no exclusion zone. What is drawn are the study's own numbers.
+The charts do not use python-control's `bode_plot`, `nyquist_plot` and so on. These draw through pyplot's global current
+figure, add titles, legends and mathematical fonts of their own, cannot combine a measured and a computed response, and
+do not support exclusion zones. All drawn numbers are those of the study.
 """
 
 from __future__ import annotations
@@ -43,21 +44,21 @@ def in_db(values: np.ndarray) -> np.ndarray:
 
 
 def phase_of(curve: FrequencyResponse, at: float | None) -> np.ndarray:
-    """Return the unwrapped phase (deg) of a curve, on the branch that at the frequency ``at`` is in (-360, 0]."""
+    """Return the unwrapped phase (deg) of a response, on the branch that is in (-360, 0] at the frequency ``at``."""
     phase = np.degrees(np.unwrap(np.angle(curve.value)))
     reference = phase[len(phase) // 2] if at is None else float(np.interp(at, curve.frequency, phase))
     return phase - 360.0 * math.ceil(reference / 360.0)
 
 
 def nearest_phase(curve: FrequencyResponse, phase: np.ndarray, measured: FrequencyResponse) -> np.ndarray:
-    """Return the phase (deg) of measured points, each on the branch nearest to the curve's."""
+    """Return the phase (deg) of measured points, each on the branch nearest to the curve."""
     expected = np.interp(measured.frequency, curve.frequency, phase)
     degrees = np.degrees(np.angle(measured.value))
     return degrees + 360.0 * np.round((expected - degrees) / 360.0)
 
 
 def frequency_axis(low: float, high: float) -> Axis:
-    """Return the axis of angular frequencies."""
+    """Return the axis of angular frequency (rad/s)."""
     return fine_axis((low, high), label="rad/s")
 
 
@@ -72,19 +73,19 @@ def phase_mark(*, is_decisive: bool) -> Marker:
 
 
 def has_measurement(loop: LoopReport) -> FrequencyResponse | None:
-    """Return the response of the frequency-response test where the curve is the linearisation's."""
+    """Return the response of the frequency-response test, if the curve is that of the linearisation."""
     if loop.linearised is None or loop.measured_response is None:
         return None
     return loop.measured_response.curve
 
 
 def margin_crossings(loop: LoopReport) -> Classical:
-    """Return the crossings that are margins: none where the closed loop is unstable."""
+    """Return the crossings that are margins; none for an unstable closed loop."""
     return replace(loop.classical, gain=(), phase=()) if loop.margins.unstable else loop.classical
 
 
 def sensitivity_chart(loop: LoopReport) -> Chart:
-    """Return sensitivity and, dashed, complementary sensitivity with their peaks, and the limit on the former's."""
+    """Return sensitivity and, dashed, complementary sensitivity with their peaks, and the limit on sensitivity."""
     curve, peaks, limit = loop.curve, loop.robust, limits_of(loop).modulus
     sensitivity = 1.0 / (1.0 + curve.value)
     s, t = in_db(sensitivity), in_db(curve.value * sensitivity)
@@ -107,7 +108,7 @@ def sensitivity_chart(loop: LoopReport) -> Chart:
 
 
 def margin_words(loop: LoopReport) -> str:
-    """Return the classical margins in words, for those who cannot see the figure."""
+    """Return the classical margins in words, for screen readers."""
     if loop.margins.unstable:
         return "the closed loop is unstable, hence no margins"
     gain, phase = loop.classical.gain_margin, loop.classical.phase_margin
@@ -120,7 +121,7 @@ def margin_words(loop: LoopReport) -> str:
 
 
 def gain_words(loop: LoopReport) -> str:
-    """Return the gain margin and its frequency, as it stands over a diagram."""
+    """Return the gain margin and its frequency as the heading of a diagram."""
     gain = margin_crossings(loop).gain_margin
     if gain is None:
         return "unstable: no margins" if loop.margins.unstable else "no phase crossover"
@@ -129,7 +130,7 @@ def gain_words(loop: LoopReport) -> str:
 
 
 def phase_words(loop: LoopReport) -> str:
-    """Return the phase margin and the gain crossover, as they stand over a diagram."""
+    """Return the phase margin and the gain crossover as the heading of a diagram."""
     phase = margin_crossings(loop).phase_margin
     if phase is None:
         return "" if loop.margins.unstable else "no gain crossover"
@@ -138,13 +139,13 @@ def phase_words(loop: LoopReport) -> str:
 
 
 def faint_line(x: np.ndarray, y: np.ndarray) -> charts.Curve:
-    """Return a line in the background: circles, lines of damping."""
+    """Return a line in the background, such as a circle or a line of constant damping."""
     return line(x, y, FAINT, width=0.7, dashes=DOTS)
 
 
 @dataclass(frozen=True)
 class LimitLines:
-    """The limits that figures show, as they are required of the loop; None: not required."""
+    """The limits that figures show, as required of the loop; None: not required."""
 
     gain: float | None  # dB
     phase: float | None  # deg

@@ -1,4 +1,4 @@
-"""The frequency response in the complex plane and in the Nichols diagram: how near it is to the critical point."""
+"""Frequency response in the complex plane and in the Nichols diagram: its distance from the critical point."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ ALONG = 0.35  # of the visible length of the curve, where its arrow is
 
 
 def nyquist_chart(loop: LoopReport) -> Chart:
-    """Return L near -1 with the unit circle, the circle of the modulus margin and that of its limit."""
+    """Return L near -1 with the unit circle, the circle of the modulus margin, and the circle of its limit."""
     value, crossings, limits = loop.curve.value, margin_crossings(loop), limits_of(loop)
     furthest = max([1.0 / item.value for item in loop.classical.gain if item.value > 0.0], default=1.0)
     left, right = -min(max(2.6, 1.15 * furthest), 8.0), 1.4
@@ -71,7 +71,7 @@ def nyquist_chart(loop: LoopReport) -> Chart:
 
 
 def balance_chart(loop: LoopReport, element: Nonlinearity) -> Chart:
-    """Return L and -1/N(a): a limit cycle is predicted where they meet."""
+    """Return L and -1/N(a); a limit cycle is predicted where they intersect."""
     value = loop.curve.value
     inverse = -1.0 / element.gain[np.abs(element.gain) > 0.0]
     meets = [np.interp(2.0 * math.pi / cycle.period, loop.curve.frequency, value) for cycle in element.cycles]
@@ -106,7 +106,7 @@ def _complex_plane(curves: Sequence[Curve], left: float, right: float) -> Chart:
 
 
 def _direction(value: np.ndarray, left: float, right: float) -> list[Curve]:
-    """Return the head of an arrow along the curve towards higher frequencies, in the middle of its visible part."""
+    """Return an arrow head along the curve towards higher frequencies, in the middle of its visible stretch."""
     half = (right - left) / SHAPE / 2.0
     visible = np.flatnonzero((value.real > left) & (value.real < right) & (np.abs(value.imag) < half))
     if visible.size < 4:
@@ -124,7 +124,7 @@ PHASES = (-360.0, -270.0, -180.0, -90.0, 0.0)  # deg
 
 
 def nichols_chart(loop: LoopReport) -> Chart:
-    """Return L in gain over phase (-360 to 0 deg), with the exclusion zone and the oval of the modulus limit."""
+    """Return L as gain over phase (-360 to 0 deg), with the exclusion zone and the contour of the modulus limit."""
     limits, crossings = limits_of(loop), margin_crossings(loop)
     curves = []
     if limits.modulus is not None and limits.modulus < 1.0:
@@ -150,7 +150,7 @@ def nichols_chart(loop: LoopReport) -> Chart:
 
 
 def _zone(limits: LimitLines) -> tuple[list[Area], list[ChartNote]]:
-    """Return a diamond with corners at the required margins (dB, deg), and their sizes, empty where one is missing."""
+    """Return a diamond with corners at the required margins (dB, deg), and their sizes; empty if one is missing."""
     gain, phase = limits.gain, limits.phase
     if gain is None or phase is None:
         return [], []
@@ -170,7 +170,7 @@ def _zone(limits: LimitLines) -> tuple[list[Area], list[ChartNote]]:
 
 
 def _margins(crossings: Classical) -> list[Curve]:
-    """Return marks at all crossings, those that decide with a bar to the critical point."""
+    """Return marks at all crossings, the decisive ones with a bar to the critical point."""
     gain, phase = crossings.gain_margin, crossings.phase_margin
     curves = []
     if gain is not None:
@@ -199,7 +199,7 @@ def _modulus_words(loop: LoopReport) -> str:
 
 
 def _wrap_phase(value: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return phase (deg, -360 to 0) and gain (dB) with gaps where the phase wraps."""
+    """Return phase (deg, -360 to 0) and gain (dB), with gaps where the phase wraps."""
     phase, gain = np.degrees(np.angle(-value)) - 180.0, in_db(value)
     jumps = np.flatnonzero(np.abs(np.diff(phase)) > 180.0) + 1
     return np.insert(phase, jumps, np.nan), np.insert(gain, jumps, np.nan)

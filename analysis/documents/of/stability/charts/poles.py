@@ -1,4 +1,4 @@
-"""Closed-loop poles in the plane of z: the unit circle, lines of constant damping, and clouds over a campaign."""
+"""Closed-loop poles in the z plane: unit circle, lines of constant damping, and clouds over a campaign."""
 
 from __future__ import annotations
 
@@ -26,17 +26,20 @@ SIZE, EDGE = 5.5, 1.3  # pt, of a mark and its strokes
 
 
 def poles_of(loop: LoopReport) -> np.ndarray:
-    """Return all closed-loop poles, from the modes where no more are given."""
+    """Return all closed-loop poles; those of the modes if no others are available."""
     return loop.poles_z if loop.poles_z.size else np.array([mode.z for mode in loop.modes], dtype=complex)
 
 
 def are_crowded(poles: np.ndarray) -> bool:
-    """Return True if poles near z = 1 are too close to be separated on a map of the unit circle."""
+    """Return True if poles near z = 1 are too close to be distinguished on a map of the unit circle."""
     return bool(np.sum(np.abs(poles - 1.0) < NEAR) >= 2)
 
 
 def pole_chart(loop: LoopReport, *, near: bool) -> Chart:
-    """Return all poles, or those near z = 1: crosses where the cut moves and sees the mode, orange where unstable."""
+    """Return all poles, or those near z = 1.
+
+    Crosses are modes that are controllable and observable at the cut; poles with |z| >= 1 are orange.
+    """
     poles = poles_of(loop)
     by_kind = {"x": poles}
     if loop.modes:
@@ -54,7 +57,7 @@ def pole_chart(loop: LoopReport, *, near: bool) -> Chart:
 
 
 def cloud_chart(loop: LoopReport) -> Chart:
-    """Return the poles of all trials, with the nominal ones as crosses over them."""
+    """Return the poles of all trials, with the nominal ones as crosses above them."""
     assert loop.dispersion is not None
     poles = np.ravel(loop.dispersion.poles)
     poles = poles[np.isfinite(poles)]
@@ -76,7 +79,7 @@ def cloud_chart(loop: LoopReport) -> Chart:
 
 
 def thin(poles: np.ndarray, extent: float) -> np.ndarray:
-    """Return a cloud of at most `MOST` points: one in each cell of a grid, fine enough not to be visible."""
+    """Return a cloud of at most `MOST` points: one in each cell of a grid too fine to be visible."""
     cells = 400
     while poles.size > MOST and cells >= 25:
         rounded = np.round(poles.real / extent * cells) + 1j * np.round(poles.imag / extent * cells)
@@ -88,7 +91,7 @@ def thin(poles: np.ndarray, extent: float) -> np.ndarray:
 
 
 def _plane(curves: Sequence[Curve], centre: float, half: float, shape: float, notes: Sequence[ChartNote]) -> Chart:
-    """Return the plane about a centre on the real axis, with its grid and the ``notes`` of that."""
+    """Return the plane about a centre on the real axis, with its grid and the ``notes`` of the grid."""
     return Chart(
         NO_BOX,
         linear_axis((centre - shape * half, centre + shape * half), intervals(2.0 * shape * half), label="real"),
@@ -116,7 +119,7 @@ def _damping_notes(poles: np.ndarray) -> list[ChartNote]:
 
 
 def _damping_note(damping: float, poles: np.ndarray) -> ChartNote:
-    """Return the number of a line of constant damping, at the first of some angles at which it covers no pole."""
+    """Return the label of a line of constant damping, at the first of several angles at which it covers no pole."""
     positions = np.exp((1j - damping / math.sqrt(1.0 - damping**2)) * np.pi * NOTES)
     distances = np.abs(poles[np.newaxis] - positions[:, np.newaxis]).min(axis=1, initial=np.inf)
     at = complex(positions[int(np.argmax(distances > CLEAR))])
@@ -127,13 +130,13 @@ def _damping_note(damping: float, poles: np.ndarray) -> ChartNote:
 
 
 def intervals(width: float) -> int:
-    """Return the number of intervals whose labels have room side by side: near z = 1 they have many decimals."""
+    """Return the number of intervals whose labels fit side by side; near z = 1 labels have many decimals."""
     decimals = max(1, math.ceil(-math.log10(width / 5)))
     return max(2, min(5, 30 // (decimals + 2)))
 
 
 def _near_one(poles: np.ndarray, near: float = NEAR, shape: float = SHAPE) -> tuple[float, float]:
-    """Return the centre and half the height of a frame that holds the poles near z = 1 and a little outside it."""
+    """Return centre and half the height of a frame around the poles near z = 1 with some margin."""
     close = poles[np.abs(poles - 1.0) < near]
     reach = max(float(np.max(np.abs(close - 1.0))), 1e-6)
     left, right = float(np.min(close.real)) - 0.12 * reach, max(1.0, float(np.max(close.real))) + 0.12 * reach

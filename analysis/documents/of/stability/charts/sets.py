@@ -1,4 +1,4 @@
-"""Charts of margins over something: trials, amplitudes, parameters, frequency; and the step response."""
+"""Charts of margins over trials, amplitudes, parameters and frequency; step response."""
 
 from __future__ import annotations
 
@@ -45,7 +45,9 @@ def step_chart(loop: LoopReport) -> Chart:
 
 
 def margin_chart(dispersion: Dispersion, quantity: MarginQuantity, limit: float | None) -> Chart:
-    """Return trials by a margin's size: unstable ones hatched at the left, the limit dashed, the worst marked."""
+    """Return the histogram of trials over a margin: unstable ones hatched at the left, limit dashed, worst trial
+    marked.
+    """
     sizes, worst = dispersion.sizes(quantity), dispersion.worst
     unstable, finite = sizes == UNSTABLE, np.isfinite(sizes)
     retained = sizes[finite]
@@ -85,7 +87,7 @@ def margin_chart(dispersion: Dispersion, quantity: MarginQuantity, limit: float 
 
 
 def _hatched(left: float, right: float, height: float | None = None) -> list[Area]:
-    """Return a hatched bar, or a band as high as the axes, where loops are unstable."""
+    """Return a hatched bar, or a band of the full height of the axes, for unstable loops."""
     of_axes = (False, height is None)
     x, y = left + (right - left) * SQUARE[:, 0], (1.0 if height is None else height) * SQUARE[:, 1]
     strokes = (hatch(x, y, VERMILION, 1.0), outline(x, y, VERMILION, 1.0))
@@ -111,7 +113,7 @@ def amplitude_charts(loop: LoopReport) -> tuple[Chart, Chart]:
 
 
 def _ordinate(y: np.ndarray) -> Axis:
-    """Return an axis of at least the length `FLAT`."""
+    """Return an axis with a range of at least `FLAT`."""
     middle = 0.5 * float(np.min(y) + np.max(y))
     ends = (middle - FLAT / 2.0, middle + FLAT / 2.0) if np.ptp(y) < FLAT / 1.5 else axis_ends(y)
     return linear_axis(ends, 4)
@@ -123,7 +125,7 @@ def _marked(x: np.ndarray, y: np.ndarray, size: float) -> Curve:
 
 
 def describing_chart(element: Nonlinearity) -> Chart:
-    """Return the size of the describing function over the amplitude at the element's input, cycles marked."""
+    """Return the magnitude of the describing function over the amplitude at the element's input, with limit cycles."""
     factor = display_factor(element.unit)
     amplitude, size = factor * element.amplitude, np.abs(element.gain)
     curves, plotted = [line(amplitude, size, BLUE)], [size]
@@ -140,14 +142,14 @@ def describing_chart(element: Nonlinearity) -> Chart:
 
 
 def _abscissa(x: np.ndarray, label: str) -> Axis:
-    """Return the axis of ascending numbers, logarithmic where they span more than `DECADES`."""
+    """Return the axis of ascending numbers, logarithmic if they span more than `DECADES`."""
     ends = (float(np.min(x)), float(np.max(x))) if np.ptp(x) > 0.0 else axis_ends(x)
     is_logarithmic = ends[0] > 0.0 and ends[1] > DECADES * ends[0]
     return fine_axis(ends, label=label) if is_logarithmic else linear_axis(ends, 5, label=label)
 
 
 def sweep_charts(sweep: SweepReport, limits: LimitLines) -> tuple[Chart, Chart]:
-    """Return gain and phase margin over a parameter, the limits, where they are crossed; hatched: unstable."""
+    """Return gain and phase margin over a parameter, with limits and their crossings; unstable ranges are hatched."""
     unstable = np.array([each.unstable for each in sweep.margins])
     gain = np.array([math.nan if each.unstable else decibels(each.gain) for each in sweep.margins])
     phase = np.array([math.nan if each.unstable else math.degrees(each.phase) for each in sweep.margins])
@@ -179,14 +181,16 @@ def _sweep_chart(
 
 
 def _runs(unstable: np.ndarray, values: np.ndarray, edges: list[float]) -> list[tuple[float, float]]:
-    """Return the ranges in which the loop is unstable: between the edges found, or the ends of the sweep."""
+    """Return the unstable ranges of a parameter, bounded by computed edges or by the ends of the sweep."""
     bounds = [float(values[0]), *edges, float(values[-1])]
     middles = [(low, high) for low, high in itertools.pairwise(bounds) if high > low]
     return [(low, high) for low, high in middles if np.any(unstable & (values >= low) & (values <= high))]
 
 
 def joint_chart(joint: JointReport) -> Chart:
-    """Return the disk margin of all channels at once over frequency, its least and the limit that both sizes set."""
+    """Return the disk margin of all channels at once over frequency, its minimum, and the limit from both
+    requirements.
+    """
     curves = [line(joint.frequency, joint.disk_margins, BLUE)]
     if joint.stable and math.isfinite(joint.disk_frequency):
         curves.append(mark(joint.disk_frequency, joint.disk_margin, PEAK))
