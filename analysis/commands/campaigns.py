@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
+from ...common.errors import InputError
+from ...common.paths import SYSTEMS
 from ..campaigns.definition.campaign import Variant
 from ..campaigns.definition.plan import BatchPlan
+from ..campaigns.execute.plan_manifest import restore
+from ..campaigns.folder.manifest import read_manifest
 from ..options.command import write_command
 from ..options.declared.campaigns import BATCH, REPLAY
 
@@ -22,12 +27,23 @@ def campaign_command(plan: BatchPlan, variant: Variant) -> str:
     return write_command(BATCH, {"system": plan.system, "campaign": campaign_name(plan)}, _of_variant(plan, variant))
 
 
-def batch_command(plan: BatchPlan) -> str:
-    """Return the command that repeats a plan with all its variants."""
+def batch_command(plan: BatchPlan, output: Path | None = None) -> str:
+    """Return the command that repeats a plan with all its variants, and writes it to the folder ``output``."""
     campaign = plan.campaign
     compare = {} if campaign.configurations else campaign.compare
-    options = {**_options(plan, campaign.selected, compare), "until_decided": plan.until_decided}
+    options = {**_options(plan, campaign.selected, compare), "until_decided": plan.until_decided, "output": output}
     return write_command(BATCH, {"system": plan.system, "campaign": campaign_name(plan)}, options)
+
+
+def batch_of_folder(folder: Path) -> str:
+    """Return the command that wrote a campaign's folder; empty without a manifest or its contents."""
+    try:
+        plan = restore(folder, read_manifest(folder))
+    except (InputError, OSError):
+        return ""
+    name = plan.archive.name if plan.archive is not None else ""
+    is_shipped = plan.system == f"{SYSTEMS.name}/{name}"
+    return batch_command(replace(plan, system=name) if is_shipped else plan, folder)
 
 
 def replay_of_folder(folder: Path, configurations: Collection[object], configuration: str, trial: int) -> str:

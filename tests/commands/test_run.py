@@ -51,7 +51,7 @@ def test_says_how_it_ended(capsys):
     words = "limits violated: distance from the target, velocity error"
     assert captured.err == f"perilune: ssp_systems/{SYSTEM}/SystemStructure.ssd: {words}\n"
     assert lines[0] == f"{SYSTEM}: stop time reached at t = 2 s, 21 samples"
-    assert [line.rpartition(": ")[2] for line in lines[1:]] == ["FAIL", "FAIL"]
+    assert [line.rpartition(": ")[2] for line in lines[1:]] == ["FAIL, tightest", "FAIL"]
 
 
 def test_json_to_a_file_and_talk_to_the_terminal(tmp_path, capsys):

@@ -185,6 +185,11 @@ class CampaignComparison:
         """True if any of the batches has faults."""
         return any(batch.faults for batch in self.batches.values())
 
+    @property
+    def has_requirements(self) -> bool:
+        """True if the campaign of any of the batches declares requirements."""
+        return any(batch.has_requirements for batch in self.batches.values())
+
     def content(self) -> dict[str, object]:
         """Return the comparison as JSON: provenance of batches, summaries of contenders, statistics of pairs."""
         group: dict[str, object] = {} if self.group is None else {"group": self.group}

@@ -66,6 +66,12 @@ class StoredBatch:
         there = sum(len(trace_files(self.folder, variant)) for variant in self.variants)
         return there - sum(map(len, self.traced.values()))
 
+    @property
+    def has_requirements(self) -> bool:
+        """True if the campaign declares requirements."""
+        summaries: Any = self.document["variants"]  # as JSON
+        return any(entry.get("requirements") for entry in summaries.values())
+
     def judged_expressions(self) -> list[Expression]:
         """Return the expressions of success and of the requirements."""
         summaries: Any = self.document["variants"]  # as JSON

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
-
-import numpy as np
+from collections.abc import Sequence
 
 from ....campaigns.definition.campaign import Metric
 from ...cell import LegendEntry, Quantity
-from ...common.colours import Look
-from ...common.panels import PANEL_HEIGHT
 from ...model import ForScript, Missing, Node, Note, Section
 from ...pictures import Figure, Figures
-from ..campaign.distributions import CUMULATIVE, distribution_chart, metric_values
+from ..campaign.distributions import distribution_figure, distribution_note, metric_values
 from .content import BatchContent
 from .embedded_trials import trials_document, trials_notes
 
@@ -35,11 +30,7 @@ def distribution_section(content: BatchContent) -> Section:
     if content.judged:
         nodes += [
             distribution_figures(content, content.judged),
-            Note(
-                "Empirical cumulative distribution over all trials, including failures. A curve that ends below 100 % "
-                "has trials without a finite value. On logarithmic axes, values below the 1st percentile are drawn at "
-                "the left edge."
-            ),
+            distribution_note(of_successes=False),
         ]
     nodes.append(ForScript("", "curves", None, [Note(each) for each in trials_notes(batch)], "screen answers"))
     if not content.metrics:
@@ -65,22 +56,14 @@ def other_distribution_sections(content: BatchContent) -> list[Section]:
 def distribution_figures(content: BatchContent, metrics: Sequence[Metric]) -> Figures:
     """Return the empirical distributions of metrics over all trials, with one legend."""
     numbers = {metric: number for number, metric in enumerate(content.campaign.metrics)}
+    styles = list(content.styles.values())
 
     def draw() -> list[Figure]:
         return [
             distribution_figure(
-                metric, metric_values(content.batch, metric.name), content.styles, f"distribution-{numbers[metric]}"
+                metric, metric_values(content.batch, metric.name), styles, f"distribution-{numbers[metric]}"
             )
             for metric in metrics
         ]
 
     return Figures(draw, [LegendEntry(look, [variant]) for variant, look in content.styles.items()], is_in_order=True)
-
-
-def distribution_figure(
-    metric: Metric, samples: Mapping[str, np.ndarray], styles: Mapping[str, Look], name: str
-) -> Figure:
-    """Return the empirical distribution of a metric by variant; ``name`` identifies the figure."""
-    chart = replace(distribution_chart(metric, samples, list(styles.values())), title=CUMULATIVE)
-    words = f"Cumulative distribution of {metric.name}"
-    return Figure(metric.name, name, words, chart, PANEL_HEIGHT, is_narrow=True)

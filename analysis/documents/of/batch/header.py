@@ -7,7 +7,7 @@ from ....commands.campaigns import batch_command
 from ...cell import Code, Quantity
 from ...model import KeyNumbers, Node, Repeat, Text
 from ..campaign.replays import anchors_of
-from ..campaign.verdicts import verdict_nodes
+from ..campaign.verdicts import unjudged_node, verdict_nodes
 from ..origin import condition_notes
 from .content import BatchContent
 
@@ -18,6 +18,7 @@ def header_nodes(content: BatchContent) -> list[Node]:
     command = batch_command(content.batch.plan)
     return [
         *([Text(campaign.description.removesuffix("."), style="lead")] if campaign.description else []),
+        *([] if content.verdicts.has_verdicts else [unjudged_node()]),
         *verdict_nodes(content.verdicts, content.styles, anchors_of(content.replays)),
         *(Text(["", line], style="fail") for line in lost_of(content.batch.summary)),
         Text([

@@ -12,6 +12,7 @@ from ...cell import Cell
 from ...model import Node, Table, Text
 from ..campaign.metrics import metric_summary
 from ..campaign.variants import interval_head
+from ..campaign.verdicts import unjudged_node
 from .content import BatchContent
 from .distribution_sections import distribution_figures
 
@@ -24,7 +25,7 @@ def notebook_nodes(content: BatchContent) -> list[Node]:
         Text(PurePath(campaign.file).name),
         *([Text(f"with faults: {'; '.join(faults)}")] if faults else []),
         _rate_table(rows, campaign.group),
-        _requirement_table(content),
+        _requirement_table(content) if content.verdicts.has_verdicts else unjudged_node(),
         metric_summary(rows, campaign.metrics, campaign.group),
         *([distribution_figures(content, varying)] if (varying := content.sorted_metrics[0]) else []),
     ]

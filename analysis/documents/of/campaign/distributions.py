@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.special import ndtr
 
 from .....common.percent import percent
 from ....campaigns.definition.campaign import Metric
@@ -17,17 +18,21 @@ from ...chart.lines import line
 from ...chart.panel import wide_figure
 from ...chart.symbols import mark, marker, marks
 from ...common.colours import INK, Look, look
+from ...common.panels import PANEL_HEIGHT
 from ...common.quantities import display_factor, label_with_unit
 from ...font.text import text_width
 from ...interactive.charts import NO_BOX, Chart, ChartNote, Drawing
-from ...interactive.measures import TICK_SIZE, WIDTH
+from ...interactive.measures import FAILED_DASHES, TICK_SIZE, WIDTH
+from ...model import Note
+from ...pictures import Figure
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure as Plot
 
 CUMULATIVE = "cumulative probability (CDF), %"
 DECADES = 2.0  # range of a metric from which its axis is logarithmic
 FEW_INTEGERS = 8.0  # range of integers from which ticks may lie between them
+NORMAL_REACH = 3.5  # deviations on either side of 0 that are shown at least, with a normal distribution
 TAIL = 0.01  # on a logarithmic axis, the fraction of values drawn at its left edge
 
 
@@ -89,6 +94,29 @@ def distribution_chart(
     return Chart(NO_BOX, abscissa, ticked_axis((-3.0, 103.0), [0, 25, 50, 75, 100]), curves=[*lines, *dots])
 
 
+def distribution_figure(
+    metric: Metric, samples: Mapping[str, np.ndarray], styles: Sequence[Look], name: str, *, is_normal: bool = False
+) -> Figure:
+    """Return the empirical distributions of a metric as the figure ``name``; with the normal one if ``is_normal``."""
+    chart = distribution_chart(metric, samples, styles, NORMAL_REACH if is_normal else 0.0)
+    if is_normal:
+        x = np.linspace(*chart.x.ends, 121)
+        normal = line(x, 100.0 * ndtr(x), INK, width=1.0, dashes=FAILED_DASHES, name="normal", unit="%")
+        chart = replace(chart, curves=[*chart.curves, normal])
+    words = f"Cumulative distribution of {metric.name}"
+    return Figure(metric.name, name, words, replace(chart, title=CUMULATIVE), PANEL_HEIGHT, is_narrow=True)
+
+
+def distribution_note(*, of_successes: bool) -> Note:
+    """Return how to read the figures, with curves over all trials or over those that succeed."""
+    ends, failed = ("succeed", "has failed trials, or some") if of_successes else ("end", "has trials")
+    return Note(
+        f"Empirical cumulative distribution: the fraction of all trials that {ends} with at most this value. A curve "
+        f"that ends below 100 % {failed} without a finite value. On logarithmic axes, values below the 1st percentile "
+        "are drawn at the left edge."
+    )
+
+
 def _ends(numbers: np.ndarray) -> tuple[float, float, bool]:
     """Return the ends of an axis, and True if it is logarithmic."""
     minimum, maximum = float(numbers.min()), float(numbers.max())
@@ -105,13 +133,13 @@ COLUMNS = 3
 HEIGHT = 2.3  # in, of a panel
 
 
-def metric_plot(batch: CampaignResult, metrics: list[Metric]) -> Figure:
+def metric_plot(batch: CampaignResult, metrics: list[Metric]) -> Plot:
     """Return the empirical distributions over the plotted trials: a panel per metric, a line per variant."""
     styles = {name: look(index) for index, name in enumerate(batch.rows)}
     return distribution_plot({metric: metric_values(batch, metric.name) for metric in metrics}, styles)
 
 
-def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], styles: Mapping[str, Look]) -> Figure:
+def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], styles: Mapping[str, Look]) -> Plot:
     """Return a panel for each metric from its numbers by label; all metrics have the same labels in order."""
     from ...chart.plot import plot_charts  # which imports matplotlib
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from ...cell import Cell, Head, Judged, Link, Percentage, Quantity, Rich, Strong, Track
 from ...common.colours import Look
 from ...common.quantities import label_with_unit
-from ...model import Node, Note, Table
+from ...model import Node, Note, Table, Text
 from .variants import interval_cell, interval_head, variant_cell
 from .verdict_table import JudgedMetric, VerdictRow, VerdictTable
 
@@ -35,6 +35,14 @@ def verdict_nodes(table: VerdictTable, styles: Mapping[str, Look], anchors: Anch
         "Bold: best." if len(table.rows) > 1 else "",
     ]
     return [Table(heads, rows, style="tight verdicts"), Note(" ".join(filter(None, note)))]
+
+
+def unjudged_node() -> Text:
+    """Return that a campaign without requirements has no verdict, and how to declare one."""
+    return Text([
+        Judged("Not judged", "not-applicable"),
+        ": no requirements declared; see Requirements in docs/campaigns.md",
+    ])  # fmt: skip
 
 
 def _metric_head(judged: JudgedMetric) -> Head:

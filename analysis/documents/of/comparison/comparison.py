@@ -15,6 +15,7 @@ from ...pictures import Figure
 from ..campaign.metrics import metric_summary
 from ..campaign.replays import replay_table
 from ..campaign.statuses import status_table
+from ..campaign.verdicts import unjudged_node
 from .content import ComparisonContent
 from .distributions import metric_figures, overlaid_figures
 from .flights.sections import end_section, ends_by_variant_section, error_section, time_sections, trajectory_section
@@ -105,6 +106,7 @@ def notebook_nodes(content: ComparisonContent) -> list[Node]:
     heads = (*who_heads(compared.group), "trials", *(f"{name}, %" for name in names))
     return [
         *map(Text, compared.notes),
+        *([] if compared.has_requirements else [unjudged_node()]),
         Table(heads, rates),
         metric_summary(rows, compared.metrics, compared.group),
         overlaid_figures(draw, content.styles),

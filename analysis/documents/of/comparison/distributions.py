@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
-from scipy.stats import norm
 
 from ....campaigns.compare.comparison import CampaignComparison
 from ....campaigns.definition.campaign import Metric
 from ....campaigns.definition.expressions import Expression
 from ...cell import LegendEntry
-from ...chart.lines import line
-from ...common.colours import COLOURS, DASHES, INK, MARKERS, Look, look
-from ...common.panels import PANEL_HEIGHT
-from ...interactive.measures import FAILED_DASHES
+from ...common.colours import COLOURS, DASHES, MARKERS, Look, look
 from ...pictures import Figure, Figures
-from ..campaign.distributions import CUMULATIVE, distribution_chart
+from ..campaign.distributions import distribution_figure
 from ..campaign.recorded_names import variable_of
 from .sigma import is_over_sigma
 
 MASS = "kg"
-NORMAL_REACH = 3.5  # deviations that are shown at least
 NOT_EVALUATED = Expression("0")
 
 
@@ -85,24 +79,21 @@ def sort_metrics(
     return plotted, still, empty
 
 
-def distribution_figure(metric: Metric, values: Mapping[str, np.ndarray], styles: Mapping[str, Look]) -> Figure:
-    """Return the empirical distribution of a metric by variant, for errors over sigma with the normal distribution."""
-    half_range = NORMAL_REACH if is_over_sigma(metric) else 0.0
-    chart = distribution_chart(metric, values, [styles[label] for label in values], half_range)
-    if half_range:
-        x = np.linspace(*chart.x.ends, 121)
-        normal = line(x, 100.0 * norm.cdf(x), INK, width=1.0, dashes=FAILED_DASHES, name="normal", unit="%")
-        chart = replace(chart, curves=[*chart.curves, normal])
-    slug = "".join(letter if letter.isalnum() else "-" for letter in metric.name)
-    chart, words = replace(chart, title=CUMULATIVE), f"Distributions of {metric.name}"
-    return Figure(metric.name, f"distribution-{slug}", words, chart, PANEL_HEIGHT, is_narrow=True)
-
-
 def metric_figures(
     distributions: Mapping[Metric, Mapping[str, np.ndarray]], metrics: Sequence[Metric], styles: Mapping[str, Look]
 ) -> list[Figure]:
-    """Return the distributions of ``metrics``, a figure each."""
-    return [distribution_figure(metric, distributions[metric], styles) for metric in metrics]
+    """Return the distributions of ``metrics``, a figure each; with the normal one for errors over sigma."""
+    return [
+        distribution_figure(
+            metric,
+            values,
+            [styles[label] for label in values],
+            f"distribution-{''.join(letter if letter.isalnum() else '-' for letter in metric.name)}",
+            is_normal=is_over_sigma(metric),
+        )
+        for metric in metrics
+        for values in [distributions[metric]]
+    ]
 
 
 def overlaid_figures(draw: Callable[[], Sequence[Figure]], styles: Mapping[str, Look]) -> Figures:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ....commands.campaigns import batch_of_folder
 from ...cell import Code, Inline, LegendEntry, Quantity
 from ...common.colours import Look
 from ...common.quantities import MINUS
-from ...model import Fold, Items, KeyNumbers, Missing, Node, Note, Repeat, Text
+from ...model import Commands, Fold, Items, KeyNumbers, Missing, Node, Note, Repeat, Text
 from ..campaign.replays import anchors_of
-from ..campaign.verdicts import verdict_nodes
+from ..campaign.verdicts import unjudged_node, verdict_nodes
 from .content import ComparisonContent
 from .differences import Sentence, significant_differences
 
@@ -22,6 +23,7 @@ def header_nodes(content: ComparisonContent, command: str) -> list[Node]:
     description = first["description"].removesuffix(".")
     return [
         *([Text(["", description], "lead")] if description else []),
+        *([] if compared.has_requirements else [unjudged_node()]),
         *verdict_nodes(content.verdicts, content.styles, anchors_of(content.replays)),
         Text([
             "a trial is a success when ",
@@ -30,6 +32,7 @@ def header_nodes(content: ComparisonContent, command: str) -> list[Node]:
         ]),
         *(_difference_nodes(content) if compared.pairs else []),
         Repeat(command),
+        *_batch_nodes(content),
         KeyNumbers([
             ("system", first["system"]),
             ("variants", len(compared.contenders)),
@@ -41,6 +44,13 @@ def header_nodes(content: ComparisonContent, command: str) -> list[Node]:
         *_condition_notes(content),
         *(Missing(["", note]) for note in compared.notes),  # a folder's name keeps its small letter
     ]  # fmt: skip
+
+
+def _batch_nodes(content: ComparisonContent) -> list[Node]:
+    """Return the commands of the batches whose folders have a manifest."""
+    commands = {name: batch_of_folder(batch.folder) for name, batch in content.comparison.batches.items()}
+    entries = [(name, command) for name, command in commands.items() if command]
+    return [Fold("Command of each compared batch", [Commands(entries)])] if entries else []
 
 
 def _difference_nodes(content: ComparisonContent) -> list[Node]:

@@ -13,6 +13,7 @@ from ...common.colours import Look
 from ...common.quantities import MINUS
 from ...model import Fold, Group, Missing, Node, Note, Section, Table, Text
 from ...pictures import Figures
+from ..campaign.distributions import distribution_note
 from ..campaign.metrics import metric_table
 from ..campaign.variants import group_rows, interval_cell, variant_cells, variant_heads, variant_rows
 from ..campaign.verdict_table import axis_start
@@ -26,14 +27,7 @@ def distribution_section(content: ComparisonContent) -> Section:
     """Return the distributions of the metrics of success and requirements."""
     nodes = missing_nodes(content, "propellant")
     if content.judged:
-        nodes += [
-            _distributions(content, content.judged),
-            Note(
-                "Cumulative over all trials: the fraction that succeeds with at most this value. A curve ends at its "
-                "variant's success rate, or below it where the value is not finite. On logarithmic axes, values below "
-                "the 1st percentile are drawn at the left edge."
-            ),
-        ]
+        nodes += [_distributions(content, content.judged), distribution_note(of_successes=True)]
     return Section("Distributions", nodes)
 
 

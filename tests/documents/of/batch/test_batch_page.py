@@ -86,7 +86,9 @@ def test_requirements_have_verdicts_in_words_and_colour(tmp_path):
     )
     assert "tilt >= 5.73 deg with 50 % probability at 90 % confidence: 16th worst of 40" in displayed  # 0.1 rad
     assert "one can do it" in displayed
-    assert "Requirements" not in text_of(write(mixed_batch(), tmp_path / "without.html"))
+    without = write(mixed_batch(), tmp_path / "without.html")
+    assert "Requirements" not in [heading.text for heading in parse(without).xpath("//h2")]
+    assert ("Not judged: no requirements declared" in text_of(without), "Not judged" in displayed) == (True, False)
 
 
 def test_every_group_has_rows_of_its_own(tmp_path):

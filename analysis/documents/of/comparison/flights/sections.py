@@ -76,7 +76,7 @@ def end_section(content: ComparisonContent) -> list[Section]:
     ends = content.ends
     nodes = missing_nodes(content, "ends")
     if any(len(each) > 1 for each in ends.values()):
-        nodes.append(overlaid_figures(partial(_overlaid, content), content.styles))
+        nodes += [overlaid_figures(partial(_overlaid, content), content.styles), Note(f"{OVERLAID} {ARROW}")]
     for variable, of_all in ends.items():
         signals = ", ".join(dict.fromkeys(each.signal for each in of_all.values()))
         targets = list(dict.fromkeys(each.target for each in of_all.values()))
@@ -142,14 +142,21 @@ def ends_by_variant_section(content: ComparisonContent) -> list[Section]:
     return [Section("Ends of each variant", nodes, is_folded=has_overlaid)] if nodes else []
 
 
+OVERLAID = (
+    f"Ellipses: 3{SIGMA} of the sample covariance of a variant's successful trials about their mean, the cross; they "
+    "contain 98.9 % of a bivariate normal distribution."
+)
+ARROW = (
+    "An arrow at the edge points to the farthest trial or ellipse outside, and has no scale: the text above it has the "
+    "number outside and the distance of the farthest from the target."
+)
 ENDS = (
-    f"Table, ellipses (1, 2 and 3{SIGMA}, with all variants 3{SIGMA}, of the sample covariance, about the mean, which "
+    f"Table, ellipses (1, 2 and 3{SIGMA} of the sample covariance, about the mean, which "
     "is the cross) and dots: successful trials. Grey crosses: failed ones. All panels have one scale. It contains the "
     f"successful trials and ellipses of all variants, but reaches at most to {UNEVEN:g} times the distance along x and "
-    f"y within which {100 * BULK:g} % of the successful trials of the least dispersed variant end; an arrow at the "
-    "edge points to the farthest trial or ellipse outside, above it stands how many there are. At least 50 and 99 % of "
-    f"the successful trials end within the miss distances of these columns. The 1, 2 and 3{SIGMA} ellipses contain "
-    "39.3, 86.5 and 98.9 % of a bivariate normal distribution."
+    f"y within which {100 * BULK:g} % of the successful trials of the least dispersed variant end. {ARROW} At least 50 "
+    f"and 99 % of the successful trials end within the miss distances of these columns. The 1, 2 and 3{SIGMA} ellipses "
+    "contain 39.3, 86.5 and 98.9 % of a bivariate normal distribution."
 )
 
 
