@@ -23,8 +23,8 @@ SOURCES = ROOT / "web"
 BUILT = ROOT / "build" / "web"
 PACKAGES = BUILT / "node_modules"
 LOCKED = ("package.json", "package-lock.json")
-SHIPPED = {"layout": "elkjs", "scene": "three"}  # what bundles have in them, by name
-EMBEDDED = "three"  # of these what pages have in them, with the whole licence, as it demands
+SHIPPED = {"layout": "elkjs", "scene": "three"}  # packages contained in bundles
+EMBEDDED = "three"  # the one also contained in pages, whose licence must be included in full
 ELK_SOURCE = """
 elkjs 0.12.1, the Eclipse Layout Kernel as JavaScript, is unchanged in layout.js. Its source is at
 https://github.com/kieler/elkjs and in the package elkjs of the npm registry.
@@ -77,7 +77,7 @@ def install(*, tools: bool) -> None:
     noted.unlink(missing_ok=True)
     for name in LOCKED:
         shutil.copyfile(SOURCES / name, BUILT / name)
-    # Without the first of these npm tries for 70 s to reach its registry.
+    # Without the first option npm tries for 70 s to reach its registry.
     options = ["--fetch-retries=0", "--ignore-scripts", "--prefer-offline", "--no-audit", "--no-fund"]
     done = run_npm("ci", *options, *() if tools else ("--omit=dev",))
     if done.returncode:

@@ -21,7 +21,7 @@ from .verbs.options.verbs import FORMER, GROUPS, VERBS
 
 HELP_ALL = "--help-all"
 COMPLETES = "_ARGCOMPLETE"  # set where a shell asks for completions; argcomplete is slow to import
-COMPLETING = "COMP_LINE"  # a shell's variable: the line that is being written
+COMPLETING = "COMP_LINE"  # variable of a shell: the line being completed
 USAGE = "perilune [--help] [--version] VERB ..."
 
 

@@ -118,7 +118,7 @@ def _members(declared: type) -> Iterator[Member]:
     else:
         stated = get_type_hints(declared, include_extras=True)
         for name, hint in hints.items():
-            # Of annotations as text only the class's totality is in __optional_keys__.
+            # With annotations as text __optional_keys__ reflects only the class's totality.
             optional = name in getattr(declared, "__optional_keys__", ()) or get_origin(stated[name]) is NotRequired
             yield Member(name, hint, optional)
 

@@ -25,7 +25,7 @@ import perilune
 from perilune.common.errors import InputError
 from perilune.common.paths import BUILD, SYSTEMS
 
-CAMPAIGN = SYSTEMS / "lunar_landing" / "campaigns" / "laws_terminal.toml"  # which compares them all
+CAMPAIGN = SYSTEMS / "lunar_landing" / "campaigns" / "laws_terminal.toml"  # which compares all laws
 SECONDS = 10.0
 RUNS = 5
 DRIVER = Path(__file__).with_name("recorded_steps.c")

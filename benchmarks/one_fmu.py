@@ -91,9 +91,7 @@ def main() -> None:
                 "one FMU": one_fmu(name, folder),
                 "container": container(name, folder),
             }
-            steps = min(
-                STEPS, perilune.simulate(name).time.size - 2
-            )  # until its end, behind which one FMU does nothing
+            steps = min(STEPS, perilune.simulate(name).time.size - 2)  # until its end, after which one FMU does nothing
             flights = {form: timed(prepared, steps) for form, prepared in forms.items() if prepared is not None}
             best = dict.fromkeys(flights, float("inf"))
             for _ in range(REPEATS):

@@ -37,7 +37,7 @@ new MutationObserver(() => {
 }).observe(document, { attributes: true, subtree: true, attributeFilter: ["data-ready", "data-drawn"] });
 """
 SINCE = "return window.times[arguments[0]] - performance.getEntriesByType('navigation')[0].domInteractive"
-# The mean time of a frame in which a statement is carried out, its WebGL included.
+# Mean time of a frame in which a statement is executed, including WebGL.
 LOOP = """
 const [frames, begin, done] = [arguments[0], performance.now(), arguments[1]];
 const canvas = document.querySelector(".scene-view canvas");
@@ -54,14 +54,14 @@ TURN = KEY.replace("SELECTOR", ".scene-view").replace("KEYS", "'ArrowLeft'")
 CURSOR = KEY.replace("SELECTOR", "#measured").replace("KEYS", "'ArrowRight'")
 ZOOM = KEY.replace("SELECTOR", "#measured").replace("KEYS", "frame % 2 ? '+' : '0'")
 SIZE = "Object.assign(document.querySelector('.scene-view').style, { width: arguments[0], height: arguments[1] })"
-# Scrolls to a figure over time, whose cursor and zoom all others over time share; a path has a zoom of its own.
+# Scrolls to a figure over time; all such figures share cursor and zoom, a path has a separate zoom.
 MEASURED = """
 const pictures = [...document.querySelectorAll(".live > svg[aria-label$=' over time']")];
 const frame = pictures.find((each) => each.getClientRects().length).parentElement;
 frame.scrollIntoView();
 frame.querySelector(".chart").id = "measured";
 """
-# Draws all figures, which otherwise happens when they come near to the screen.
+# Draws all figures, which otherwise are drawn when they approach the screen.
 ALL = """
 const done = arguments[0];
 const frames = [...document.querySelectorAll(".live")].filter((each) => each.clientHeight);

@@ -35,7 +35,7 @@ from tests.support.pages.driven import FLAGS
 SHARDS = 200
 BRUSHES = 9
 COMMAND = "from perilune.analysis.cli import run; run()"
-# Announces the time from a release of the pointer to the frame that has the new counts.
+# Reports the time from the release of the pointer to the frame with the new counts.
 TIMER = """
 const done = arguments[arguments.length - 1];
 const before = document.querySelector(".summary tbody").textContent;

@@ -88,5 +88,5 @@ def render(template: str, **content: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
-    )  # names are checked and units are ours: there is nothing to escape
+    )  # names are checked and units are Perilune's, so nothing needs escaping
     return environment.get_template(f"{template}{SUFFIX}").render(**content)

@@ -21,7 +21,7 @@ from .block import Written, render, template_names
 from .names import check_free, check_name, class_name
 
 SYSTEM, BLOCKS = "system", "blocks.py"
-PARTS = ("plant", "control")  # what the system calls the blocks, in order of definition
+PARTS = ("plant", "control")  # names of the blocks in the system, in order of definition
 
 
 def new_system(name: str) -> Written:
@@ -32,7 +32,7 @@ def new_system(name: str) -> Written:
     staged = Path(tempfile.mkdtemp(prefix=f".{name}.", dir=Path.cwd()))
     try:
         names = _write(staged, name)
-        mask = os.umask(0)  # the permissions that new files do not get; to read them is to set them
+        mask = os.umask(0)  # permissions withheld from new files; the mask can only be read by setting it
         os.umask(mask)
         staged.chmod(0o777 & ~mask)
         staged.rename(folder)

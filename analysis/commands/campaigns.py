@@ -54,7 +54,7 @@ def replay_of_folder(folder: Path, configurations: Collection[object], configura
 
 def campaign_name(plan: BatchPlan) -> str:
     """Return the name of a plan's campaign for a command: the name if the system contains it, else the path."""
-    inside = plan.campaign.file.partition("!")[2]  # of a system's own campaign
+    inside = plan.campaign.file.partition("!")[2]  # for a system's own campaign
     return PurePosixPath(inside).stem if inside else plan.campaign.file
 
 

@@ -9,7 +9,7 @@ from lxml import etree
 from ..runtime.ssp.documents import parse_xml, tag
 
 UNORDERED = ("Connectors", "Connections", "Units")
-BYTES = "Annotations"  # whose comments and spaces count
+BYTES = "Annotations"  # element whose comments and spaces are significant
 
 
 def canonical(element: etree._Element) -> bytes:

@@ -18,8 +18,8 @@ from ..runtime.system.fmu import Fmu
 from .source import Entry, SystemSource
 
 ARROW = "->"
-ALL = ".*"  # behind a component: every input of it that nothing is connected to
-TARGETS = re.compile(r",(?![^\[]*\])")  # between names, not between the indices of one
+ALL = ".*"  # after a component: all its unconnected inputs
+TARGETS = re.compile(r",(?![^\[]*\])")  # separates names, but not indices
 INDEX = re.compile(r"\[[\d,]+\]$")
 CONNECTED = ("input", "output", "parameter", "structuralParameter", "calculatedParameter")
 
@@ -88,7 +88,7 @@ class _Wirer:
         self.fmus = fmus
         self.wiring = Wiring()
         self.problems: list[InputError] = []
-        self.written: set[Point] = set()  # targets of connections with a problem, which are not unconnected, too
+        self.written: set[Point] = set()  # targets of faulty connections, not to be reported as unconnected as well
         self.left: set[Point] = set()
         self.signals = {
             component: collapse(name for name, each in fmu.variables.items() if each.causality in CONNECTED)

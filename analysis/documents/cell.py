@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-if TYPE_CHECKING:  # figures take as long to import as a verb without any takes to answer
+if TYPE_CHECKING:  # figures double the start-up time of verbs without figures
     from .common.colours import Look
     from .interactive.charts import Curve, Marker
 
@@ -146,7 +146,7 @@ Inline = (
     | Faint
     | LegendEntry
 )
-Rich = str | Sequence[Inline]  # a sentence; its numbers keep their exact values in a page
+Rich = str | Sequence[Inline]  # a sentence; a page keeps the exact values of its numbers
 
 
 class Phrase(NamedTuple):

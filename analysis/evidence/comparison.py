@@ -9,8 +9,8 @@ import numpy as np
 
 from ...fmus_src.evidence.check import Tolerances
 
-SMALLEST = 1e-6  # magnitude of a signal that differences are taken of; what is smaller may be rounding alone
-CLOSE = 1e-9  # of a time: communication points carry rounding
+SMALLEST = 1e-6  # least magnitude for relative differences; smaller signals may be rounding errors
+CLOSE = 1e-9  # of a time, for rounding errors of communication points
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def compare_signal(
         limits = np.zeros_like(difference) if permitted is None else permitted
         excess = np.where(difference > 0.0, difference / limits, 0.0)
     if permitted is None:
-        excess = np.where(same, 0.0, np.inf)  # 0.0 and -0.0 are not the same bits
+        excess = np.where(same, 0.0, np.inf)  # 0.0 and -0.0 have different bits
     row = int(np.argmax(excess if excess.any() else difference))
     worst = [float(array[row]) for array in (time, reference, actual, difference, limits, excess)]
     worst.append(float(np.max(limits[np.isfinite(reference)], initial=0.0)) / _magnitude(reference))

@@ -95,7 +95,7 @@ def file_of(source: str, base: str) -> str | None:
 
 def check_listed(manifest: Manifest, files: Mapping[str, bytes]) -> dict[str, str]:
     """Return a problem, by file name, for each listed file that is missing or changed."""
-    digests: dict[tuple[str, str], str] = {}  # of a file that is listed often once
+    digests: dict[tuple[str, str], str] = {}  # computed once for a file listed several times
     problems = {}
     for related in manifest.files:
         name, algorithm = related.name, related.algorithm

@@ -30,9 +30,9 @@ from .trajectory import Trajectory, read_trajectory
 TEXTS = ("String", "Binary")
 NAMED = 6  # columns without a variable
 RELATIVE = 1e-6  # of a signal's greatest magnitude, where no tolerance is declared
-FEWEST = 10  # samples of a reference that verify
-WIDEST = 1e-2  # tolerance that verifies, of a signal's greatest magnitude
-WHOLE = 1e-6  # what a number of steps may lack of a whole one
+FEWEST = 10  # samples needed for a verification
+WIDEST = 1e-2  # largest tolerance for a verification, of a signal's greatest magnitude
+WHOLE = 1e-6  # tolerance of a whole number of steps
 SET = "resources/perilune-verify-experiment.ssv"  # an experiment's parameters among the files of its archive
 
 

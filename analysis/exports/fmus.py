@@ -31,7 +31,7 @@ def build_fmu(block: type[Block], path: Path, flavour: str, platforms: Sequence[
         files = read_zip(shipped_fmu(block.fmu_name, flavour))
         left_out = tuple(f"binaries/{name}/" for name in PLATFORMS if name not in platforms)
         files = {name: content for name, content in files.items() if not name.startswith(left_out)}
-        write_zip(path, add_evidence(block, files))  # with the digests of these files alone
+        write_zip(path, add_evidence(block, files))  # with digests of only these files
     elif not platforms:
         raise no_compiler(block.fmu_name, fmi)
     else:

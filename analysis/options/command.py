@@ -26,7 +26,7 @@ def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str
             continue
         for text in value_texts(each, value):
             flag = f"--{each.flag}"
-            # with the equals sign a text that begins with a dash stays a value
+            # with an equals sign a text that begins with a dash remains a value
             words += [flag] if not text else [f"{flag}={text}"] if text[0] == "-" else [flag, text]
     return shlex.join(words)
 

@@ -11,7 +11,7 @@ from ...common.errors import InputError
 
 KINDS = ("override", "bias", "freeze")
 FORM = "COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]"
-WRITTEN = re.compile(  # a window's ends have no dot next to the two between them: 1...2 could be read in two ways
+WRITTEN = re.compile(  # no dot next to the two that separate the ends of a window: 1...2 would be ambiguous
     r"(?P<name>.+)=(?P<kind>[^=:@]+)(?::(?P<value>[^=:@]+))?@(?P<start>[^=:@]*?[^=:@.])(?:\.\.(?P<stop>(?!\.)[^=:@]*))?"
 )
 

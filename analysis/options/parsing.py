@@ -12,7 +12,7 @@ from .system import SHARED
 from .values import read_value
 
 Completer = Callable[..., Iterable[str]]  # argcomplete's
-FindCompleter = Callable[[str], Completer]  # by the name that a declaration states, when a shell asks
+FindCompleter = Callable[[str], Completer]  # by the declared name, when a shell requests completions
 
 
 def add_verb(parser: argparse.ArgumentParser, verb: Verb, find_completer: FindCompleter, *, is_complete: bool) -> None:

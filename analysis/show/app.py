@@ -29,7 +29,7 @@ from .guard import Guard
 from .query import Query, read_query
 from .selected import selected_csv
 
-WORKERS = 2  # requests that are worked on at a time
+WORKERS = 2  # requests processed at a time
 
 
 class Service:

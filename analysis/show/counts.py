@@ -24,7 +24,7 @@ class Counter:
         grids = [index for pair in query.grids for index in pair]
         needed = [*grids, *(each.column for each in query.ranges)]
         if len({*needed, *query.histograms}) <= columns.limit:
-            self._get([*needed, *query.histograms])  # what is missing is read in one go
+            self._get([*needed, *query.histograms])  # missing columns are read in one pass
         self._columns = self._get(needed)
         self._success = columns.success
         self._common = self._of_outcome_and_variants()

@@ -15,7 +15,7 @@ from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 METHODS = ("GET", "HEAD")
-LONGEST_PATH = 100  # characters; numbers of more digits are none
+LONGEST_PATH = 100  # characters; longer numbers are not valid
 HEADERS = {  # of every answer
     "cache-control": "no-store",
     "cross-origin-opener-policy": "same-origin",
@@ -77,6 +77,6 @@ class Guard:
         return hmac.compare_digest(text.encode("latin-1", "replace"), self.token.encode())
 
     def _cookies(self, headers: Headers) -> list[str]:
-        # http.cookies gives up at a cookie of another server of this host that it cannot read.
+        # http.cookies fails at an unreadable cookie of another server on this host.
         named = [cookie_parser(header).get(self.cookie) for header in headers.getlist("cookie")]
         return [text for text in named if text is not None]

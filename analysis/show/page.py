@@ -15,7 +15,7 @@ from .documents import CampaignEntry, ShowDocument
 from .scale import BARS, BINS
 
 BUNDLE = "show"
-FIRST_FIGURES = 6  # histograms that a page begins with
+FIRST_FIGURES = 6  # histograms shown initially
 
 
 def show_page(campaigns: Sequence[OpenCampaign]) -> str:

@@ -14,11 +14,11 @@ from ..documents.interactive.columns import knee_of
 BINS = 4096  # of a scale: a filter begins and ends at their edges
 BARS = 64  # of a histogram, each of equally many bins
 SHIFT = 6  # bits between the number of a bin and that of its bar
-NAN, ABOVE, BELOW = (BINS + kind * (BINS // BARS) for kind in range(3))  # codes of what is not finite
-CODES = BARS + 3  # of bars, with what is not finite
-SAMPLED = 100_000  # numbers that decide whether a scale is bent
-TINIEST = 1e-12  # knee of a bent scale relative to the greatest magnitude
-WHOLE = 1e9  # range up to which whole numbers have bars of their own
+NAN, ABOVE, BELOW = (BINS + kind * (BINS // BARS) for kind in range(3))  # codes of non-finite numbers
+CODES = BARS + 3  # number of bars and codes of non-finite numbers
+SAMPLED = 100_000  # numbers sampled to choose between a linear and an asinh scale
+TINIEST = 1e-12  # least knee of an asinh scale relative to the greatest magnitude
+WHOLE = 1e9  # range up to which whole numbers have separate bars
 CHUNK = 1 << 18  # numbers binned at a time
 
 
@@ -63,7 +63,7 @@ def make_scale(numbers: np.ndarray) -> ColumnScale | None:
     if not finite.size:
         return None
     low, high = float(finite.min()), float(finite.max())
-    if low == high:  # a range about it
+    if low == high:  # a range around it
         pad = 1e-3 * abs(low) or 1.0
         return ColumnScale(max(low - pad, -sys.float_info.max), min(high + pad, sys.float_info.max))
     greatest = max(abs(low), abs(high))

@@ -19,9 +19,9 @@ from .page import show_page
 
 HOST = "127.0.0.1"
 TOKEN_BYTES = 32
-PATIENCE = 1  # s, for requests that are under way at the end
+PATIENCE = 1  # s, for requests in progress at the end
 CONNECTIONS = 64
-SILENCE = 10  # s, after which a connection without a request is closed: others wait for it
+SILENCE = 10  # s, after which a connection without a request is closed, since others wait for it
 
 
 class CampaignServer:
@@ -50,7 +50,7 @@ class CampaignServer:
             uvicorn.Config(
                 make_app(service, f"{HOST}:{self.port}", self._token),
                 log_config=None,
-                log_level="error",  # not: that a stranger has sent what is no request
+                log_level="error",  # without warnings about invalid requests
                 access_log=False,
                 lifespan="off",
                 ws="none",
@@ -66,7 +66,7 @@ class CampaignServer:
         )
         try:
             server.run(sockets=[self._socket])
-        except KeyboardInterrupt:  # which uvicorn raises again once all is closed
+        except KeyboardInterrupt:  # uvicorn raises it again once everything is closed
             pass
         finally:
             self._stop()

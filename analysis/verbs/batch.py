@@ -28,7 +28,7 @@ from .common.campaign_text import campaign_problems, campaign_requirements
 from .common.campaigns import name_foreign, read_campaign, resume_hint
 from .common.documented import Documented
 
-if TYPE_CHECKING:  # plots and pages are imported where they are created
+if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
     from matplotlib.figure import Figure as Plot
 
 

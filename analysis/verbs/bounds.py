@@ -30,7 +30,7 @@ from .common.documented import Documented
 from .common.stores import check_stored_system
 from .options.design import BOUNDS, BoundsOptions
 
-LOOKUP = "bound"  # the lookup that is computed here
+LOOKUP = "bound"  # name of the lookup computed here
 DECIMALS = {"propellant": 6, "duration": 2}  # of the columns of its table, kg and s
 
 

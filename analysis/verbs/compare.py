@@ -86,5 +86,5 @@ def compare(*results: FilePath | Sequence[FilePath], **options: Unpack[CompareOp
     if not folders:
         raise InputError("compare", "", "no folder of results", "name what batch(..., output=...) wrote")
     compared = compare_folders(Comparison, folders, options["reference"])
-    compared.text(options["metrics"])  # which refuses names that it does not have
+    compared.text(options["metrics"])  # rejects unknown names
     return replace(compared, displayed=tuple(options["metrics"]))

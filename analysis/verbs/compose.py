@@ -90,7 +90,7 @@ def compose_source(source: SystemSource, folder: Path, raw: bytes, file: str, fi
     """
     document = add_mark(compose_document(source, folder_archive(folder, files)), file, raw)
     archive = folder_archive(folder, {**files, DESCRIPTION: document})
-    # Inputs of the system may be driven over time, by the option `input` of a flight.
+    # Inputs of the system may be driven over time by the option `input` of a simulation.
     options = SystemOptions(open_inputs="start" if "input" in source.connectors.values() else None)
     try:
         prepared = prepare_system(archive, options)

@@ -43,7 +43,7 @@ class Description(Documented, dict[str, Any]):
         """Write the page of `perilune describe --report`, one HTML file. Raises InputError if there is no block
         diagram.
         """
-        from ..documents.diagram.page import write_system_page  # half of what describe would take to start
+        from ..documents.diagram.page import write_system_page  # doubles the start-up time of describe
 
         if self.prepare is None:
             problem = "only a system and an FMU have a block diagram"

@@ -55,6 +55,6 @@ def diff(first: FilePath, second: FilePath, **options: Unpack[DiffOptions]) -> D
     only one run has it. Raises InputError.
     """
     tolerance = options["tolerance"]
-    if tolerance is not None and not tolerance >= 0.0:  # nan neither
+    if tolerance is not None and not tolerance >= 0.0:  # NaN fails, too
         raise InputError("`tolerance`", str(tolerance), "not a number of 0 or more", "give a fraction, as 1e-6")
     return Differences(compare_runs(read_run(Path(first)), read_run(Path(second))), tolerance)

@@ -24,7 +24,7 @@ from ..options.verb import verb
 from .common.documented import Documented
 from .options.design import LAW, SEARCH, LawOptions, SearchOptions
 
-if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes as long as all the rest
+if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
     from matplotlib.figure import Figure as Plot
 
 

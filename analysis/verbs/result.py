@@ -69,7 +69,7 @@ def present(verb: Verb, result: Documented, files: Mapping[str, Any]) -> ExitSta
     else:
         for line in result.lines():
             print(call_by_flags(line, flags))
-    for name in reversed(list(declared)):  # a verb's own files first, then its page, at last the document
+    for name in reversed(list(declared)):  # first the verb's own files, then its page, last the JSON document
         path, writer = files.get(name), declared[name].option.writer or WRITERS.get(name)
         if writer and path is not None:
             written.write(Path(path), partial(_call, result, writer))

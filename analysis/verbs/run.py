@@ -35,7 +35,7 @@ from .common.arguments import read_requirements, requirement_problems
 from .common.documented import Documented
 from .common.flight_text import flight_lines, flight_problems, note_lines
 
-if TYPE_CHECKING:  # plots and pages are imported where they are created: half of what a run without them would take
+if TYPE_CHECKING:  # imported where needed: half of the time of a run without them
     from matplotlib.figure import Figure as Plot
 
     from ..documents.diagram.diagram import BlockDiagram

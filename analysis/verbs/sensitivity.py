@@ -19,7 +19,7 @@ from ..studies import sensitivity as study
 from .common.campaigns import commands_of, read_campaign
 from .common.studies import Stored, conditions, results_folder, store_result
 
-if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes as long as all the rest
+if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
     from matplotlib.figure import Figure as Plot
 
 

@@ -49,6 +49,6 @@ def show(*folders: FilePath | Sequence[FilePath], **options: Unpack[ShowOptions]
 def _refuse_running_loop() -> None:
     try:
         asyncio.get_running_loop()
-    except RuntimeError:  # which is how asyncio says that there is none
+    except RuntimeError:  # asyncio's sign that no loop runs
         return
     raise InputError("show", "", "an event loop is running here, as in a notebook", "run perilune show in a terminal")

@@ -27,7 +27,7 @@ from ..stability.results.report import LoopReport
 from ..stability.study import study
 from .common.documented import Documented
 
-if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes as long as all the rest
+if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
     from matplotlib.figure import Figure as Plot
 
 

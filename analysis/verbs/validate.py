@@ -50,8 +50,8 @@ from .common.documented import Documented
 from .compose import compose_file
 
 ELEMENT = r"[A-Za-z_][A-Za-z0-9_]*(\[[0-9]+(,[0-9]+)*\])?"
-PLAIN_NAME = re.compile(rf"{ELEMENT}(\.{ELEMENT})*")  # of those that FMI 2.0's structured naming convention allows
-FILES = (".ssv", ".json", ".toml")  # that are no systems
+PLAIN_NAME = re.compile(rf"{ELEMENT}(\.{ELEMENT})*")  # among names that FMI 2.0's structured naming convention allows
+FILES = (".ssv", ".json", ".toml")  # not systems
 
 
 @dataclass(frozen=True)
@@ -142,12 +142,12 @@ def _broken_rules(fmu: Fmu) -> list[str]:
     """Return schema violations of an FMU's description; if none, violations of FMI's rules on names and structure."""
     if fmu.flaws:
         return fmu.flaws
-    # FMPy parses a name in a millisecond: it is asked about those that are not plainly right.
+    # FMPy takes a millisecond per name, so it checks only names that are not plainly valid.
     doubtful = [variable for variable in fmu.description.modelVariables if not PLAIN_NAME.fullmatch(variable.name)]
     partial = evolve(fmu.description, modelVariables=doubtful)
     others = validate_model_description(partial)
     rules = [rule for rule in validate_model_description(partial, validate_variable_names=True) if rule not in others]
-    # FMPy asks for aliases of what the structure lists
+    # FMPy requires aliases to be listed in the model structure
     unnamed = evolve(
         fmu.description, modelVariables=[each for each in fmu.description.modelVariables if not each.alias]
     )

@@ -23,8 +23,8 @@ import perilune
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "benchmarks" / "basilisk"
-FAST, SLOW = (40, 1040), (4, 24)  # trials of a measurement, few and many
-AGREEMENT = 0.01  # m, m/s; each plant holds thrust otherwise within a step
+FAST, SLOW = (40, 1040), (4, 24)  # numbers of trials of a measurement
+AGREEMENT = 0.01  # m, m/s; the plants hold thrust differently within a step
 NO_LAGS = {"plant.thrust_lag": 0.0, "allocation.thrust_lead": 0.0, "allocation.direction_lead": 0.0}
 PLANTS = {
     "here": ({}, {"plant.direction_response": 0.0, "plant.slew_rate_limit": 0.0}),

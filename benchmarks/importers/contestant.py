@@ -63,7 +63,7 @@ def _is_plain(link: Link) -> bool:
     )
 
 
-# What the others are compared with, by flavour.
+# Reference of the comparison, by flavour.
 OURS = {"python": "perilune_python", "native": "perilune_native"}
 Values = dict[str, float]
 Fly = Callable[[int], Values]

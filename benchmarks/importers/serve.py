@@ -18,7 +18,7 @@ from .contestant import Course, Fly, Unavailable
 from .contestants import CONTESTANTS
 from .worker import fly_batch
 
-# Flights are repeated up to a count and a time: some take long to start, and unevenly.
+# Simulations are repeated up to a count and a time: some start slowly and unevenly.
 FLIGHTS = 3
 TURN = 0.1  # s
 
@@ -52,7 +52,7 @@ def _serve(answer: Callable[[dict[str, Any]], None], name: str, ssp: Path) -> No
 
 def main() -> None:
     """Serve the contestant named on the command line until the input ends."""
-    # libraries print: what they say goes to the error stream, the answers go where it would have gone
+    # output of libraries is redirected to standard error; answers use the original standard output
     with os.fdopen(os.dup(1), "w") as output:
         os.dup2(2, 1)
 

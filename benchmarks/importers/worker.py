@@ -35,7 +35,7 @@ class Worker:
         ending = f"from {end_with_parent.__module__} import end_with_parent; end_with_parent({os.getpid()})"
         start = f"{ending}; from {__package__}.serve import main; main()"
         command = [sys.executable, "-c", start, contestant, str(ssp)]
-        # it ends without clearing up: unpacked files are next to the .ssp and go with it
+        # it ends without cleaning up; unpacked files are removed with the .ssp
         paths = os.pathsep.join(filter(None, sys.path))  # where this module is
         environment = {**os.environ, "TMPDIR": tempfile.mkdtemp(dir=ssp.parent), "PYTHONPATH": paths}
         self._process = subprocess.Popen(
@@ -73,15 +73,15 @@ class Worker:
 
     def __exit__(self, problem: type[BaseException] | None, *_: object) -> None:
         if problem is not None:
-            self._process.kill()  # what it is at may take long
+            self._process.kill()  # its current task may take long
         self.close()
 
 
 CAMPAIGN = "paper"
 WORKERS = (1, 2)
-SECONDS = 4.0  # about how long a batch flies
+SECONDS = 4.0  # approximate duration of a batch
 ROUNDS = 3
-LEAST = 20  # trials beyond the warm-up, however long they take
+LEAST = 20  # least trials beyond the warm-up
 
 
 def trials_per_second(ssp: Path, flight: float, rounds: int = ROUNDS) -> dict[str, float]:

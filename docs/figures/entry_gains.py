@@ -29,7 +29,7 @@ from perilune.fmus_src.mathlib.vectors import cross, vector
 from perilune.fmus_src.plants.entry_capsule import EntryCapsule
 
 TRIM = math.radians(-20.0)
-MACH = 25.9  # at 75 km, where one gain has to do for all
+MACH = 25.9  # at 75 km, the design point of a single gain
 DESIGN_PRESSURE = 1147.0  # Pa, there
 SCHEDULE = (600.0, 1200.0, 2400.0)  # Pa
 REAL, PAIR = (-0.35, -0.6), (-0.7, 0.8)
@@ -54,7 +54,7 @@ def sideslip_moments() -> tuple[float, float]:
     h, moments = 1e-4, []
     for sideslip in (h, -h):
         v = in_body(body_axes(vector(0.0, sideslip, TRIM)), vector(1.0, 0.0, 0.0))
-        # two units of density make the pressure one
+        # a density of 2 and a speed of 1 give a dynamic pressure of 1
         moments.append(cross(capsule.pressure_arm, capsule.air_force(v, Air(density=2.0, speed_of_sound=1.0 / MACH))))
     x, y, _ = (moments[0] - moments[1]) / (2.0 * h)
     return round(x, 4), round(y, 3)

@@ -31,7 +31,7 @@ WORDS = "A landing over others"
 SAMPLE = "#b9c9d6"
 TARGET = marker("o", 6.5, INK, fill="#ffffff", width=1.4)
 ARROW_TIMES = 20.0  # s between thrust arrows
-CROWDED = 6e3  # m from the site, nearer than which arrows would lie on each other
+CROWDED = 6e3  # m from the site, below which arrows would overlap
 THIN = 10  # every n-th sample of flights in the background is drawn
 ARROW_SCALE = 7.0  # pt of arrow per m/s2
 

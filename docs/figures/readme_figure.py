@@ -13,7 +13,7 @@ from .pictures import IMAGES, write_picture
 
 SYSTEM, CAMPAIGN = "lunar_terminal_guidance", "paper"
 LANDING = 42  # the trial shown in full: it starts 9.5 degrees off the direction to the site
-SAMPLE = 18  # trials behind it
+SAMPLE = 18  # trials in the background
 
 
 def sample_trials() -> list[int]:

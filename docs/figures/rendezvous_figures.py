@@ -25,7 +25,7 @@ MOMENTS = (0.0, 1420.0, 1520.0, 4250.0, 5000.0)  # s, their beginnings and the e
 INTERVAL = 10.0  # s between the points of smooth curves; the flight has eight a second
 WHOLE, TURN = (0.0, 5000.0), (1400.0, 1560.0)  # s
 PAIR = 2.0  # largest momentum of a pair of gyros over that of a rotor
-REGULAR = 4.0 * np.sqrt(6.0) / 5.0  # nothing is singular below, docs/theory/rendezvous.md
+REGULAR = 4.0 * np.sqrt(6.0) / 5.0  # no singularities below; docs/theory/rendezvous.md
 CAMERA, SPIN = 60.0, 45.0  # m of arrow, and of the spin axis either way
 
 

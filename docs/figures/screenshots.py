@@ -33,7 +33,7 @@ const { right, top } = arguments[0].getBoundingClientRect();
 arguments[0].dispatchEvent(new PointerEvent("pointermove", { clientX: right, clientY: top + 60 }));
 """
 OPEN = "for (let e = arguments[0].closest('details'); e; e = e.parentElement.closest('details')) e.open = true"
-HIDE = "document.querySelector('.explore')?.remove()"  # which lies over what is behind it
+HIDE = "document.querySelector('.explore')?.remove()"  # it covers the page
 
 
 def main(folder: Path = IMAGES / "pages") -> None:

@@ -22,7 +22,7 @@ SHARE, CONFIDENCE = 0.9987, 0.9
 RISK, RATE = 1.0 - CONFIDENCE, 1.0 - SHARE
 MOST = 20_000  # flights
 SHARES = (0.9999, 0.9995, 0.9987, 0.998)  # true ones
-COUNTS = np.arange(150)  # failures: more are refused by every rule, and by then
+COUNTS = np.arange(150)  # failures; every rule has rejected before more
 
 
 @dataclass(frozen=True)

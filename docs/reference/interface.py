@@ -14,7 +14,7 @@ from perilune.fmus_src.face import HOMES
 from .markdown import escaped, prose, table
 
 CALLED = {verb.home[1]: verb for verb in VERBS.values() if not verb.is_command_alone}  # by the name of the function
-WRITING = [name for names in HOMES.values() for name in names]  # what one writes a block with
+WRITING = [name for names in HOMES.values() for name in names]  # names for writing blocks
 
 
 def interface_pages() -> dict[str, str]:

@@ -40,7 +40,7 @@ SYMBOLS = {
     ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
 }  # fmt: skip
 INTEGRATORS = (runge_kutta_4, runge_kutta_nystrom, simpson, count_steps)
-FREE = ("{", "}")  # of words that a message fills in
+FREE = ("{", "}")  # around values in a message
 
 
 def kernel_page() -> str:

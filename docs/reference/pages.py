@@ -16,7 +16,7 @@ from .kernel import kernel_page
 from .lists import catalogue_page, kind_of, slots_page
 from .verbs import verbs_page
 
-TOP = Path(__file__).parents[2]  # of the sources, which perilune need not be imported from
+TOP = Path(__file__).parents[2]  # of the sources; perilune may be imported from elsewhere
 FRONT = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
 LINK = re.compile(r"(\]\()([\w./-]+)((?:#[\w-]*)?\))")
 

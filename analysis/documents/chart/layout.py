@@ -19,11 +19,11 @@ from .ticks import STEPS
 
 LABEL_GAP = 4.0  # pt, from the texts of ticks to the label of the axis
 NARROW, BROAD = 296.0 / POINT, 1000.0 / POINT  # pt: a page's column on the narrowest telephone and on a wide screen
-NARROWS = (320, 400, 480, 640, 800)  # px, up to which a figure may have fewer ticks: those of page.css, `fine`
+NARROWS = (320, 400, 480, 640, 800)  # px, widths below which a figure may have fewer ticks: those of page.css, `fine`
 SPACE = 6.0  # pt, between texts of ticks
 FEWEST = 2  # ticks
-CLOSE = 1e-6  # of a step, by which a tick may lie aside
-LINE = ASCENT + DESCENT  # of a text, of its size
+CLOSE = 1e-6  # of a step, tolerance of a tick's position
+LINE = ASCENT + DESCENT  # height of a line of text over its font size
 
 
 def lay_out(chart: Chart, width: float, height: float, *, title: str = "", left: float = 0.0) -> Chart:
@@ -142,7 +142,7 @@ def _margins(
 ) -> np.ndarray:
     """Return the spaces (pt) left, above, right and below the axes, at least ``left`` and ``right``."""
     room = np.maximum(_room(chart, title), [left, 0.0, right, 0.0])
-    for _ in range(2):  # the room for what is placed in fractions of the axes depends on their size
+    for _ in range(2):  # the space for notes at fractions of the axes depends on their size
         across, up = width - room[0] - room[2], height - room[1] - room[3]
         first, last = _ends_of_ticks(chart, across)
         hanging = np.array([(first, 0.0, last, 0.0), *(overhang(note, across, up) for note in chart.notes)])

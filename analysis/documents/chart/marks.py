@@ -9,7 +9,7 @@ from ..interactive.charts import Area, ChartNote, Rule
 from ..interactive.measures import TICK_SIZE
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
-CIRCLE_DASHES, DASH = 72, 2.0 / 3.0  # strokes of a circle, and what they are of it
+CIRCLE_DASHES, DASH = 72, 2.0 / 3.0  # strokes of a circle, and the fraction of it that they cover
 HATCHES = 8  # strokes in half a polygon
 
 

@@ -58,7 +58,7 @@ def _set_marker(line: QuantityLine, marker: Marker) -> None:
     else:
         path = _path([np.reshape(stroke, (-1, 2)) for stroke in outline])
         line.set_marker(MarkerStyle(path))
-        size *= 2.0 * float(np.abs(path.vertices).max())  # matplotlib has its paths in the size of 1
+        size *= 2.0 * float(np.abs(path.vertices).max())  # matplotlib scales paths to a size of 1
     line.set_markersize(size)
     line.set_markerfacecolor(marker.fill or "none")
     line.set_markeredgecolor(marker.edge or "none")
@@ -102,7 +102,7 @@ def plot_dots(axes: Axes, dots: Dots, x: np.ndarray, y: np.ndarray) -> None:
     axes.add_line(line)
 
 
-CROWD = 3000  # dots, from which they are an image in a picture of paths
+CROWD = 3000  # number of dots from which they are rasterised
 
 
 def plot_note(axes: Axes, note: ChartNote) -> None:

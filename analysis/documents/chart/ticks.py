@@ -12,8 +12,8 @@ STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)  # of ticks, times a power of ten
 DECADES = 150.0  # ratio of the ends of a logarithmic axis from which on whole decades alone have texts
 MULTIPLES = ((1.0,), (1.0, 2.0, 5.0), tuple(map(float, range(1, 10))))  # of powers of ten, at which there are texts
 FEWEST = 2  # ticks
-FAR = 100.0  # from 0, in ranges: ticks then count from a round number near by
-TINY = 1e-15  # relative width of a range that is none
+FAR = 100.0  # distance from 0, in ranges, from which ticks count from a near round number
+TINY = 1e-15  # relative width up to which a range counts as empty
 SMALLEST = 1e21 * np.finfo(float).tiny  # magnitudes that count as 0
 ROUNDING = 1e-10  # of a step
 
@@ -65,7 +65,7 @@ def axis_ticks(
         ticks = np.arange(_floor(low - origin, step, offset), _ceil(high - origin, step, offset) + 1) * step + origin
         if np.count_nonzero((ticks >= low) & (ticks <= high)) >= FEWEST:
             break
-    edge = 1e-9 * width  # by which a tick at an end may lie beyond
+    edge = 1e-9 * width  # tolerance of a tick at an end
     return [float(tick + offset) for tick in ticks if low - edge <= tick <= high + edge]
 
 

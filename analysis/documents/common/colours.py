@@ -21,7 +21,7 @@ class Shade(NamedTuple):
 
 
 BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
-COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, "#000000")  # their yellow is too faint on white
+COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, "#000000")  # instead of yellow, which is too pale on white
 HUES = {
     "blue": BLUE,
     "vermilion": VERMILION,
@@ -50,7 +50,7 @@ SHADES = {
     "bar": Shade("#777", "#999"),
     "button": Shade("#f6f6f6", "#262626"),
     "muted": Shade("#666", "#a8a8a8"),
-    "empty": Shade("#aaa", "#666"),  # the frame of what is empty
+    "empty": Shade("#aaa", "#666"),  # frame of empty items
     "track": Shade("#f0f0f0", "#2a2a2a"),
     "replay": Shade("#ddd", "#444"),
     "good": Shade("#eef5fa", "#14293a"),  # background of a status

@@ -29,7 +29,7 @@ def notebook_view(title: str, words: Iterable[str], grids: Iterable[CellGrid], p
     """Return the HTML of a result; of a long table the first rows and their total number."""
     displayed = [(grid.head, grid.rows[:MOST_ROWS], len(grid.rows)) for grid in grids if grid.rows]
     picture = None
-    if plot is not None:  # as paths, whose identifiers no other figure of the notebook can meet
+    if plot is not None:  # text as paths, with identifiers unique among the notebook's figures
         svg = svg_bytes(plot, "notebook", text_as_paths=True)
         picture = f"data:image/svg+xml;base64,{b64encode(svg).decode()}"
     return render_page(TEMPLATE, title=title, words=list(filter(None, words)), grids=displayed, picture=picture)

@@ -46,7 +46,7 @@ def render_page(template: Path, **content: Any) -> str:
 
     A name that the template needs but does not receive is an error.
     """
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined  # which the terminal's numbers do not need
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined  # not needed for the numbers of a terminal
 
     environment = Environment(
         loader=FileSystemLoader([template.parent, FOLDER]),

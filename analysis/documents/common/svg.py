@@ -11,7 +11,7 @@ import matplotlib
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-IMAGE_DPI = 200  # of what is no vector
+IMAGE_DPI = 200  # of raster images
 
 
 class Picture(Figure):
@@ -34,7 +34,7 @@ def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
 def _lay_out(figure: Figure) -> Iterator[FigureCanvasSVG]:
     """Yield the canvas of a figure with its layout computed, which saves a complete drawing in savefig."""
     before, dpi, engine = figure.canvas, figure.dpi, figure.get_layout_engine()
-    canvas = FigureCanvasSVG(figure)  # whose text the layout measures
+    canvas = FigureCanvasSVG(figure)  # the layout measures its text
     try:
         if engine is not None:
             engine.execute(figure)

@@ -26,10 +26,10 @@ from .reading import read_graph
 
 Result = TypeVar("Result")
 MAX_NAMED = 20  # outputs of a block without connection
-MAX_BLOCKS, MAX_CONNECTIONS = 200, 500  # beyond which nobody reads a diagram; a vector is one connection
+MAX_BLOCKS, MAX_CONNECTIONS = 200, 500  # limits of a legible diagram; a vector is one connection
 
-SHEET = 700.0  # px, the width of a sheet that stands upright
-BROAD = 1.6  # of a diagram's height, from which width on it is larger on a sheet on its side
+SHEET = 700.0  # px, width of a page in portrait format
+BROAD = 1.6  # width over height from which a diagram is larger in landscape format
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,7 @@ COLOURS = {
 FONT = "'DejaVu Sans', Verdana, 'Segoe UI', sans-serif"
 WARNING = "#a84300"  # of faults
 BORDER = 2.0  # around the whole
-POINTED = "7"  # width of what a pointer hits of a line
+POINTED = "7"  # width of the line's area that reacts to the pointer
 ARROW = 6.0  # length of an arrow's head
 TO_LABEL = 10.0  # from a port to its label
 

@@ -15,7 +15,7 @@ from ..interactive.bundles import read_bundle
 MISSING = (
     "No block diagram: the layout engine is not built (npm was not available). Run `make web`, then this command again."
 )
-STRAIGHTEST = 2000  # boxes times edges, up to which lines are made as straight as they can be: some 3 s
+STRAIGHTEST = 2000  # boxes times edges up to which lines are optimised for straightness: some 3 s
 FASTER = {"elk.layered.nodePlacement.strategy": "BRANDES_KOEPF"}
 PATIENCE = 60.0  # s, of one layout; 200 boxes with 500 edges take 4 to 13 s
 MEMORY = 1 << 30  # bytes of V8
@@ -68,7 +68,7 @@ class Engine:
         try:
             return json.loads(self.context.call("layOut", graph, timeout_sec=PATIENCE, max_memory=MEMORY))
         except JSTimeoutException as error:
-            self.context.eval("0")  # which waits for the end of what was stopped
+            self.context.eval("0")  # waits until the stopped call has ended
             raise LayoutError(f"it would take more than {PATIENCE:g} s") from error
-        except JSEvalException as error:  # whose text has the engine's source
+        except JSEvalException as error:  # its text contains the engine's source
             raise LayoutError("it needs too much memory, or too deep a stack") from error

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import NamedTuple
 
-MAX_OPEN = 30  # ports of a side that are drawn though nothing is connected to them
+MAX_OPEN = 30  # unconnected ports drawn per side
 
 
 class Side(StrEnum):

@@ -21,7 +21,7 @@ from .graph import DiagramBlock, DiagramPort, Edge, PortKey, Side
 
 ELEMENT = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 CUSTOM, FOREIGN, SYSTEM, DICTIONARY = "", "foreign FMU", "system", "signal dictionary"
-MAX_RANGES = 3  # of elements, beyond which only their number is given
+MAX_RANGES = 3  # ranges of elements beyond which only their number is shown
 SIDES = {"input": (Side.IN,), "output": (Side.OUT,), "inout": tuple(Side)}  # by the kind of a connector
 Vectors = dict[str, list[str]]  # the indices of a vector's elements, in their order
 

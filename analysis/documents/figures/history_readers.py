@@ -63,7 +63,7 @@ def read_error(reader: SignalReader, element: etree._Element) -> ErrorFigure:
     estimate = reader.signal(element, "estimate")
     truth = reader.signal(element, "truth", like=estimate)
     sigma = reader.optional(element, "sigma", lambda name: reader.signal(element, name, like=estimate))
-    if sigma is not None:  # a difference of values has no offset
+    if sigma is not None:  # a standard deviation is a difference, which has no offset
         sigma = replace(sigma, offsets=(0.0,) * len(sigma.names))
     return ErrorFigure(
         estimate=estimate,

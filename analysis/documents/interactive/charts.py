@@ -15,7 +15,7 @@ from markupsafe import Markup
 
 from .columns import Coarse
 
-PICTURE = {"picture": True}  # the metadata of a field that the picture alone is made of
+PICTURE = {"picture": True}  # metadata of fields that only the SVG uses
 
 
 @dataclass(frozen=True, kw_only=True)

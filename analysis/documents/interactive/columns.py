@@ -62,7 +62,7 @@ class Columns:
 
         Numbers are rounded to float32, or if ``coarse`` to 16 bits over their range, where infinite ones become NaN.
         """
-        with np.errstate(over="ignore"):  # beyond float32 is infinite, which no figure has
+        with np.errstate(over="ignore"):  # numbers beyond float32 become infinite, which no figure shows
             column = np.ascontiguousarray(numbers, dtype="<f4")
         index = self._numbers.setdefault((column.tobytes(), coarse), len(self.encoded))
         if index == len(self.encoded):
@@ -115,5 +115,5 @@ def _planes(numbers: np.ndarray) -> bytes:
     for _ in range(2):
         differences = differences - np.concatenate([np.zeros(1, numbers.dtype), differences[:-1]])[: numbers.size]
     signs = differences >> (8 * numbers.itemsize - 1)
-    folded = (differences << 1) ^ (np.zeros_like(signs) - signs)  # small negative ones become small, too
+    folded = (differences << 1) ^ (np.zeros_like(signs) - signs)  # small negative differences become small numbers, too
     return folded.astype(numbers.dtype.newbyteorder("<")).view(np.uint8).reshape(-1, numbers.itemsize).T.tobytes()

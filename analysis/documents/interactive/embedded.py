@@ -65,7 +65,7 @@ class Embedded:
         if not self._bundles:
             return Markup("")
         document = {**self._columns.document(), "figures": self._figures, **self._documents}
-        # A browser looks for "<" in here before anything reads it as JSON; other than ASCII is escaped as it is.
+        # A browser interprets "<" before scripts read the JSON; non-ASCII characters are escaped by default.
         text = json.dumps(document, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
         content = f'<script type="application/json" id="page-data">{text}</script>\n'
         scripts = "".join(f"<script>{script}</script>\n" for script in self._bundles.values())

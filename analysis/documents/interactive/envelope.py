@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-SPANS = 1000  # of rows, equally many in each but for one
+SPANS = 1000  # of equal numbers of rows, up to one
 
 
 def envelope(x: np.ndarray, y: np.ndarray, spans: int = SPANS) -> tuple[np.ndarray, np.ndarray]:

@@ -13,7 +13,7 @@ from ..common.quantities import number
 from ..model import Document, Node, Text
 
 VERIFIED, COMPARED, DIFFERENT = "verified", "compared", "different"  # verdicts
-NAMED = 6  # signals of an experiment that do not fit
+NAMED = 6  # differing signals of an experiment
 
 
 def verification_document(files: Sequence[Verification]) -> Document:

@@ -11,7 +11,7 @@ from ..model import Listing
 from .words import cell_text
 
 WIDEST = 100  # columns of a line
-LONGEST = 48  # characters of a column, beyond which an entry pushes the rest of its line on
+LONGEST = 48  # characters of a column; longer entries shift the rest of their line
 INDENT = "  "  # of rows below a heading
 
 

@@ -19,7 +19,7 @@ from .cell_markup import cell_class, cell_markup, entry_markup, is_number, legen
 from .diagram import diagram_svg
 
 TEMPLATE = Path(__file__).with_name("document.html")
-COLUMNS = {"": "", "numbers": "n", "names": "who", "sentences": "long"}  # classes of the settings of a column
+COLUMNS = {"": "", "numbers": "n", "names": "who", "sentences": "long"}  # CSS classes by the setting of a column
 
 
 def write_document(document: Document, path: Path) -> None:

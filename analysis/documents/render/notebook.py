@@ -60,7 +60,7 @@ def _key(nodes: Sequence[Node]) -> list[str]:
 
 def plot_figures(figures: Sequence[Figure], key: Sequence[str] = ()) -> Drawing:
     """Return figures side by side as one matplotlib figure with their legends; ``key`` is the common legend."""
-    from ..chart.plot import plot_charts  # matplotlib takes as long to import as all the rest
+    from ..chart.plot import plot_charts  # matplotlib is slow to import
 
     panes = [(each, chart) for each in figures for chart in (each.chart, each.below) if chart is not None]
     is_stacked = len(panes) > len(figures)

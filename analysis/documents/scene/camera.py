@@ -13,7 +13,7 @@ import numpy as np
 from .ground import Ground
 from .view import SceneView, position_at
 
-LOWEST = 0.05  # of the distance, 2 m at most: the camera stays so far above the ground
+LOWEST = 0.05  # of the distance, at most 2 m: minimum height of the camera above the ground
 DEEP = -0.5  # radii: below, axes are those of the frame
 UP = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 FORWARD = {"x": "y", "y": "x", "z": "x"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 NEAR = 1e-2  # m, the least depth
-WIDER = 1.05  # than the picture, so that no cut is in it
+WIDER = 1.05  # than the picture, so that cut edges are outside it
 
 
 def clip_polygon(corners: np.ndarray, tangent: float, aspect: float) -> np.ndarray:

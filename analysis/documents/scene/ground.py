@@ -11,7 +11,7 @@ from .view import SceneView
 
 CORNERS = 720  # of the horizon of a sphere
 FARTHEST = 1e4  # heights, to the edge of a plane
-SUNK = 0.5  # m: what is less below the ground is not hidden
+SUNK = 0.5  # m; points less far below the ground are not hidden
 
 
 @dataclass(frozen=True)

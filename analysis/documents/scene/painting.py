@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from markupsafe import Markup
 
-SAME = 1e-6  # of the depth: what is nearer to a plane is on it
+SAME = 1e-6  # of the depth: distance up to which a point is on a plane
 
 
 class Stroke(NamedTuple):

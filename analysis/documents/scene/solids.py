@@ -14,7 +14,7 @@ from ..common.colours import SHIP
 from .view import BodyView
 
 FOIL, METAL, DARK, SHIELD, PANEL, MARK = SHIP.values()
-SIDES = 24  # of what is round
+SIDES = 24  # of round solids
 X_FORWARD = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # z goes to x
 LEG = 0.02  # width
 

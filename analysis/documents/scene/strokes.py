@@ -18,7 +18,7 @@ from .view import ArrowView, BodyView, SceneView, position_at
 
 SHAFT, HEAD = 0.026, (0.16, 0.1)  # of an arrow: width, and length and width of its head, over its length
 SEGMENTS = 24  # of a shaft, each behind or before the facets of a body
-OVERLAP = 0.2  # of a segment, so that no gap is seen
+OVERLAP = 0.2  # of a segment, which closes gaps
 LIGHT = np.array([-0.515, 0.735, -0.441])  # towards it, from the left, above and behind the camera
 DARKEST = 0.6  # of a facet's colour
 

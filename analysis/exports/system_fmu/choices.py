@@ -86,7 +86,7 @@ class Preparation:
         )
         prepared = self._prepare(changed)
         inputs = [name for name in system_connectors(prepared.network, "input") if name not in prepared.settings.nodes]
-        for start_of in (_no_start, _start_of) if inputs else ():  # with a value inputs remain connected
+        for start_of in (_no_start, _start_of) if inputs else ():  # inputs with a value remain connected
             starts = {name: start_of(prepared.network, name) for name in inputs}
             prepared = self._prepare(changed.but(set={**starts, **changed.set}))
         numbers = tuple(self.slots[slot].index(fmu) + 1 for slot, fmu in use.items())

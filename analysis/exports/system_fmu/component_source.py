@@ -15,9 +15,9 @@ from ....fmus_src.export.write.translate import FOOTER
 from ...runtime.fused.component_code import TOKEN
 from ...runtime.system.fmu import Fmu
 
-SHARED = ("kernel_math.h", "kernel_vectors.h", "block_elements.h")  # which all components of a system use
+SHARED = ("kernel_math.h", "kernel_vectors.h", "block_elements.h")  # shared by all components of a system
 END = FOOTER.format(fmi=2)
-# What a block's file defines begins in the first column.
+# Definitions in a block's file begin in the first column.
 STRUCT = re.compile(r"^typedef struct (\w+) \{", re.MULTILINE)
 STATIC = re.compile(r"^static [\w *]*?(\w+)(?= ?[(\[=])", re.MULTILINE)
 MACRO = re.compile(r"^#define (\w+)", re.MULTILINE)

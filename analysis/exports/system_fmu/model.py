@@ -26,7 +26,7 @@ from .choices import Choice, check_type, system_connectors
 from .component_source import ComponentSource, Member, read_component_source
 
 DEFINE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
-# Its headers: a file of such a name would be included in their place.
+# Names of its headers, which a file of the same name would replace.
 C_LIBRARY = frozenset(
     re.findall(
         r"\w+",
@@ -205,7 +205,7 @@ class SystemModel:
                 )
             nodes = [choice.prepared.network.nodes.get(name) for choice in self.choices]
             if any(node is not None and node.component is None and "." in name for node in nodes):
-                exposed[name] = None  # a connector of a system inside
+                exposed[name] = None  # a connector of a nested system
                 continue
             for choice in self.choices:
                 try:

@@ -191,7 +191,7 @@ def map_value(source: str, target: str, entries: Iterable[tuple[float, float]], 
 
 
 def _set_real(to: Statements, row: Instruction) -> list[str]:
-    if row.function == GET_REAL:  # a READ_REAL, whose values may be anything
+    if row.function == GET_REAL:  # a READ_REAL, whose values are not checked
         return [*to.settle(row.component), *(f"{s} = {to.variable(row, slot)[0]};" for slot, s in to.slots(row))]
     return _give(to, row)
 

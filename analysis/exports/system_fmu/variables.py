@@ -133,7 +133,7 @@ class Variables:
             if node.component is None and node.kind in PARAMETERS:
                 check_type(self.model.network, node)
                 if parameter_chain(self.model.network, self._values, name):
-                    continue  # an outer one has a value
+                    continue  # an outer connector has a value
                 variable = self._of_node(
                     node, "parameter", "parameter", "parameter of the system", _convert(node, value)
                 )

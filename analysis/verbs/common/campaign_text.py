@@ -35,7 +35,7 @@ def campaign_problems(result: CampaignResult, requirements: Sequence[Expression]
         lines += [f"{variant}: {count} simulations took longer than the {limit}; give a longer one"] if count else []
     lines += [f"{line}; `retry_crashed` simulates them again" for line in lost_of(result.summary)]
     values = requirement_values(result.summary)
-    # a status that no trial had is not in the summary: it counts 0
+    # a status that no trial has is missing from the summary and counts 0
     values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
     return [*lines, *requirement_problems(requirements, values), *unmet_lines(result.summary)]
 

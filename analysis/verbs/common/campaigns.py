@@ -32,7 +32,7 @@ from ...studies.flown import StudyCommands
 def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, Any]) -> BatchPlan:
     """Read the plan of a campaign with the options of a verb. Raises InputError."""
     settings, sweeps = part_sweeps(system_options(options))
-    if sweeps and "trials" not in options:  # of a study, which samples the campaign itself
+    if sweeps and "trials" not in options:  # a study, which samples the campaign itself
         name, text = next(iter(sweeps.items()))
         raise InputError("`set`", f"{name}={text}", "a study has no sweeps", "give one value")
     series, draws = options["input"], options.get("draws")

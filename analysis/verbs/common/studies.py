@@ -16,7 +16,7 @@ from ...studies.flown import StudyResult
 from .arguments import requirement_problems
 from .documented import Documented
 
-if TYPE_CHECKING:  # plots are imported where they are drawn: matplotlib takes as long as all the rest
+if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import
     from matplotlib.figure import Figure as Plot
 
 

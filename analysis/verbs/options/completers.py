@@ -64,7 +64,7 @@ def slots_with_fmus(prefix: str, parsed_args: argparse.Namespace, **_: object) -
         return []
     try:
         elements = read_description(archive).system.elements
-    except InputError:  # the command itself will say so
+    except InputError:  # the command itself will report it
         return []
     return [f"{name}=" for name, element in elements.items() if isinstance(element, Component)]
 

@@ -40,7 +40,7 @@ RENAMED = {
     "plan landing-bound": "design bound",
     "plan": "design transfer or perilune design bound",
 }
-# ... and what is said of each that is none any more.
+# ... and the message about each that no longer exists.
 FORMER = {old: f"renamed; write perilune {new}" for old, new in RENAMED.items()} | {
     "benchmark": "left the package; run `make bench` in a checkout of Perilune"
 }

@@ -19,7 +19,7 @@ WRAPPER = FOOTER.format(fmi=2)
 BLOCK = re.compile(r"^typedef (\w+) Block;", re.MULTILINE)
 STRUCT = re.compile(r"^typedef struct (\w+) \{\n.*?^\} \1;\n", re.DOTALL | re.MULTILINE)
 
-# What instance.h does, for one instance and without what an importer may do wrong.
+# Functions of instance.h for one instance, without checks of the importer.
 LIFE_CYCLE = """\
 /* ---- without FMI: one instance ---- */
 

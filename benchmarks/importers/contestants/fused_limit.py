@@ -17,7 +17,7 @@ from ..contestant import Course, Fly, Unavailable, Values
 from .fused_component import Part, write_part
 from .fused_main import FILE, write_main
 
-# Over the FMUs' own flags: all units optimised as one, and nothing but the entry point visible from outside.
+# Added to the FMUs' flags: optimise all units as one, export only the entry point.
 FUSING = ("-flto", "-fvisibility=hidden")
 INCLUDED = [f"-I{C_FILES / folder}" for folder in ("instance", "kernel")]
 

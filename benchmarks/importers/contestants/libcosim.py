@@ -51,7 +51,7 @@ def prepare(course: Course, threads: int = 0) -> Fly:
             variable = fmus[component].variables[name]
             if not setters[variable.type](index[component], variable.reference, value):
                 raise RuntimeError(f"libcosim does not take {component}.{name} = {value}")
-        # an observer costs time at every step: it joins for the last one only
+        # an observer costs time at every step, so it is added before the last one
         observer = CosimObserver.CosimObserver.create_last_value()
         good = steps < 2 or execution.step(steps - 1)
         if not (good and execution.add_observer(observer) and execution.step(1)):
@@ -86,7 +86,7 @@ def _readable(description: bytes, step: float, threads: int) -> bytes:
             connection.getparent().remove(connection)
     for experiment in list(root.iter(f"{{{SSD_NAMESPACE}}}DefaultExperiment")):
         experiment.getparent().remove(experiment)
-    # libcosim reads prefixes, not namespaces, and stumbles over a declaration inside the annotation
+    # libcosim reads prefixes, not namespaces, and fails at a declaration inside the annotation
     text = etree.tostring(root, encoding="unicode")
     text = text.replace("SystemStructureDescription ", f'SystemStructureDescription xmlns:osp="{OSP}" ', 1)
     annotation = ANNOTATION.format(step=step, threads=threads)

@@ -45,7 +45,7 @@ class _Unit:
     inputs: list[int]
     sources: list[int]
     outputs: list[int]
-    first: int  # outputs lie together in the list of values
+    first: int  # outputs are consecutive in the list of values
     parameters: dict[str, dict[int, float | int | bool | str]]  # by type and value reference
 
     def set_inputs(self, values: list[float]) -> None:
@@ -144,7 +144,7 @@ def prepare_ssp(course: Course) -> Fly:
     start, step = course.prepared.start, course.prepared.step
 
     def fly(steps: int) -> Values:
-        # it adds up the time as it goes and stops once that is not below the stop time
+        # it accumulates the time and stops once that reaches the stop time
         stop = start + (steps - 0.5) * step
         rows = simulate_ssp(str(course.ssp), start, stop, step, parameters)
         if len(rows) != steps:

@@ -30,7 +30,7 @@ METHODS = {
 TARGET = np.array([0.0, 0.0, 2000.0])  # m, to be reached at rest
 RANGES = ((100.0, 9e4), (10.0, 100.0), (1.0, 10.0))  # m
 POINTS = 200  # of a curve
-NEAREST = 1.0  # m; nearer, a cycle moves the vehicle by much of the rest
+NEAREST = 1.0  # m; below, a cycle moves the vehicle by much of the remaining distance
 Curve = tuple[np.ndarray, np.ndarray]  # position errors (m), descending, and velocity errors (m/s)
 
 

@@ -20,8 +20,8 @@ from ..pictures import IMAGES, write_picture
 DURATIONS = np.linspace(68.0, 92.0, 49)  # s
 DISTANCES = np.linspace(0.0, 3000.0, 61)  # m
 PUBLISHED = (78.0, 0.0494)  # t7 (s) and propellant fraction of the paper's (6)
-DEARER = (1600.0, 1.29)  # distance (m) and the propellant that the paper says it takes, over that straight down
-LINE = (700.0, 0.033349, 1.0102e-5)  # from where on (m), the fraction at 0 and by m
+DEARER = (1600.0, 1.29)  # distance (m) and its propellant relative to a vertical descent, as published
+LINE = (700.0, 0.033349, 1.0102e-5)  # m, from where the line holds; fraction at 0 and per m
 SIZE = (2.6, 3.6)  # in
 
 
@@ -53,7 +53,7 @@ def distance_figure() -> Figure:
 
 def _programme(distance: float) -> Programme:
     programme = find_programme(HOVER_VEHICLE, replace(HOVER_TRANSFER, distance=distance))
-    assert programme is not None  # at these distances there is one
+    assert programme is not None  # exists at these distances
     return programme
 
 

@@ -25,7 +25,7 @@ LABELS = {
 }
 LABELLED = re.compile(rf"({'|'.join(LABELS)})\b:? (.*)", re.DOTALL)
 ARTICLES = {"a", "A"}  # symbols only where no noun follows
-OPENING = ("See", "Derivation")  # labels that a sentence keeps
+OPENING = ("See", "Derivation")  # labels that remain in the sentence
 
 
 @dataclass(frozen=True)

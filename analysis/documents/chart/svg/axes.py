@@ -16,8 +16,8 @@ from .fluid import VISIBLE, FluidFrame
 MARGIN = 3.0  # pt, around everything
 STROKE, GAP = 3.5, 3.5  # pt: of a tick, from there to its text
 TITLE_GAP = 4.0  # pt, from the title to the axes
-STILL = "still"  # the class of what remains where a script draws lines
-FINE = "fine"  # the class of ticks that a narrow figure has not, with the width (px) up to which it is one
+STILL = "still"  # CSS class of elements that remain when a script draws the lines
+FINE = "fine"  # CSS class of ticks that a narrow figure omits, with its greatest width (px)
 
 
 def text_offset(axis: Axis) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...interactive.charts import Axis
 
-EDGE = 0.05  # pt, by which a mark on an edge may lie outside
+EDGE = 0.05  # pt, tolerance of marks on an edge
 
 
 def fraction(axis: Axis, numbers: np.ndarray) -> np.ndarray:

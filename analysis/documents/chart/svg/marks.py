@@ -53,7 +53,7 @@ def _round(positions: np.ndarray, diameter: float, colour: str) -> str:
     """Return discs as round caps of strokes of zero length, in one path."""
     moves = np.diff(positions, axis=0, prepend=0).tolist()
     path = "".join(f"m{in_tenths(move)}h0" for move in moves)
-    # A page's style sheet has the other ends for strokes, which an attribute would not change.
+    # As a style, because the page's style sheet overrides an attribute.
     style = 'style="stroke-linecap:round"'
     return f'<path d="{path}" stroke="{colour}" stroke-width="{diameter:.3g}" {style}/>' if path else ""
 

@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
 HEIGHT = 1.9  # in, of a panel on the page
-PLOT_HEIGHT, PLOT_WIDTH = 2.0, 6.8  # in, of a panel in a figure of its own
+PLOT_HEIGHT, PLOT_WIDTH = 2.0, 6.8  # in, of a panel in a separate figure
 MOST = 12  # panels that are unfolded where no signal has the name of a state or command
-SPIKE = 8.0  # a range so many times that of the middle 98 % of the values is clipped
+SPIKE = 8.0  # ratio of the range to that of the middle 98 % of values from which it is clipped
 
 
 @dataclass(frozen=True)
@@ -213,7 +213,7 @@ def _ends(values: np.ndarray) -> tuple[tuple[float, float], list[ChartNote]]:
     if not (high > low and maximum - minimum > SPIKE * (high - low)):
         return axis_ends(finite), []
     margin = 0.15 * (high - low)
-    ends = (low - margin, high + 3.0 * margin)  # room for the note
+    ends = (low - margin, high + 3.0 * margin)  # space for the note
     outside = np.flatnonzero(np.any((values < ends[0]) | (values > ends[1]), axis=0))
     early = float(np.mean(outside)) < values.shape[1] / 2
     text = f"clipped; full range {number(minimum, 3)} to {number(maximum, 3)}"

@@ -16,7 +16,7 @@ from ...interactive.measures import TICK_SIZE
 
 INTERVALS = 8  # between marks, at most
 LAST = 0.6  # of an interval before the end, from which on no time is marked
-RADIUS = 3.5  # pt, of marks, which labels leave free
+RADIUS = 3.5  # pt, of marks, which labels must not cover
 APART = 12.0  # pt, between marks that have labels, at least
 CAPITAL = 0.73  # of the size of a text, the height of digits
 
@@ -76,7 +76,7 @@ def _candidates(path: np.ndarray, rows: np.ndarray, row: int, *, is_left: bool) 
         side, below = 8.0 if is_left else -8.0, path[1, rows[max(0, rows.size - 2)]] >= path[1, -1]
         return [(across, up) for across in (side, -side) for up in ((-13.0, 6.0) if below else (6.0, -13.0))]
     left, right = path[:, max(0, row - 1)], path[:, row + 1]
-    rising = (right[0] - left[0]) * (right[1] - left[1]) > 0.0  # then there is room above on the left
+    rising = (right[0] - left[0]) * (right[1] - left[1]) > 0.0  # then there is space above on the left
     above = -5.0 if rising else 5.0
     return [(above, 4.0), (-above, -10.0), (-above, 4.0), (above, -10.0)]
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
 HEIGHT = 3.2  # in
-PLOT_WIDTH = 6.8  # in, of a view in a figure of its own
+PLOT_WIDTH = 6.8  # in, of a view in a separate figure
 INDICES = ("position[1]", "position[2]", "position[3]")
 FAR = 0.35  # rad along the ground, beyond which the ground track replaces the plan view on the tangent plane
 

@@ -29,9 +29,9 @@ from .charts.sets import amplitude_charts, describing_chart, joint_chart, margin
 from .shared import ByPart
 
 HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
-SIGHT_HEIGHT = 3.5  # in; of what is seen at first sight, two beside each other
+SIGHT_HEIGHT = 3.5  # in; of the first figures, two side by side
 LOW = 2.4  # in; of histograms, sensitivities and joint margins
-SIGHT = "sight"  # key of the figures that are seen at first sight
+SIGHT = "sight"  # key of the first figures
 
 
 def _small(label: str, name: str, words: str, chart: Chart, height: float = HEIGHT) -> Figure:

@@ -17,7 +17,7 @@ from .parts import Part, list_absent, parts
 from .shared import TOLERANCE, Shared, share
 from .words import anchor, fold_long, left_out, link, numeral, verdict
 
-SEEN = ("Bode", "Nichols")  # labels of the figures at first sight
+SEEN = ("Bode", "Nichols")  # labels of the first figures
 HOW_TO_READ = (
     "Frequencies are angular, in rad/s, up to the Nyquist frequency of the loop's sample period. Lines are L; small "
     "circles are the response measured in flight, where L is linearised. Diamonds mark gain margins, squares phase "

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from ...pictures import Figure
 from .shared import Shared
 
-FEW = 3  # loops with figures of their own that are printed in full
+FEW = 3  # loops with separate figures up to which everything is printed
 MOST = 40  # figures of the others
-TIERS = (  # the first are seen at first sight, sensitivities stand next to the tables, the others are a row
+TIERS = (  # the first figures, the sensitivities next to the tables, then the figures in a row
     ("Bode", "Nichols"),
     ("Sensitivities",),
     ("Nyquist", "Poles", "Poles near z = 1", "Step response"),

@@ -99,7 +99,7 @@ def _lines(loop: LoopReport) -> Iterator[str]:
         )
     yield f"{loop.name} at {loop.point}: {words}: {loop.verdict}"
     for name, reason in loop.not_applicable.items():
-        if name != "agreement":  # which has a line of its own
+        if name != "agreement":  # reported on a separate line
             yield f"  {name}: {reason}"
     if (spread := loop.dispersion) is not None:
         if spread.unstable:

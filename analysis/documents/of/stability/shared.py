@@ -19,8 +19,8 @@ from ...interactive.charts import Axis, Chart
 from ...pictures import Figure
 
 TOLERANCE = 0.5  # pt; lines of responses are 1.3 pt wide
-COORDINATES = ("at", "ends", "ticks")  # fields with coordinates, and x and y, of which the number of points counts
-ByPart = dict[str, list[Figure]]  # by the part of a loop's section that they belong to
+COORDINATES = ("at", "ends", "ticks")  # fields with coordinates; of x and y only the number of points is compared
+ByPart = dict[str, list[Figure]]  # by the part of a loop's section
 
 
 @dataclass(frozen=True)

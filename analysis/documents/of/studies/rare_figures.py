@@ -26,8 +26,8 @@ from ...pictures import Figure
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in
 DASHED, DOTTED = (4.0, 2.0), (1.0, 2.0)  # line widths
-CUT = 0.002  # of the finite limit-state values, the smallest, may lie below the axis
-PAIRED = 3  # parameters, of which each pair has a panel
+CUT = 0.002  # fraction of the limit-state values, the smallest, that may be below the axis
+PAIRED = 3  # parameters; each pair has a panel
 BEHIND = Backing("#ffffff", 0.8, 0.8)  # of words over a line
 PERCENT = f"{100 * CONFIDENCE:g} %"
 

@@ -16,7 +16,7 @@ from ...pictures import Figures
 from .conditions import closing_sections, condition_nodes, condition_of
 from .sensitivity_figures import MOST, bars_of, index_figures
 
-WIDE = 0.3  # of an interval of a total index, from which on a larger base is advised
+WIDE = 0.3  # width of a total index's interval from which a larger base is recommended
 OPEN = 3  # tables of metrics, which a page does not fold
 DECIMALS = 3  # of indices and correlations
 PERCENT = f"{100 * CONFIDENCE:g} %"

@@ -19,7 +19,7 @@ from ....pictures import Figure
 from .bands import Bands, expectation
 from .recorded import ALL, FlightQuantity
 
-REACH = 1.0  # widths of the expected band that are shown on either side of it at most
+REACH = 1.0  # widths of the expected band shown on either side of it, at most
 HEIGHT = 2.1  # in
 FAINT_BAND = 0.09  # opacity of the 90 % bands where those of all variants overlap
 

@@ -14,7 +14,7 @@ from .recorded import ComparedFlight, FlightQuantity, doubling
 
 LEVELS = (5.0, 25.0, 50.0, 75.0, 95.0)  # %
 MOST_TIMES = 300  # of a band
-FEWEST = 0.25  # share of the flights; where fewer still fly the bands end
+FEWEST = 0.25  # fraction of the simulations; bands end when fewer are still running
 SINGLES, FAILURES = 4, 2  # successful and failed flights drawn one by one
 STATES = 6  # of the filter whose normalised error square is monitored: position and velocity
 History = tuple[np.ndarray, np.ndarray]  # times (s) and values

@@ -11,7 +11,7 @@ from ..sigma import is_over_sigma
 from .ends import UNITS
 from .recorded import ComparedFlight
 
-PATH = frozenset(KNOWN) - {*DIRECTIONS, *CONSISTENCY}  # variables of what moves
+PATH = frozenset(KNOWN) - {*DIRECTIONS, *CONSISTENCY}  # variables of a moving body
 
 
 def missing_statements(
@@ -32,7 +32,7 @@ def missing_statements(
     retained = {
         variable_of(batch.document, name) for batch in comparison.batches.values() for name in batch.document["signals"]
     }
-    moves = not retained or bool(retained & PATH)  # without any signal it may move
+    moves = not retained or bool(retained & PATH)  # without recorded signals a body may move
     has_mass = any(metric.unit == MASS for metric in comparison.metrics) or any(
         variable_of(contender.stored.document, name) == "mass"
         for contender in comparison.contenders.values()

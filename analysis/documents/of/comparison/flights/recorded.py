@@ -30,8 +30,8 @@ KINDS = {
     **dict.fromkeys(CONSISTENCY, "consistency"),
 }
 ALL = "all variants"
-MOST_FLIGHTS = 300  # of a contender that are read: bands do not change visibly with more
-MOST_ROWS = 500  # of a flight that are kept
+MOST_FLIGHTS = 300  # read per contender; more would not visibly change the bands
+MOST_ROWS = 500  # kept per simulation
 
 
 @dataclass(frozen=True)

@@ -79,7 +79,7 @@ def bundle_of(contender: Contender, flights: Sequence[ComparedFlight]) -> Varian
         flight = traced[chosen]
         index = row[flight.trial]
         signals = [flight.signals[name] for name in names]
-        if not flight.is_whole and set(names) <= set(finals):  # the sampled rows seldom reach the end
+        if not flight.is_whole and set(names) <= set(finals):  # sampled rows seldom include the end
             signals = [np.append(values, finals[name][index]) for name, values in zip(names, signals, strict=True)]
         *places, heights = signals
         if heights.size > 1:

@@ -22,9 +22,9 @@ from ....pictures import Figure
 from .end_figures import TARGET
 from .trajectories import FlightPath, VariantPaths
 
-STRETCH = 4.0  # a plan whose sides differ by less is drawn to one scale both ways
+STRETCH = 4.0  # ratio of a plan's sides below which it has equal scales
 Polyline = tuple[np.ndarray, np.ndarray, bool]  # abscissas and ordinates of a path as displayed, True if it succeeded
-ROOM = 0.12  # of the successful flights' extent, around them; failed flights may leave it
+ROOM = 0.12  # margin over the extent of successful paths; failed ones may exceed it
 
 
 def side_figures(bundles: Mapping[str, VariantPaths], styles: Mapping[str, Look]) -> list[Figure]:

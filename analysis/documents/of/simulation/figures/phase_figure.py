@@ -230,7 +230,7 @@ def consumption_by_phase(budget: BudgetFigure, result: Result) -> dict[str, floa
     """Return the consumption of each phase that occurred, summed over its occurrences."""
     spent: dict[str, float] = {}
     for span in spans_of(budget.of, result):
-        assert span.spent is not None  # the reader of a budget demands it
+        assert span.spent is not None  # required by the reader of a budget
         spent[span.name] = spent.get(span.name, 0.0) + span.spent
     return spent
 

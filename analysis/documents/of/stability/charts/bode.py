@@ -35,9 +35,9 @@ from .frequency import (
     phase_words,
 )
 
-FAR, NEAR = 60.0, 80.0  # dB below and above 1, from where on a gain says nothing about margins
+FAR, NEAR = 60.0, 80.0  # dB below and above 1 beyond which a gain is irrelevant to margins
 REACH = 0.07  # of the frequency axis, to either side of a crossover, over which a limit is drawn
-ROOM = 0.085  # of the frequency axis, which words take
+ROOM = 0.085  # of the frequency axis, width of a label
 GAINS = (1.0, 2.0, 4.0, 5.0, 10.0)  # dB, of ticks, times a power of ten
 PHASES = (1.0, 1.5, 3.0, 4.5, 9.0, 10.0)  # deg
 

@@ -34,7 +34,7 @@ COMPLEMENTARY = (5.0, 1.6)  # T
 FLOOR = 1e-12  # of a gain, for its logarithm
 WHITE = "#ffffff"
 PEAK = marker("s", MARK, VERMILION)
-FORBIDDEN = "#f6d5c0"  # fill of where a response or a margin must not be
+FORBIDDEN = "#f6d5c0"  # fill of forbidden regions
 BEHIND = Backing(WHITE, 0.8, 0.8)  # of words over a line
 
 

@@ -20,7 +20,7 @@ KINDS = {"loop": "x", "not controllable": "v", "not observable": "^", "neither":
 NEAR = 0.3  # from z = 1; slow loops have their poles there
 MOST = 2500  # points of a cloud; more are thinned to a grid
 SHAPE, LOW_SHAPE = 1.2, 1.6  # width over height of the panels' axes, about
-NOTES = np.array([0.5, 0.6, 0.4, 0.7, 0.3])  # of half a turn, where numbers of dampings may stand
+NOTES = np.array([0.5, 0.6, 0.4, 0.7, 0.3])  # of half a turn, positions of labels of damping
 CLEAR = 0.15  # from a number to the next pole at least
 SIZE, EDGE = 5.5, 1.3  # pt, of a mark and its strokes
 
