@@ -1,4 +1,4 @@
-"""Builds the documentation site to build/site: the pages under docs/ and those derived from sources."""
+"""Builder of the documentation site in build/site: the pages under docs/ and those derived from sources."""
 
 from docs.reference.build import main
 

@@ -1,4 +1,4 @@
-"""Builds every FMU to build/fmus/FLAVOUR/NAME.fmu, composes every system and packs it to build/ssp/SYSTEM.ssp."""
+"""Builder of every FMU to build/fmus/FLAVOUR/NAME.fmu, and of every system to build/ssp/SYSTEM.ssp."""
 
 from perilune.analysis.shipped import main
 

@@ -28,7 +28,7 @@ def processor_time(arguments: list[str]) -> float:
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the verbs and print the times."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("system", nargs="?", default="lunar_landing")
     parser.add_argument("--rounds", type=int, default=5)

@@ -37,7 +37,7 @@ def block_slots() -> list[str]:
 
 
 def new_block(name: str, slot: str | None) -> Written:
-    """Write ``name``.py in the working folder. Raises InputError."""
+    """Write ``name``.py into the working folder, from the template of ``slot`` if stated. Raises InputError."""
     if slot is not None and slot not in block_slots():
         problem = "there is no block to start from for it" if slot in slots() else "no such slot"
         raise InputError("`slot`", slot, problem, suggestion(slot, block_slots()))

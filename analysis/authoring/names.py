@@ -1,4 +1,4 @@
-"""Names permitted for a user's block or system."""
+"""Checks of names for a user's blocks and systems."""
 
 from __future__ import annotations
 

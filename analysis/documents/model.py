@@ -1,6 +1,6 @@
-"""The nodes of a document: what a result says, without a medium.
+"""The nodes of a document: the content of a result, independent of the medium.
 
-A renderer decides how a node is shown; which nodes a medium has follows from their type alone:
+A renderer decides how to show a node; its type determines which media include it:
 
 | node | terminal | notebook | page |
 |---|---|---|---|
@@ -9,13 +9,13 @@ A renderer decides how a node is shown; which nodes a medium has follows from th
 | `Listing` | yes | its first rows | yes |
 | `Commands` | yes | no | yes |
 | `Figures` | no | the first ones | yes |
-| `Diagram` | no | where there are no figures | yes |
-| `Fold` | its summary; its nodes if ``is_listed`` | no | opens |
+| `Diagram` | no | if there are no figures | yes |
+| `Fold` | its summary; its nodes if ``is_listed`` | no | folded |
 | `Only` | in its medium | in its medium | in its medium |
 | `Printed` | yes | no | no |
 | `Plot` | no | yes | no |
 | all others | no | no | yes |
-| heading of a `Section` | where it has lines | no | yes |
+| heading of a `Section` | if it has lines | no | yes |
 """
 
 from __future__ import annotations

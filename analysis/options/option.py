@@ -58,7 +58,7 @@ class Option:
 
 
 class Kind(Enum):
-    """Kind of text that the command line reads for an option."""
+    """Kind of an option's text on the command line."""
 
     FLAG = "flag"
     NUMBER = "number"

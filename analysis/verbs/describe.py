@@ -1,4 +1,4 @@
-"""`perilune.describe` and `perilune describe`: contents of a system, an FMU or a slot."""
+"""`perilune.describe` and `perilune describe`: description of a system, an FMU or a slot."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ class Documentation(Documented):
     is_opened: bool
 
     def document(self) -> Document:
-        """Return the path of the page."""
+        """Return a document with the path of the page."""
         return site_document(self.page, self.is_opened)
 
 

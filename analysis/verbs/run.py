@@ -1,4 +1,4 @@
-"""`perilune.simulate` and `perilune run`: a system, or an FMU alone, simulated once."""
+"""`perilune.simulate` and `perilune run`: one simulation of a system, or of an FMU alone."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ class WorstResult(Required, outcome.WorstOutcome):
 
 
 class SearchConditions(Conditions, total=False):
-    """Arguments of a search."""
+    """Conditions of a worst-case search."""
 
     sigmas: float
     realisations: int | None

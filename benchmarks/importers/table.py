@@ -1,4 +1,4 @@
-"""The benchmark as a text table."""
+"""Result of the benchmark as a text table."""
 
 from __future__ import annotations
 

@@ -208,7 +208,7 @@ def _rows_at(flight: Result, interval: float, span: tuple[float, float] = WHOLE)
 
 
 def _attitude(flight: Result, component: str, rows: np.ndarray) -> Rotation:
-    """Return the rotation from body to inertial axes."""
+    """Return the rotations from body to inertial axes at these rows."""
     elements = [flight[f"{component}.quaternion[{index}]"][rows] for index in (1, 2, 3, 4)]
     return Rotation.from_quat(np.stack(elements, axis=1), scalar_first=True)
 

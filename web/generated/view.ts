@@ -49,7 +49,7 @@ export interface BodyView<Column = number> {
   flight?: FlightName;
 }
 
-// A named point: three columns (m).
+// A named point: three columns of position (m).
 export interface SiteView<Column = number> {
   name: string;
   colour: string;

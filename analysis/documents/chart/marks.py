@@ -57,7 +57,7 @@ def rectangle(left: float, right: float, low: float, high: float, colour: str, o
 
 
 def outline(x: np.ndarray, y: np.ndarray, colour: str, width: float) -> Area:
-    """Return strokes from each of the points, [rows], to the next."""
+    """Return strokes that join consecutive points, [rows]."""
     between = np.stack([x, y]).repeat(2, axis=1)[:, 1:-1]
     return Area(between[0], between[1], (False, False), colour.lower(), 1.0, width)
 

@@ -176,7 +176,7 @@ class _Lanes:
         return tops
 
     def line(self, edge: Edge, group: _Group) -> list[Point]:
-        """Return the points of an edge."""
+        """Return the points of an edge's line."""
         (x0, y0), (x9, y9) = self.ports[edge.source], self.ports[edge.target]
         y0, y9 = y0 + self.tops[self.homes[edge.source]], y9 + self.tops[self.homes[edge.target]]
         x1, lane = self.stubs[edge.source, Way.LEAVES], group.y[group.row]

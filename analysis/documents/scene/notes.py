@@ -25,13 +25,13 @@ def scene_notes(scene: SceneFigure, result: Result) -> list[str]:
 
 
 def frame_note(scene: SceneFigure) -> str:
-    """Describe the axes of the scene."""
+    """Return a sentence on the axes of the scene."""
     axes = ", ".join(f"{axis} {name}" if axis != name else axis for axis, name in zip("xyz", scene.axes, strict=True))
     return f"Frame: {scene.frame or 'of the signals'}; {axes}."
 
 
 def size_note(bodies: Iterable[Body]) -> str:
-    """Describe the extents of bodies."""
+    """Return a sentence on the extents of bodies."""
     sizes = "; ".join(f"{body.name} {' x '.join(number(extent) for extent in body.size)} m" for body in bodies)
     return f"To scale, along the body's axes: {sizes}."
 

@@ -95,7 +95,7 @@ class BodyView:
 
 @dataclass(frozen=True)
 class SiteView:
-    """A named point: three columns (m)."""
+    """A named point: three columns of position (m)."""
 
     name: str
     colour: str

@@ -1,4 +1,4 @@
-"""Pages opened in the user's browser."""
+"""Access to the user's browser."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ def descent_figure(flights: Mapping[str, Result]) -> Figure:
 
 
 def draw_descent_laws(flights: Mapping[str, Result], folder: Path = IMAGES) -> Path:
-    """Write the figure."""
+    """Write the figure of the descent laws."""
     with house_style():
         return write_picture(descent_figure(flights), folder / "descent_laws.svg")
 

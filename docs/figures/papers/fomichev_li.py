@@ -77,7 +77,7 @@ def portrait_figure(curves: Mapping[str, Curve]) -> Figure:
 
 
 def draw_terminal_comparison(curves: Mapping[str, Curve], folder: Path = IMAGES) -> Path:
-    """Write the figure."""
+    """Write the figure of the comparison."""
     with house_style():
         return write_picture(portrait_figure(curves), folder / "terminal_comparison.svg")
 

@@ -1,4 +1,4 @@
-"""Compare the check inside an FMU by FMPy, without Perilune."""
+"""Reproduce the check inside an FMU with FMPy, without Perilune."""
 
 import zipfile
 

@@ -1,4 +1,4 @@
-"""The satellite of orbit.py in symbols."""
+"""The satellite of orbit.py with symbolic parameters."""
 
 import sympy
 

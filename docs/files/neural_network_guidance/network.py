@@ -6,7 +6,7 @@ import numpy as np
 
 
 def layers(sizes, weights):
-    """Matrices and offsets of each layer, from one vector of weights."""
+    """Return the matrix and the offsets of each layer, from one vector of weights."""
     stack, start = [], 0
     for inputs, outputs in pairwise(sizes):
         end = start + inputs * outputs
@@ -16,14 +16,14 @@ def layers(sizes, weights):
 
 
 def evaluate(stack, x):
-    """Return outputs for inputs x, one row each: tanh in the hidden layers."""
+    """Return the outputs for inputs x, a row each; hidden layers apply tanh."""
     for matrix, offset in stack[:-1]:
         x = np.tanh(x @ matrix + offset)
     return x @ stack[-1][0] + stack[-1][1]
 
 
 def frame(dr):
-    """Rows: towards the target on the ground, to the left of it, up."""
+    """Return a matrix whose rows point towards the target along the ground, to the left of it, and up."""
     forward = dr * [1.0, 1.0, 0.0]
     forward /= np.linalg.norm(forward)
     up = np.array([0.0, 0.0, 1.0])
@@ -31,6 +31,6 @@ def frame(dr):
 
 
 def features(dr, dv, gravity):
-    """Return inputs of the network, without the site's direction and without units."""
+    """Return the dimensionless inputs of the network, independent of the direction to the site."""
     length = np.linalg.norm(dr)
     return np.concatenate([[dr[2] / length], frame(dr) @ dv / np.sqrt(gravity * length)])

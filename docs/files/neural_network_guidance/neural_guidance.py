@@ -10,13 +10,13 @@ from network import evaluate, features, frame, layers
 
 @cache
 def net(path):
-    """Return the weights, read once."""
+    """Return the weights, which are read once."""
     with np.load(path) as file:
         return dict(file)
 
 
 class NeuralGuidance(TerminalGuidance):
-    """Thrust acceleration and time_to_go from a multilayer perceptron, for starts like its training data."""
+    """Thrust acceleration and time_to_go from a multilayer perceptron, for initial states like its training data."""
 
     python_only = True
     data = ("net.npz",)

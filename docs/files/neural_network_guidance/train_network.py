@@ -1,4 +1,4 @@
-"""Fits the network to the commands of the analytic guidance."""
+"""Fit of the network to the commands of the analytic guidance."""
 
 from itertools import pairwise
 
@@ -41,7 +41,7 @@ x, y = (x - centre) / scale, (y - middle) / spread
 
 
 def misfit(weights):
-    """Mean square of the residual commands, and its gradient by back-propagation."""
+    """Return the mean square of the residual commands, and its gradient by back-propagation."""
     stack, values = layers(SIZES, weights), [x]
     for matrix, offset in stack[:-1]:
         values.append(np.tanh(values[-1] @ matrix + offset))

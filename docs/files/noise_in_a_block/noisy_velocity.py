@@ -1,11 +1,11 @@
-"""A sensor of velocity with noise."""
+"""A velocity sensor with noise."""
 
 from perilune import Block, Input, Output, Parameter, State
 from perilune.fmus_src.mathlib.rng import normals, seed_streams
 
 
 class NoisyVelocity(Block):
-    """Velocity with white normal errors."""
+    """Velocity sensor with white normal errors."""
 
     sigma = Parameter(0.1, unit="m/s", minimum=0.0, description="error, 1 sigma per axis")
     sample_period = Parameter(0.1, unit="s", minimum=0.0, description="between samples")

@@ -1,1 +1,1 @@
-"""A batch as a document."""
+"""Document of a batch."""

@@ -54,7 +54,7 @@ def is_over_sigma(metric: Metric) -> bool:
 
 
 def sigma_rows(comparison: CampaignComparison) -> list[SigmaRow]:
-    """Return a row per such metric and variant."""
+    """Return a row for each error over sigma and variant."""
     rows = []
     for metric, label in itertools.product(filter(is_over_sigma, comparison.metrics), comparison.contenders):
         values = comparison.values(label, metric.name)

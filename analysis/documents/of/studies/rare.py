@@ -120,7 +120,7 @@ def _against_monte_carlo(study: RareOutcome) -> list[Node]:
 
 
 def level_table(study: RareOutcome) -> Table:
-    """Return a row for each level."""
+    """Return a row for each level of the subset simulation."""
     rows: list[tuple[Cell, ...]] = []
     for span, level in zip(level_spans(study), study.simulation.levels, strict=True):
         reached = None if span.reached is None or level.probability is None else span.reached * level.probability

@@ -1,4 +1,4 @@
-"""A rendezvous in a circular orbit: relative motion, range and bearings, their filter, and an approach.
+"""A rendezvous in a circular orbit: relative motion, range and bearing sensor, filter, approach law.
 
 All vectors are in axes at the target (LVLH): x up, y along its velocity, z normal to its orbit.
 """
@@ -18,12 +18,12 @@ MEASURED = ("range", "azimuth", "elevation")
 
 
 def drift(n: float, position: Vector3, velocity: Vector3) -> Vector3:
-    """Acceleration (m/s2) without thrust, mean motion n (rad/s): Clohessy and Wiltshire 1960, equations of motion."""
+    """Return the acceleration (m/s2) without thrust for mean motion n (rad/s): Clohessy and Wiltshire 1960."""
     return vector(3.0 * n * n * position.x + 2.0 * n * velocity.y, -2.0 * n * velocity.x, -n * n * position.z)
 
 
 def transition(n: float, t: float) -> Matrix:
-    """Position and velocity after t (s) without thrust: the closed form of the same equations."""
+    """Return the transition matrix of position and velocity over t (s) without thrust, in closed form."""
     s = sin(n * t)
     c = cos(n * t)
     return matrix(
@@ -37,7 +37,7 @@ def transition(n: float, t: float) -> Matrix:
 
 
 class Motion(Record):
-    """The chaser relative to the target."""
+    """The motion of the chaser relative to the target."""
 
     position = Field(Vector3, unit="m", frame="LVLH", description="from the target to the chaser")
     velocity = Field(Vector3, unit="m/s", frame="LVLH", description="in these axes")
@@ -67,7 +67,7 @@ class RelativeMotion(Block):
         self.set_outputs()
 
     def derivatives(self, t: float, s: Motion, thrust: Vector3) -> Motion:
-        """Rates under an acceleration by thrust (m/s2)."""
+        """Return the rates under an acceleration by thrust (m/s2)."""
         return Motion(position=s.velocity, velocity=drift(self.mean_motion, s.position, s.velocity) + thrust)
 
     def step(self, t: float, h: float) -> None:
@@ -78,7 +78,7 @@ class RelativeMotion(Block):
 
 
 class RangeBearing(Block):
-    """Distance and direction of the target as the chaser measures them, with normal errors."""
+    """Distance and direction of the target as measured by the chaser, with normal errors."""
 
     range_sigma = Parameter(0.1, unit="m", minimum=0.0, description="error of the range, 1 sigma")
     angle_sigma = Parameter(1e-3, unit="rad", minimum=0.0, description="error of both angles, 1 sigma")
@@ -138,7 +138,7 @@ class RelativeNavigation(Block):
         self.correct()
 
     def predict(self, h: float) -> None:
-        """Move estimate and covariance by h (s)."""
+        """Propagate estimate and covariance by h (s)."""
         f = transition(self.mean_motion, h)
         q = zeros(6, 6)
         q[POSITION, POSITION] = self.process_noise * h * h * h / 3.0 * identity(3)
@@ -152,7 +152,7 @@ class RelativeNavigation(Block):
         self.covariance = f @ self.covariance @ f.T + q
 
     def correct(self) -> None:
-        """Take the sample in, by Joseph's form."""
+        """Update the estimate with the sample, in Joseph's form."""
         p = self.estimate[POSITION, 0]
         distance = norm(p)
         across = sqrt(p.x * p.x + p.y * p.y)
@@ -183,7 +183,7 @@ class RelativeNavigation(Block):
 
 
 class ApproachLaw(Block):
-    """Force towards a hold point: speed in proportion to the distance up to a limit, without the drift."""
+    """Force towards a hold point: speed proportional to the distance up to a limit, drift compensated."""
 
     mean_motion = Parameter(0.0011, unit="rad/s", minimum=1e-9, description="of the target")
     mass = Parameter(100.0, unit="kg", minimum=1e-3, description="of the chaser, as known on board")

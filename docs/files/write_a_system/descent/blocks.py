@@ -1,10 +1,10 @@
-"""A lander over its site, and its altitude control."""
+"""A lander above its site, and its altitude control."""
 
 from perilune import Block, Input, Output, Parameter
 
 
 class VerticalLander(Block):
-    """A point mass above flat ground: mass h'' = thrust - mass gravity, exact for a thrust held over a step."""
+    """A point mass above flat ground: mass h'' = thrust - mass gravity, exact for constant thrust over a step."""
 
     mass = Parameter(500.0, unit="kg", minimum=1.0, description="of the lander, constant")
     gravity = Parameter(1.62, unit="m/s2", minimum=0.0, description="downwards, constant")
@@ -28,7 +28,7 @@ class VerticalLander(Block):
 
 
 class AltitudeControl(Block):
-    """Thrust: the weight, and a spring and a damper towards the target altitude."""
+    """Thrust as the sum of the weight, and of a spring and a damper towards the target altitude."""
 
     mass = Parameter(500.0, unit="kg", minimum=1.0, description="as known on board")
     gravity = Parameter(1.62, unit="m/s2", minimum=0.0, description="as known on board")

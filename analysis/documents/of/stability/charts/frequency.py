@@ -63,12 +63,12 @@ def frequency_axis(low: float, high: float) -> Axis:
 
 
 def gain_mark(*, is_decisive: bool) -> Marker:
-    """Return the mark of a phase crossover."""
+    """Return the mark of a phase crossover, where the gain margin is read."""
     return marker("D", DECISIVE, VERMILION) if is_decisive else marker("D", MARK, VERMILION, fill=WHITE)
 
 
 def phase_mark(*, is_decisive: bool) -> Marker:
-    """Return the mark of a gain crossover, and of a peak."""
+    """Return the mark of a gain crossover, where the phase margin is read, and of a peak."""
     return marker("s", DECISIVE, VERMILION) if is_decisive else marker("s", MARK, VERMILION, fill=WHITE)
 
 
