@@ -65,9 +65,7 @@ def main() -> int:
 
 
 def install(*, tools: bool) -> None:
-    """Install the packages of the lock in `BUILT` without running their scripts; ``tools`` includes development
-    packages.
-    """
+    """Install the packages of the lock in `BUILT` without running their scripts; ``tools`` adds those for tests."""
     noted = BUILT / "installed.json"
     locked = digest(SOURCES / name for name in LOCKED)
     installed = json.loads(noted.read_text()) if PACKAGES.is_dir() and noted.is_file() else {}

@@ -71,8 +71,7 @@ def _loop_platforms(portable: bool) -> list[str]:
 
 
 def compose_shipped(path: Path, fmus: Sequence[Path]) -> Path:
-    """Write the SSD next to a `system.toml` and return its path; each FMU is taken from the first folder that contains
-    it.
+    """Write the SSD next to a `system.toml`, with each FMU from the first folder that contains it; return its path.
 
     Raises InputError for a system that cannot be simulated, and for an SSD that was edited by hand.
     """

@@ -34,7 +34,7 @@ TOTAL = re.compile(r"^totals: (\d+)", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Recording:
-    """Inputs of a guidance during a simulation: step (s), ``parameters`` by type, ``inputs`` by name, a number per
+    """Inputs of a guidance in a simulation: step (s), ``parameters`` by type, ``inputs`` by name with a row per
     step.
     """
 

@@ -63,7 +63,5 @@ def _key(name: str) -> str:
 
 
 def _file(label: str) -> str:
-    """Return the path of a file within the system's folder (``campaigns/NAME.toml``), or the full path of another
-    file.
-    """
+    """Return the path of a file within the system's folder (``campaigns/NAME.toml``), or its full path."""
     return label.rpartition("!")[2]

@@ -82,8 +82,7 @@ def report_changed_source(system: str | Path) -> list[str]:
 
 
 def write_source(source: SystemSource, archive: SystemArchive, path: Path, layers: Iterable[Layer] = ()) -> list[Path]:
-    """Write the `system.toml` of a system and its annotations, and into another folder also the files that it refers
-    to.
+    """Write the `system.toml` of a system with its annotations, into another folder with all files it refers to.
 
     ``layers`` are the compositions in its annotations, whose parameter sets and FMUs are written as well. Returns the
     paths. Files with other content are never overwritten. Raises InputError and OSError.

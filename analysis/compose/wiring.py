@@ -47,9 +47,7 @@ class End:
 
 @dataclass(frozen=True)
 class ConnectorSource:
-    """A connector: kind, unit and SSP 1.0 type; an Enumeration becomes Integer, because systems define no
-    enumerations.
-    """
+    """A connector: kind, unit and SSP 1.0 type; an Enumeration is an Integer, since systems define no enumerations."""
 
     kind: str
     type: str
@@ -58,9 +56,7 @@ class ConnectorSource:
 
 @dataclass
 class Wiring:
-    """Connectors by (component, name), with an empty component for the system, and the source of each connected
-    target.
-    """
+    """Connectors by (component, name), with an empty component for the system, and the source of each target."""
 
     connectors: dict[Point, ConnectorSource] = field(default_factory=dict)
     sources: dict[Point, Point] = field(default_factory=dict)

@@ -29,9 +29,7 @@ class SignalDifference:
 
     @cached_property
     def difference(self) -> np.ndarray:
-        """``second`` minus ``first``, [n]; infinite where only one is finite, 0 where both are NaN or the same
-        infinity.
-        """
+        """``second`` minus ``first``, [n]; infinite if only one is finite, 0 if both are NaN or the same infinity."""
         with np.errstate(invalid="ignore", over="ignore"):
             difference = self.second - self.first
         same = (self.first == self.second) | (np.isnan(self.first) & np.isnan(self.second))
@@ -84,8 +82,9 @@ class RunDifferences:
         return [each for each in self.signals if each.differs and not each.copy_of]
 
     def split(self, tolerance: float) -> tuple[list[SignalDifference], list[SignalDifference]]:
-        """Return the signals whose relative difference is above ``tolerance``, and the other differing ones, without
-        copies.
+        """Return the signals with a relative difference above ``tolerance``, and the other ones that differ.
+
+        Copies are omitted.
         """
         beyond = [each for each in self.differing if each.relative > tolerance]
         return beyond, self.differing[len(beyond) :]
@@ -136,9 +135,7 @@ def _conversion(unit: str | None, into: str | None, *, is_relative: bool) -> tup
 
 
 def _sample(run: RecordedRun, name: str, time: np.ndarray, *, hold: bool) -> np.ndarray:
-    """Return the values of a signal at times within its run; ``hold`` takes the latest sample instead of
-    interpolating.
-    """
+    """Return the values of a signal at times within its run, interpolated or with ``hold`` the latest sample."""
     values = run.signals[name]
     if hold:
         return values[np.searchsorted(run.time, time, side="right") - 1]

@@ -15,11 +15,10 @@ CLOSE = 1e-9  # of a time, for rounding errors of communication points
 
 @dataclass(frozen=True)
 class SignalCheck:
-    """The worst sample of a signal: ``reference`` and ``actual`` at ``time`` (s), ``difference`` and ``permitted``
-    difference.
+    """The worst sample of a signal: ``reference``, ``actual`` and their ``difference`` at ``time`` (s).
 
-    ``excess`` is the difference divided by the permitted one, infinite where none is permitted. ``tolerance`` is the
-    largest permitted difference of any sample, relative to the greatest magnitude of the reference.
+    ``excess`` is the difference divided by the ``permitted`` one, infinite where none is permitted. ``tolerance`` is
+    the largest permitted difference of any sample, relative to the greatest magnitude of the reference.
     """
 
     name: str
@@ -102,9 +101,7 @@ def compare(
     tolerances: Tolerances | None,
     relative: float,
 ) -> tuple[list[SignalCheck], bool]:
-    """Compare all signals, the worst first; the second result is True if the simulation was interpolated between
-    samples.
-    """
+    """Compare all signals; return checks, the worst first, and True if the simulation was interpolated."""
     is_last = np.append(np.diff(reference_time) > 0.0, True)  # of samples at one time, the last one counts
     reference_time = reference_time[is_last]
     rows = match_rows(flown_time, reference_time)

@@ -38,8 +38,7 @@ SET = "resources/perilune-verify-experiment.ssv"  # an experiment's parameters a
 
 @dataclass(frozen=True)
 class Reproduction:
-    """Comparison of an experiment: ``signals``, the worst first, and ``problems`` that prevented a complete
-    comparison.
+    """Comparison of an experiment: ``signals``, the worst first, and ``problems`` that prevented comparisons.
 
     ``samples`` is the number of distinct times of the reference. ``not_compared`` are its text columns;
     ``interpolated`` is True if reference times are between communication points.
@@ -195,9 +194,7 @@ def _prepare(
 
 
 def _step(time: np.ndarray, proposed: float | None) -> float | None:
-    """Return the step (s) of a default experiment: the FMU's if all times are multiples of it, else the smallest
-    spacing.
-    """
+    """Return the step (s) of a default experiment: the FMU's if it divides all times, else the least spacing."""
     spacing = np.diff(time)
     if not (spacing > 0.0).any():
         return proposed

@@ -24,8 +24,7 @@ from .request import ExportRequest
 def export_system(
     archive: SystemArchive, path: Path, flavour: str, platforms: Sequence[str], request: ExportRequest
 ) -> None:
-    """Export a system's folder as one archive with the FMUs of the repository and the working folder that it refers
-    to.
+    """Export a system's folder as one archive, including the FMUs of repository and working folder that it uses.
 
     Raises InputError.
     """

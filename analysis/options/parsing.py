@@ -16,8 +16,9 @@ FindCompleter = Callable[[str], Completer]  # by the declared name, when a shell
 
 
 def add_verb(parser: argparse.ArgumentParser, verb: Verb, find_completer: FindCompleter, *, is_complete: bool) -> None:
-    """Add a verb's arguments and options, its own options first; ``is_complete`` adds the help texts of shared
-    options.
+    """Add a verb's arguments and options, its own options first.
+
+    ``is_complete`` includes the help texts of shared options.
     """
     parser.usage = f"{parser.prog} {' '.join(map(_usage, verb.arguments))} [OPTION ...]".replace("  ", " ")
     arguments = parser.add_argument_group("arguments")

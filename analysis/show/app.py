@@ -33,9 +33,7 @@ WORKERS = 2  # requests processed at a time
 
 
 class Service:
-    """Answers to requests about campaigns, computed in separate threads; after the server stops, reading ends with a
-    shard.
-    """
+    """Answers to requests about campaigns, computed in separate threads, which end when the server stops."""
 
     def __init__(self, campaigns: Sequence[OpenCampaign], page: str) -> None:
         self._page = page

@@ -96,9 +96,7 @@ class OpenCampaign:
         return columns
 
     def read_rows(self, rows: Sequence[int], names: Sequence[str]) -> Iterator[dict[str, object]]:
-        """Yield the entries of rows in ascending order: variant, trial, numeric columns and `DETAILS`. Raises
-        InputError.
-        """
+        """Yield the entries of ascending rows: variant, trial, numeric columns and `DETAILS`. Raises InputError."""
         table, current = None, -1
         for row in rows:
             number = bisect_right(self.starts, row) - 1
@@ -109,8 +107,9 @@ class OpenCampaign:
             yield entries
 
     def read_selected(self, mask: np.ndarray, names: Sequence[str]) -> Iterator[pyarrow.Table]:
-        """Yield the rows selected by ``mask`` (rows,), a table per shard: identity, `DETAILS`, columns. Raises as
-        `read` does.
+        """Yield a table per shard with the rows of ``mask`` (rows,): identity, `DETAILS`, columns.
+
+        Raises as `read` does.
         """
         for shard, start in zip(self.source.shards, self.starts, strict=False):
             if self.is_stopped():

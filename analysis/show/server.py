@@ -28,8 +28,9 @@ class CampaignServer:
     """Server of campaigns; ``address`` is the address of its page, including the token."""
 
     def __init__(self, folders: Sequence[Path], port: int = 0) -> None:
-        """Open campaigns and listen on ``port`` (0: any free one). Raises InputError for other folders and a port in
-        use.
+        """Open campaigns and listen on ``port`` (0: any free one).
+
+        Raises InputError for other folders and a port in use.
         """
         self._is_stopped = False
         self.campaigns = [open_campaign(folder, lambda: self._is_stopped) for folder in folders]

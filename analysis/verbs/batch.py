@@ -51,9 +51,7 @@ class BatchResult(Documented, results.CampaignResult):
         return batch_document(self, self.displayed)
 
     def problems(self) -> list[str]:
-        """Return a line for each failure of simulations and each requirement (campaign's or ``require``) that is not
-        met.
-        """
+        """Return a line for each kind of failed simulations, and for each requirement that is not met."""
         return campaign_problems(self, self.requirements)
 
     def to_pandas(self) -> Any:
@@ -74,9 +72,7 @@ class BatchResult(Documented, results.CampaignResult):
         return rank_correlations(draws, metrics)
 
     def write(self, folder: FilePath) -> None:
-        """Write the files of `perilune batch --output`: trials, samples, summary, and traces if the campaign records
-        them.
-        """
+        """Write the files of `perilune batch --output`: trials, samples, summary, and recorded traces."""
         super().write(Path(folder))
 
     def write_task(self, path: FilePath) -> None:

@@ -40,9 +40,7 @@ class Description(Documented, dict[str, Any]):
     prepare: Callable[[], PreparedSystem] | None = None
 
     def report(self, path: FilePath) -> None:
-        """Write the page of `perilune describe --report`, one HTML file. Raises InputError if there is no block
-        diagram.
-        """
+        """Write the page of `perilune describe --report`, one HTML file. Raises InputError without a block diagram."""
         from ..documents.diagram.page import write_system_page  # doubles the start-up time of describe
 
         if self.prepare is None:

@@ -70,9 +70,7 @@ class Inventory(Documented):
         return replace(Inventory({}, (), (), {}), **{kind: getattr(self, kind)})
 
     def matching(self, text: str) -> Inventory:
-        """Return the entries whose name or description contains a text, ignoring case; for systems also names of
-        contents.
-        """
+        """Return the entries that contain a text, ignoring case, in name, description or contents."""
         sought = text.casefold()
         return Inventory(
             {

@@ -23,8 +23,7 @@ NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")  # on which r
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RareResult(Required, outcome.RareOutcome):
-    """Probability of a rare failure: ``probability``, ``interval``, ``flights`` (simulations), ``failures``,
-    conditions.
+    """Result of a rare-failure study: ``probability``, ``interval``, ``failures`` among ``flights`` simulations.
 
     ``simulation`` contains the levels, ``flown`` every simulation; ``folder`` is where the result is stored, if it is.
     """

@@ -68,8 +68,7 @@ class System:
             self.set(f"{name}.{parameter}", setting)
 
     def connect(self, source: str, *sinks: str) -> None:
-        """Connect ``COMPONENT.OUTPUT`` to inputs, whole vectors at once; system connectors are named without a
-        component.
+        """Connect ``COMPONENT.OUTPUT`` to inputs, whole vectors at once; a system connector has no component.
 
         A system connector must be declared by `connector` first.
         """

@@ -30,8 +30,7 @@ NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class WorstResult(Required, outcome.WorstOutcome):
-    """Result of a worst-case search: ``worst`` and ``worst_random`` with samples and metrics, every simulation in
-    ``flown``.
+    """Result of a worst-case search: ``worst`` and ``worst_random`` trial, and every simulation in ``flown``.
 
     ``plan`` is the simulated plan, None for a stability margin. ``folder`` is where the result is stored, if it is.
     """
@@ -39,8 +38,9 @@ class WorstResult(Required, outcome.WorstOutcome):
     plan: BatchPlan | None = None
 
     def document(self) -> Document:
-        """Return a document with the worst case, conditions, search, random trials and box; its page simulates the
-        worst case.
+        """Return a document with worst case, conditions, search, random trials and box.
+
+        Its page simulates the worst case.
         """
         simulate = None if self.plan is None else partial(simulate_worst, self, self.plan)
         return worst_document(self, self.folder, simulate)

@@ -52,9 +52,7 @@ def execute_unguided(simulation: object) -> None:
 
 
 def run(folder: str, trials: int, workers: int, *, guided: bool) -> tuple[float, list[list[float]]]:
-    """Run the controller; return its time (s), and the final position (from the Moon's centre) and velocity of
-    trials.
-    """
+    """Run the controller; return its time (s), and final positions (from the Moon's centre) and velocities."""
     controller = Controller()
     controller.setSimulationFunction(create if guided else create_unguided)
     controller.setExecutionFunction(execute if guided else execute_unguided)

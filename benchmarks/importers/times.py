@@ -50,8 +50,9 @@ class Times:
 
 
 def compute_promised_ratios(times: Mapping[str, Times], trials: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
-    """Return the guaranteed ratios ``first/second`` of available contestants; for workers trials per second, by
-    flavour.
+    """Return the guaranteed ratios ``first/second`` of available contestants.
+
+    For workers these are ratios of trials per second, by flavour.
     """
     ratios = {
         f"{slow}/{fast}": times[slow].ratio(times[fast]) for slow, fast in PROMISED if slow in times and fast in times

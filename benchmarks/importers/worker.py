@@ -1,5 +1,4 @@
-"""Separate process for each contestant, which isolates contestants from each other and the benchmark; trials per
-second.
+"""Separate process for each contestant, isolated from the others and the benchmark; trials per second.
 
 The process runs `serve.py`.
 """
@@ -85,8 +84,7 @@ LEAST = 20  # least trials beyond the warm-up
 
 
 def trials_per_second(ssp: Path, flight: float, rounds: int = ROUNDS) -> dict[str, float]:
-    """Return trials per second of the campaign by number of workers; ``flight`` (s) is the approximate time of a
-    trial.
+    """Return the campaign's trials per second by number of workers; ``flight`` (s) is the rough time of a trial.
 
     A short batch and a long one are timed ``rounds`` times each; the difference of the fastest ones excludes the start
     of the workers. Raises `Unavailable` and `WorkerError`.

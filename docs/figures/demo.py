@@ -1,6 +1,4 @@
-"""Demonstration: builds all FMUs, simulates the published comparison and a whole landing, writes build/demo (`make
-demo`).
-"""
+"""Demonstration `make demo`: builds FMUs, simulates comparison and landing, writes build/demo."""
 
 from __future__ import annotations
 

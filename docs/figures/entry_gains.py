@@ -1,8 +1,10 @@
 """Gains of the entry capsule's output feedback, from its aerodynamic table: `make gains` writes its parameter sets.
 
-Bank, sideslip and two rates at trim, at constant pressure q: bank' = c0 wx - s0 wy, sideslip' = s0 wx + c0 wy, J (wx',
-wy')' = q m sideslip + (ux, uy), measured bank, wx, wy. The poles -0.35, -0.6, -0.7 +- 0.8i are distributed over the
-levels in four ways.
+Bank, sideslip and two rates at trim, at constant pressure q, with measured bank, wx and wy:
+
+    bank' = c0 wx - s0 wy, sideslip' = s0 wx + c0 wy, J (wx', wy')' = q m sideslip + (ux, uy)
+
+The poles -0.35, -0.6, -0.7 +- 0.8i are distributed over the levels in four ways.
 
 The whole attitude, for comparison: bank, sideslip, angle of attack and three rates at trim, turning with the velocity,
 measured bank and rates, three torques: m + p = 7 > 6, so the poles can be placed. The angle of attack is coupled to the
@@ -61,9 +63,7 @@ def sideslip_moments() -> tuple[float, float]:
 
 
 def plant(pressure: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return A, B, C for states (bank, sideslip, wx, wy), torques (ux, uy), outputs (bank, wx, wy) at a pressure
-    (Pa).
-    """
+    """Return A, B, C at a pressure (Pa): states bank, sideslip, wx, wy; torques ux, uy; outputs bank, wx, wy."""
     inertia = np.reshape(EntryCapsule().inertia, (3, 3))[:2, :2]
     a = np.zeros((4, 4))
     a[0, 2:], a[1, 2:] = [math.cos(TRIM), -math.sin(TRIM)], [math.sin(TRIM), math.cos(TRIM)]
@@ -83,8 +83,9 @@ def dual(pressure: float, upper: float, lower: list[complex]) -> np.ndarray:
 
 
 def sideslip_block(pressure: float) -> np.ndarray:
-    """Return [x -y; y x] for the roots x +- iy of p^2 + min(1.4 w, 1) p + w^2; w (rad/s) is the sideslip's own
-    frequency.
+    """Return [x -y; y x] for the roots x +- iy of p^2 + min(1.4 w, 1) p + w^2.
+
+    w (rad/s) is the natural frequency of the sideslip.
     """
     a, _, _ = plant(pressure)
     square = -float(np.array([math.sin(TRIM), math.cos(TRIM)]) @ a[2:, 1])
@@ -136,9 +137,7 @@ def gain_files() -> dict[str, bytes]:
 
 
 def whole_model() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return A, B, C in SI for states (bank, sideslip, attack, wx, wy, wz), three torques, outputs (bank, wx, wy,
-    wz).
-    """
+    """Return A, B, C in SI: states bank, sideslip, attack, wx, wy, wz; three torques; outputs bank, wx, wy, wz."""
     density = air(HEIGHT).density
     capsule = EntryCapsule(
         initial_height=HEIGHT,
@@ -167,9 +166,7 @@ def whole_model() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def whole_gain() -> np.ndarray:
-    """Return F (3, 4), torques (N m) from bank (rad) and rates (rad/s), which places the six poles on UPPER and
-    LOWER.
-    """
+    """Return F (3, 4), torques (N m) from bank (rad) and rates (rad/s), for the poles UPPER and LOWER."""
     return output_feedback_levels(*whole_model(), UPPER, LOWER).gain
 
 

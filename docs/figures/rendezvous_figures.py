@@ -116,9 +116,7 @@ def gyros_figure(flight: Result) -> Figure:
 
 
 def momentum_figure(flight: Result) -> Figure:
-    """Draw the momentum envelope of the gyros in three dimensions and its projections, with the path of the
-    momentum.
-    """
+    """Draw the momentum envelope of the gyros in three dimensions and projections, with the path of the momentum."""
     figure = new_figure(6.2)
     solid: Any = figure.add_subplot(2, 2, 1, projection="3d")
     path = np.stack([flight[f"robot.gyro_momentum[{i}]"] for i in (1, 2, 3)])[:, _rows_at(flight, 1.0, TURN)]
@@ -192,9 +190,9 @@ def plan_figure(flight: Result) -> Figure:
 
 
 def _quickest_turn(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return magnitudes for the time-optimal turn.
+    """Return the magnitudes of attitude and motion in the time-optimal turn at these times (s).
 
-    Rodrigues parameters, angular velocity (deg/s) and angular acceleration (deg/s2).
+    They are Rodrigues parameters, angular velocity (deg/s) and angular acceleration (deg/s2), [n] each.
     """
     guidance: Any = RendezvousGuidanceJerkLimited(attitude_period=0.0)
     guidance.initialize()

@@ -1,5 +1,4 @@
-"""Cost of stopping rules for a success rate of 99.87 % at 90 % confidence: `python -m
-docs.figures.stopping_comparison`.
+"""Cost of stopping rules for 99.87 % success at 90 % confidence: `python -m docs.figures.stopping_comparison`.
 
 Prints the tables of docs/campaigns.md. The numbers are exact, without random sampling: risks and expectations are
 computed over all possible campaigns, by recursion over looks and counts of failures.

@@ -73,9 +73,7 @@ def size_over_time(vector: str, factor: float = 1.0) -> Callable[[Result], Curve
 
 
 def settled(signal: str, factor: float) -> Callable[[Result], Curve]:
-    """Return a curve over time, multiplied by ``factor``, from ten minutes after a satellite began to point to
-    nadir.
-    """
+    """Return a curve over time, multiplied by ``factor``, from ten minutes after a satellite points to nadir."""
 
     def curve(flight: Result) -> Curve:
         rows = (flight["modes.mode"] == 2) & (flight["modes.time_in_mode"] > 600.0)

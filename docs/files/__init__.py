@@ -1,6 +1,4 @@
-"""Files shown on pages, kept in docs/files: a code block `file` that contains a path is replaced by the file's
-content.
-"""
+"""Files shown on pages, kept in docs/files: a code block `file` names a path, and shows the file's content."""
 
 from __future__ import annotations
 

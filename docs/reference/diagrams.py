@@ -17,8 +17,7 @@ CAPTION = (
 
 
 def add_diagrams(docs: Path) -> None:
-    """Insert the diagram of every system with a page before the page's first section, or the reason why there is
-    none.
+    """Insert each system's diagram, or the reason why there is none, before the first section of its page.
 
     ``docs`` is the folder of the site's Markdown. Raises InputError if an FMU is not built.
     """

@@ -27,8 +27,7 @@ def escaped(text: str) -> str:
 
 
 def prose(docstring: str | None, root: str) -> str:
-    """Return a docstring as Markdown: equations unchanged, sources and frames as paragraphs, names of pages as
-    links.
+    """Return a docstring as Markdown: equations unchanged, sources and frames as paragraphs, page names as links.
 
     ``root`` is the relative path from the page to the site's root, such as ``../``.
     """

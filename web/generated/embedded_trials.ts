@@ -1,7 +1,6 @@
 // Written by build_web.py from analysis/documents/of/batch/embedded_trials.py.
 
-// A metric or sampled input, by column name; its numbers are in SI, multiplied by ``factor`` they are in
-// ``unit``.
+// A metric or sampled input, by column name; numbers are in SI, multiplied by ``factor`` they are in ``unit``.
 export interface TrialQuantity {
   name: string;
   unit: string;

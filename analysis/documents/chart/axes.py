@@ -19,8 +19,7 @@ def linear_axis(
     integer: bool = False,
     multiples: Sequence[float] = STEPS,
 ) -> Axis:
-    """Return a linear axis with at most ``intervals`` intervals between ticks; ``integer`` restricts ticks to
-    integers.
+    """Return a linear axis with at most ``intervals`` intervals between ticks, which are integers if ``integer``.
 
     The intervals are ``multiples`` of a power of ten.
     """
@@ -36,8 +35,9 @@ def ticked_axis(ends: tuple[float, float], ticks: Sequence[float], *, label: str
 def logarithmic_axis(
     ends: tuple[float, float], limit: int, *, label: str = "", multiples: tuple[float, ...] = (1.0,)
 ) -> Axis:
-    """Return a logarithmic axis with at most ``limit`` labelled decades; if all are, ``multiples`` of each are
-    ticks, too.
+    """Return a logarithmic axis with at most ``limit`` labelled decades.
+
+    If every decade is labelled, ``multiples`` of each are ticks, too.
     """
     low, high = min(ends), max(ends)
     ticks = [(at, log_tick(at)) for at in decade_ticks(low, high, limit, multiples)]

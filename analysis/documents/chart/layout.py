@@ -72,9 +72,7 @@ def lay_out_fluid(
 
 
 def axes_size(chart: Chart, width: float, height: float) -> tuple[float, float]:
-    """Return the size (pt) of the plotting area in a figure of this size; of a `Fluid` chart that on a narrow
-    screen.
-    """
+    """Return the size (pt) of the plotting area in a figure of this size; if `Fluid`, on a narrow screen."""
     across, up = width * chart.box[2], height * chart.box[3]
     if not chart.fluid:
         return across, up

@@ -1,6 +1,4 @@
-"""Charts drawn by matplotlib, for notebooks, PNG and PDF; other files of charts do not import it, but
-`plot_marks.py`.
-"""
+"""Charts drawn by matplotlib, for notebooks, PNG and PDF; only this file and `plot_marks.py` import it."""
 
 from __future__ import annotations
 

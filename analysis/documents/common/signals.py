@@ -24,9 +24,7 @@ INDEXED = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 
 
 def vector_of(name: str) -> str:
-    """Return the vector that contains a signal: ``plant.position`` for ``plant.position[1]``, else the signal
-    itself.
-    """
+    """Return the vector that contains a signal: ``plant.position`` for ``plant.position[1]``; else the signal."""
     indexed = INDEXED.fullmatch(name)
     return indexed[1] if indexed else name
 

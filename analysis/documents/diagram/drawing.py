@@ -97,9 +97,7 @@ def _draw_frame(parent: etree._Element, placed: Placed, colour: str) -> None:
 
 
 def _draw_edge(parent: etree._Element, route: Route, earlier: Iterable[Segment], colour: str) -> None:
-    """Draw an edge: its line except where ``earlier`` lines of its port cover it, and the whole line for the
-    pointer.
-    """
+    """Draw an edge: its line except where ``earlier`` lines of its port cover it, and all of it for the pointer."""
     attributes = {"class": "edge", "data-signals": _json(a for a, _ in route.edge.pairs)}
     group = etree.SubElement(parent, "g", attributes | {"data-targets": _json(b for _, b in route.edge.pairs)})
     _title(group, edge_text(route.edge))

@@ -36,9 +36,7 @@ Stub = tuple[PortKey, Way]
 
 @dataclass
 class _Group:
-    """The edges of one port in ``row``; ``lanes`` are the abscissas spanned by its lanes, ``y`` their ordinates, by
-    row.
-    """
+    """The edges of one port in ``row``; ``lanes`` are the abscissas of its lanes by row, ``y`` their ordinates."""
 
     source: PortKey
     row: int

@@ -16,9 +16,7 @@ Segment = tuple[Point, Point]
 
 @dataclass
 class Placed:
-    """A placed block. ``ports`` are the points at which edges end; ``inner`` is a nested system's content at
-    ``origin``.
-    """
+    """A placed block; ``ports`` are the ends of edges, ``inner`` is the content of a nested system at ``origin``."""
 
     block: DiagramBlock
     shape: Shape

@@ -295,8 +295,7 @@ class LimitsFigure(FigureDeclaration):
 
 @dataclass(frozen=True)
 class BoundValues:
-    """Lower bounds on propellant (kg) by ``names``: of single-burn braking and landing, `LANDING`, and of its
-    phases.
+    """Lower bounds on propellant (kg) by ``names``: of single-burn braking and landing, `LANDING`, and of phases.
 
     Without ``values``, ``missing`` states the reason and a remedy.
     """
@@ -308,9 +307,7 @@ class BoundValues:
 
 @dataclass(frozen=True)
 class BudgetItem:
-    """A row of a budget: the consumption of ``phases``, with the bound's values ``plus`` added and ``minus``
-    subtracted.
-    """
+    """A row of a budget: the consumption of ``phases`` plus the bound's values ``plus``, minus those in ``minus``."""
 
     name: str
     phases: tuple[str, ...]

@@ -104,9 +104,7 @@ class SignalReader(AnnotationReader):
         return SampleRange(self.scalar(element, "where"), low, high)
 
     def labels(self, element: etree._Element, signal: Signal) -> tuple[str, ...]:
-        """Return the labels of a vector's elements: names from the figure or its frame, else indices; empty for a
-        scalar.
-        """
+        """Return the labels of a vector's elements: names of the figure or its frame, or indices; none for a scalar."""
         labels = tuple(element.get("labels", "").split())
         if not labels and self.displayed(signal.names[0]) == signal.label:
             return ("",)
@@ -194,9 +192,7 @@ class SignalReader(AnnotationReader):
         return replace(signal, offsets=tuple(-signal.factor * value for value in numbers))
 
     def less(self, element: etree._Element, signal: Signal) -> tuple[Signal, Signal | None]:
-        """Read the signal of the attribute ``less``; a parameter is subtracted in the offsets of the first signal
-        instead.
-        """
+        """Read the signal of the attribute ``less``; a parameter changes the offsets of the first signal instead."""
         name = element.get("less", "").strip()
         component, variable = split_name(name, self.network.fmus)
         fmu = self.network.fmus.get(component)

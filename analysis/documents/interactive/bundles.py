@@ -19,9 +19,7 @@ def read_bundle(name: str) -> str | None:
 
 
 def policy(scripts: Iterable[str], *, requests: bool = False) -> str:
-    """Return a Content-Security-Policy for only these scripts, without network, or with ``requests`` to the page's
-    server.
-    """
+    """Return a Content-Security-Policy: only these scripts, and no network but the page's server if ``requests``."""
     hashes = [base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts]
     sources = " ".join(["'wasm-unsafe-eval'", *(f"'sha256-{each}'" for each in hashes)]) if hashes else "'none'"
     connect = "; connect-src 'self'" if requests else ""

@@ -38,9 +38,7 @@ class Embedded:
         return len(self._figures) - 1
 
     def add_document(self, name: str, bundle: str, document: Any) -> bool:
-        """Add a document that the script ``bundle`` reads; return False, and add nothing, if the script was not
-        built.
-        """
+        """Add a document that the script ``bundle`` reads; return False, adding nothing, if it was not built."""
         if not self.use(bundle):
             return False
         self._documents[name] = self._plain(document)

@@ -87,8 +87,9 @@ def cell_markup(cell: Cell) -> Markup:
 
 
 def rich_markup(content: Rich, *, is_sentence: bool = False) -> Markup:
-    """Return the markup of a sentence; ``is_sentence`` adds an initial capital and, unless a verdict ends it, a full
-    stop.
+    """Return the markup of a sentence.
+
+    ``is_sentence`` adds an initial capital and, unless a verdict ends it, a full stop.
     """
     inline = [content] if isinstance(content, str) else list(content)
     if is_sentence and isinstance(inline[0], str):

@@ -9,9 +9,7 @@ WIDER = 1.05  # than the picture, so that cut edges are outside it
 
 
 def clip_polygon(corners: np.ndarray, tangent: float, aspect: float) -> np.ndarray:
-    """Return the corners, [n, 3], of a convex polygon clipped to a picture of this aspect and tangent of half its
-    field.
-    """
+    """Return the corners, [n, 3], of a convex polygon clipped to a picture of this aspect and tangent of half field."""
     for plane, offset in _planes(tangent, aspect):
         distance = corners @ plane - offset
         cut: list[np.ndarray] = []

@@ -22,9 +22,7 @@ from .view import BodyView, FlightName, SceneView, SiteView, find_origin, ground
 
 @dataclass(frozen=True)
 class RecordedFlight:
-    """A trial of a variant with its recorded signals; ``colour`` is that of its variant, ``label`` its name in a
-    view.
-    """
+    """A trial of a variant with its recorded signals; ``colour`` is its variant's, ``label`` its name in a view."""
 
     name: FlightName
     label: str

@@ -16,9 +16,7 @@ SUNK = 0.5  # m; points less far below the ground are not hidden
 
 @dataclass(frozen=True)
 class Ground:
-    """A sphere around ``centre`` (m), with a grid about ``normal``; or a plane through ``centre``, perpendicular to
-    z.
-    """
+    """A sphere around ``centre`` (m), with a grid about ``normal``; or a plane z = constant through ``centre``."""
 
     centre: np.ndarray
     radius: float

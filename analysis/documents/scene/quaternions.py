@@ -72,9 +72,7 @@ def carry_axis(axis: np.ndarray) -> np.ndarray:
 
 
 def _shortest(start: tuple[float, ...], end: tuple[float, ...]) -> tuple[float, ...]:
-    """Return the shortest rotation from one unit vector to another; about any perpendicular axis if they are
-    opposite.
-    """
+    """Return the shortest rotation between unit vectors; about any perpendicular axis if they are opposite."""
     x, y, z = start
     cosine = x * end[0] + y * end[1] + z * end[2]
     if cosine < -1.0 + 1e-12:

@@ -32,10 +32,9 @@ def fault_inputs(connector: str) -> list[str]:
 
 
 def _follow(prepared: PreparedSystem, start: str) -> list[str]:
-    """Return the signals that propagate the value at ``start``: itself, or for a parameter the outputs of its
-    component.
+    """Return the signals that propagate the value at ``start``: itself, or the outputs of a parameter's component.
 
-    A parameter has none if the component steps before its inputs are known.
+    A parameter has none if its component steps before its inputs are updated.
     """
     component, variable = split_name(start, prepared.network.fmus)
     known = prepared.network.fmus[component].variables if component else {}

@@ -27,9 +27,7 @@ class OtherSets:
 
 
 def other_parameter_sets(preparation: Preparation, system: System, declared: Sequence[FmuVariable]) -> OtherSets:
-    """Return the further sets of the ``system``, each reduced to the ``declared`` parameters and inputs that it
-    changes.
-    """
+    """Return the further sets of the ``system``, each reduced to the ``declared`` variables that it changes."""
     files, unfit = {}, []
     starts = {each.name: each.start for each in declared if each.causality in ("parameter", "input")}
     for file in _others(preparation, system):

@@ -51,9 +51,7 @@ class Statements:
         return self._of(range(first, end))
 
     def renewal(self, component: int, rows: np.ndarray) -> list[str]:
-        """Return the statements that pass new values of the system's inputs to a component, for these instruction
-        rows.
-        """
+        """Return the statements that pass new system inputs to a component, for these instruction rows."""
         candidate = self.choice.candidates[component]
         lines: list[str] = []
         targets: list[int] = []

@@ -150,8 +150,7 @@ def _take_inputs(program: ChoiceProgram, model: SystemModel, variables: Variable
 
 
 def _renewal(statements: Statements, phase: int) -> list[str]:
-    """Return the statements that pass system inputs, and parameters with faults, to components at the start of a
-    step.
+    """Return the statements that pass system inputs and faulty parameters to components at the start of a step.
 
     They concern the components that step with the inputs of the start.
     """

@@ -55,7 +55,7 @@ def parameter_sets(prefix: str, parsed_args: argparse.Namespace, **_: object) ->
 
 
 def slots_with_fmus(prefix: str, parsed_args: argparse.Namespace, **_: object) -> list[str]:
-    """Return ``SLOT=`` for the slots of the system, then, after a slot, ``SLOT=FMU`` for each FMU."""
+    """Return ``SLOT=`` for each component of the system, or after a slot ``SLOT=FMU`` for each FMU."""
     slot, equals, remainder = prefix.partition("=")
     if equals:
         return [f"{slot}={name}" for name in fmus(remainder)]

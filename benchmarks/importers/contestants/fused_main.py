@@ -97,9 +97,7 @@ class _Writer:
         return lines + [line for component in schedule.sources_first for line in self._set(component)]
 
     def _set(self, component: str, known: Sequence[str] | None = None) -> list[str]:
-        """Return the statements that set the inputs of a component; with ``known`` only inputs driven by these
-        components.
-        """
+        """Return the statements that set a component's inputs; with ``known`` only those driven by these components."""
         return [
             f"{self._member(link.target.name)} = {self._member(link.source.name)};"
             for link in self._links_to(component)

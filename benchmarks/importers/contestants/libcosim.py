@@ -19,8 +19,7 @@ ANNOTATION = """<ssc:Annotation type="com.opensimulationplatform"><osp:Algorithm
 
 
 def prepare(course: Course, threads: int = 0) -> Fly:
-    """Prepare an execution, read from the .ssp for every simulation; ``threads`` are in addition to the calling
-    thread.
+    """Prepare an execution, read from the .ssp for every simulation; ``threads`` are additional ones.
 
     Its fixed-step algorithm is Jacobi: all FMUs are set from the last exchange, all step, all are read. At the start
     values are exchanged as often as there are FMUs, which settles them.

@@ -1,6 +1,4 @@
-"""Conversion of a page's formulas, LaTeX between dollars as on GitHub, to MathML, which browsers show without a
-script.
-"""
+"""Conversion of a page's formulas from LaTeX between dollars, as on GitHub, to MathML, which needs no script."""
 
 from __future__ import annotations
 

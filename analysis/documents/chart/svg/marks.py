@@ -59,7 +59,7 @@ def _round(positions: np.ndarray, diameter: float, colour: str) -> str:
 
 
 def _crosses(positions: np.ndarray, size: float, colour: str) -> str:
-    """Return crosses in one path that scales with the figure, because thousands of elements would slow the page."""
+    """Return crosses in one path, because thousands of elements would slow the page."""
     arm = int(np.rint(5.0 * size))
     ends = np.array([(-arm, -arm), (arm, arm), (-arm, arm), (arm, -arm)])  # tenths, from the middle
     moves = np.diff((positions[:, np.newaxis] + ends).reshape(-1, 2), axis=0, prepend=0).reshape(-1, 2, 2).tolist()

@@ -92,8 +92,7 @@ class Thrust:
 
 @dataclass(frozen=True)
 class Jets:
-    """Jets at points ``at`` (m, body axes), each with a force along a unit vector of ``along``, one per element of
-    ``signal``.
+    """Jets at points ``at`` (m, body axes) with forces ``along`` unit vectors, one per element of ``signal``.
 
     The signal is a force, or with ``pulses`` a signed pulse length (s): a pulse starts at its sample, unless ``count``
     is unchanged. Negative values reverse the force. A ``couple`` is two jets, the second one mirrored.

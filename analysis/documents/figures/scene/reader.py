@@ -24,8 +24,9 @@ LOCAL_FRAME, LOCAL_AXES = "local, at the ground below the last sample", ("east",
 
 
 def read_scene(reader: SignalReader, element: etree._Element) -> SceneFigure:
-    """Read the scene. Raises InputError with the line, and MissingSignalError if a substituted FMU lacks a body's
-    signal.
+    """Read the scene.
+
+    Raises InputError with the line, and MissingSignalError if a substituted FMU lacks a body's signal.
     """
     reader.attributes(element, (), SCENE)
     children = reader.parts(element, ("Surface", "Body", "Site", "Line", "Arrow"))

@@ -19,9 +19,7 @@ EXACT_LIMIT = 200  # failures of a variant whose numbers are exact
 
 
 class TrialQuantity(TypedDict):
-    """A metric or sampled input, by column name; its numbers are in SI, multiplied by ``factor`` they are in
-    ``unit``.
-    """
+    """A metric or sampled input, by column name; numbers are in SI, multiplied by ``factor`` they are in ``unit``."""
 
     name: str
     unit: str

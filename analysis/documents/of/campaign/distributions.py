@@ -108,7 +108,7 @@ def distribution_figure(
 
 
 def distribution_note(*, of_successes: bool) -> Note:
-    """Return how to read the figures, with curves over all trials or over those that succeed."""
+    """Return the note that explains the curves, which are over all trials or over successful ones."""
     ends, failed = ("succeed", "has failed trials, or some") if of_successes else ("end", "has trials")
     return Note(
         f"Empirical cumulative distribution: the fraction of all trials that {ends} with at most this value. A curve "

@@ -32,9 +32,7 @@ class JudgedMetric(NamedTuple):
 
 
 class MetricCell(NamedTuple):
-    """A metric over all trials of a variant: its median and, if it has limits, its ``worst`` value and that
-    ``trial``.
-    """
+    """A metric over all trials of a variant: its median and, with limits, its ``worst`` value and that ``trial``."""
 
     median: float | None
     is_best: bool

@@ -32,9 +32,7 @@ class Sentence(NamedTuple):
 
 
 class Sentences(NamedTuple):
-    """A sentence for each pair that differs, pairs with the reference separately; ``tested`` lists what was
-    compared.
-    """
+    """A sentence for each pair that differs, pairs with the reference apart; ``tested`` lists what was compared."""
 
     first: list[Sentence]
     others: list[Sentence]

@@ -21,9 +21,7 @@ NOT_EVALUATED = Expression("0")
 
 
 def all_values(comparison: CampaignComparison, metric: Metric) -> dict[str, np.ndarray]:
-    """Return a metric in every trial of every variant; in an error over sigma 0 becomes NaN, since it means no
-    sigma.
-    """
+    """Return a metric in every trial of every variant; errors over sigma of 0, which mean no sigma, become NaN."""
     by_label = {label: comparison.values(label, metric.name) for label in comparison.contenders}
     if is_over_sigma(metric):
         return {label: np.where(values == 0.0, np.nan, values) for label, values in by_label.items()}

@@ -105,9 +105,7 @@ def rate_pair_table(groups: Sequence[PairGroup[PairedRates]], part: Part, styles
 
 
 def metric_pair_table(groups: Sequence[PairGroup[PairedValues]], part: Part, styles: Styles) -> Table:
-    """Return a block of rows for each metric: the median difference of every pair, and fractions of trials by its
-    sign.
-    """
+    """Return a block of rows for each metric: median difference of every pair, fractions of trials by its sign."""
 
     def numbers(estimate: PairedValues, unit: str) -> list[Cell]:
         interval = None

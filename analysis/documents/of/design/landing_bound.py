@@ -19,9 +19,7 @@ PITCH = "Angle of thrust above the site's horizontal, deg"
 
 
 def landing_bound_document(study: LandingStudy, file: Path | None = None) -> Document:
-    """Return the document of a bound: propellant, verification, trajectory; ``file`` is the file that stores it, if
-    any.
-    """
+    """Return the document of a bound: propellant, verification, trajectory; ``file`` stores the bound, if stated."""
     bound, series = study.bound, bound_series(study)
     numbers: list[tuple[str, Cell]] = [
         ("propellant", Quantity(study.propellant, "kg", 6)),

@@ -156,9 +156,7 @@ def _circle(node: OperationNode, at: Point) -> list[Curve]:
 
 
 def _names(node: OperationNode, at: Point) -> Iterator[ChartNote]:
-    """Yield the texts of a node: a source's name in its box, or an operation in its circle and the node's number
-    below.
-    """
+    """Yield the texts of a node: a source's name in its box; or an operation in a circle and the node's number."""
     source = _source(node)
     if source and not node.terms:
         yield _note(source, at, INK, TEXT)

@@ -186,9 +186,7 @@ def path_chart(
 
 
 def _arrows(path: PlannedPath, rows: np.ndarray, factors: tuple[float, float]) -> list[charts.Curve]:
-    """Return thrust arrows at equal intervals of time, with true angles on any scale; minimum thrust is a short
-    arrow.
-    """
+    """Return thrust arrows at equal intervals of time, with true angles on any scale; least thrust is short."""
     times = (np.arange(ARROWS) + 0.5) * path.duration / ARROWS
     interval = np.minimum(np.searchsorted(path.time, times, side="right") - 1, path.throttle.size - 1)
     angles, throttles = rows[2][interval], np.maximum(path.throttle[interval], 0.25)

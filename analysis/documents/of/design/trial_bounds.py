@@ -13,8 +13,7 @@ from ...model import Document, Listing, Text
 def trial_bounds_document(
     campaign: str, propellant: np.ndarray, duration: np.ndarray, intervals: int, file: Path | None
 ) -> Document:
-    """Return the document of bounds on ``propellant`` (kg) with their ``duration`` (s), (trials,), NaN where
-    unknown.
+    """Return the document of bounds on ``propellant`` (kg) and their ``duration`` (s), (trials,), NaN if unknown.
 
     ``file`` is the stored table, if any.
     """

@@ -119,9 +119,7 @@ def _axes(groups: Sequence[SignalGroup]) -> tuple[str, ...]:
 
 
 def _flat_views(paths: Sequence[np.ndarray], groups: Sequence[SignalGroup], time: np.ndarray) -> list[View]:
-    """Return plan view (elements 1 and 2) and side view (3 over the wider one); for planar motion the side view
-    only.
-    """
+    """Return plan view (elements 1 and 2) and side view (3 over the wider one); only the latter in a plane."""
     axes, labels = _axes(groups), [group.label for group in groups]
     spans = np.ptp(np.concatenate(paths, axis=1), axis=1)
     across = 0 if spans[0] >= spans[1] else 1

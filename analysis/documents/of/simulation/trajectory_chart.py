@@ -43,8 +43,7 @@ class View(NamedTuple):
 
 
 def view_chart(view: View, width: float, height: float, *, fluid: bool = True) -> tuple[Chart, str, str]:
-    """Return the chart of a view in a figure of this size (pt), the label of its ordinate, and a remark on its
-    scales.
+    """Return the chart of a view in a figure of this size (pt), the ordinate's label, and a remark on scales.
 
     Its curves are the paths, followed by the dots at times and the circle at the end of each. ``fluid`` is as in
     `to_scale`.

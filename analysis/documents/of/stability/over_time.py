@@ -50,8 +50,9 @@ class Course:
 
 
 def _sides(loop: LoopReport, quantity: MarginQuantity) -> tuple[float, float]:
-    """Return the nearest margin for increasing gain or lag, and that for decreasing gain or lead, in the quantity's
-    unit.
+    """Return the nearest margin for increasing gain or lag, and that for decreasing gain or lead.
+
+    Both are in the quantity's unit, NaN without one.
     """
     if loop.margins.unstable:
         return math.nan, math.nan
@@ -110,8 +111,7 @@ def course_look(index: int) -> Look:
 
 
 def over_time_chart(histories: Sequence[Course], quantity: MarginQuantity) -> Chart:
-    """Return one margin of all loops over time, negative for decreasing gain or lead; insufficient margins are
-    shaded.
+    """Return one margin of all loops over time, negative for decreasing gain or lead; forbidden values are shaded.
 
     The mark of the nearer margin of each loop is filled, that of the other hollow. A cross at 0 is an unstable loop, a
     triangle at the top a loop without a crossover.

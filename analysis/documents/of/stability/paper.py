@@ -54,9 +54,7 @@ def draws(shared: Shared) -> bool:
 
 
 def paper_of(shared: Sequence[Shared]) -> Paper:
-    """Return the selection for loops: everything for up to `FEW`, else kinds of figures in order up to a total
-    number.
-    """
+    """Return the selection for loops: everything for up to `FEW`, else kinds of figures up to a total number."""
     if sum(map(draws, shared)) <= FEW:
         return Paper(None)
     labels = [kind_of(figure) for one in shared for figures in one.figures.values() for figure in figures]

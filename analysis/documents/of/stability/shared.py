@@ -107,9 +107,7 @@ def alike(one: FigureContent, other: FigureContent) -> bool:
 
 
 def share(loops: Sequence[LoopReport], figures: Sequence[ByPart]) -> list[Shared]:
-    """Return the figures to show with each loop: each of ``figures``, those of all loops, with the first that has
-    it.
-    """
+    """Return the figures to show with each loop: each figure of the loops with the first loop that has it."""
     distinct: dict[str, list[_Distinct]] = {}
     retained: list[dict[str, list[_Distinct]]] = []
     elsewhere: list[dict[int, list[str]]] = [{} for _ in loops]

@@ -114,7 +114,7 @@ def _verdict(study: WorstOutcome) -> Verdict:
 
 
 def _sized(study: WorstOutcome, size: float | str | None, *, is_bare: bool = False) -> Quantity | str:
-    """Return a value of the objective; for a simulation without one that it failed."""
+    """Return a value of the objective as a cell; without one the text that the simulation failed."""
     return _cell(size, study.unit, is_bare=is_bare)
 
 
@@ -216,9 +216,7 @@ def _simulation(study: WorstOutcome, simulate: Simulate) -> list[Node]:
 
 
 def simulate_worst(study: WorstOutcome, plan: BatchPlan) -> tuple[Result, list[FigureDeclaration]]:
-    """Simulate the worst case, identical to the search to the last bit; ``plan`` is that of the study. Raises
-    InputError.
-    """
+    """Simulate the worst case of a study's ``plan``, equal to the search to the last bit. Raises InputError."""
     plotted = study.flown.draws
     names = [*input_names(plan.campaign), *(name for name in plotted if stream_component(name) is not None)]
     given = GivenDraws(*part_streams({name: plotted[name][[study.row]] for name in names}))

@@ -53,9 +53,7 @@ def common_extent(ends: Mapping[str, Ends]) -> float:
 
 
 def extent_of(ends: Ends) -> tuple[float, float]:
-    """Return the greatest distance of successful trials and 3-sigma ellipse from the target, and that of `BULK` of
-    trials.
-    """
+    """Return the reach of successful trials and their 3-sigma ellipse from the target, and that of `BULK` of them."""
     good, bad = select_ends(ends)
     away = np.max(np.abs((good if good.size else bad)[:, :2]), axis=1)
     if not away.size:

@@ -17,9 +17,7 @@ from .trajectories import VariantPaths, bundle_of
 
 @dataclass(frozen=True)
 class History:
-    """A quantity over time with its percentiles by variant; ``constant`` is its value if it never changes, else
-    None.
-    """
+    """A quantity over time with its percentiles by variant; ``constant`` is its value if it never changes."""
 
     quantity: FlightQuantity
     bands: Mapping[str, Bands]

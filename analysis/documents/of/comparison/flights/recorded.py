@@ -111,8 +111,7 @@ def _elevation(names: Sequence[str]) -> Callable[[Signals], np.ndarray]:
 
 
 def trials_with_traces(contenders: Iterable[Contender]) -> dict[str, list[int]]:
-    """Return the trials of each variant to display over time: common trials, or each variant's own if there are
-    none.
+    """Return the trials of each variant to display over time: common ones, or its own if none are common.
 
     If the campaign records a sample of trials, failed trials recorded in addition are ignored, since they would be
     overrepresented.

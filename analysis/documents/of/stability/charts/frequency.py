@@ -1,5 +1,4 @@
-"""Responses over frequency (dB over rad/s): elements common to the diagrams of a loop, their limits, and
-sensitivities.
+"""Responses over frequency (dB over rad/s): common elements of a loop's diagrams, limits, sensitivities.
 
 The charts do not use python-control's `bode_plot`, `nyquist_plot` and so on. These draw through pyplot's global current
 figure, add titles, legends and mathematical fonts of their own, cannot combine a measured and a computed response, and

@@ -45,9 +45,7 @@ def step_chart(loop: LoopReport) -> Chart:
 
 
 def margin_chart(dispersion: Dispersion, quantity: MarginQuantity, limit: float | None) -> Chart:
-    """Return the histogram of trials over a margin: unstable ones hatched at the left, limit dashed, worst trial
-    marked.
-    """
+    """Return the histogram of trials over a margin: unstable ones hatched, limit dashed, worst trial marked."""
     sizes, worst = dispersion.sizes(quantity), dispersion.worst
     unstable, finite = sizes == UNSTABLE, np.isfinite(sizes)
     retained = sizes[finite]
@@ -188,9 +186,7 @@ def _runs(unstable: np.ndarray, values: np.ndarray, edges: list[float]) -> list[
 
 
 def joint_chart(joint: JointReport) -> Chart:
-    """Return the disk margin of all channels at once over frequency, its minimum, and the limit from both
-    requirements.
-    """
+    """Return the disk margin of all channels at once over frequency, with its minimum and its limit."""
     curves = [line(joint.frequency, joint.disk_margins, BLUE)]
     if joint.stable and math.isfinite(joint.disk_frequency):
         curves.append(mark(joint.disk_frequency, joint.disk_margin, PEAK))
