@@ -52,7 +52,7 @@ class UntranslatableError(TypeError):
     """The type of a member has no counterpart in TypeScript."""
 
 
-class Member(NamedTuple):
+class InterfaceMember(NamedTuple):
     """A member of an interface with its Python type."""
 
     name: str
@@ -107,20 +107,24 @@ def _collect(roots: Sequence[type]) -> list[type]:
     return sorted(collected, key=lambda each: (each.__module__, inspect.getsourcelines(each)[1]))
 
 
-def _members(declared: type) -> Iterator[Member]:
+def _members(declared: type) -> Iterator[InterfaceMember]:
     hints = get_type_hints(declared)
     if is_dataclass(declared):
         for each in page_fields(declared):
             optional = is_optional(each)
-            yield Member(each.name, _without_none(hints[each.name]) if optional else hints[each.name], optional)
+            yield InterfaceMember(
+                each.name, _without_none(hints[each.name]) if optional else hints[each.name], optional
+            )
     elif issubclass(declared, msgspec.Struct):
-        yield from (Member(each.name, hints[each.name], not each.required) for each in msgspec.structs.fields(declared))
+        yield from (
+            InterfaceMember(each.name, hints[each.name], not each.required) for each in msgspec.structs.fields(declared)
+        )
     else:
         stated = get_type_hints(declared, include_extras=True)
         for name, hint in hints.items():
             # With annotations as text __optional_keys__ reflects only the class's totality.
             optional = name in getattr(declared, "__optional_keys__", ()) or get_origin(stated[name]) is NotRequired
-            yield Member(name, hint, optional)
+            yield InterfaceMember(name, hint, optional)
 
 
 def _iterate_declared(hint: Any) -> Iterator[type]:

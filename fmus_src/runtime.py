@@ -39,7 +39,7 @@ def integration_step(block_class: type[Block]) -> str | None:
     return next((name for name in INTEGRATION_STEPS if name in block_class.variables), None)
 
 
-class Component:
+class BlockInstance:
     """Instance of a block, with the interface that an FMI importer has to an FMU.
 
     Value references number the elements of all variables in order of declaration. If a variable is set during

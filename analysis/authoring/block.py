@@ -24,7 +24,7 @@ SLOTS = "slots"
 
 
 @dataclass(frozen=True)
-class Written:
+class CreatedFiles:
     """Files that were written, and the commands to run next."""
 
     paths: list[Path]
@@ -36,7 +36,7 @@ def block_slots() -> list[str]:
     return [Path(name).stem for name in template_names(SLOTS)]
 
 
-def new_block(name: str, slot: str | None) -> Written:
+def new_block(name: str, slot: str | None) -> CreatedFiles:
     """Write ``name``.py into the working folder, from the template of ``slot`` if stated. Raises InputError."""
     if slot is not None and slot not in block_slots():
         problem = "there is no block to start from for it" if slot in slots() else "no such slot"
@@ -50,7 +50,7 @@ def new_block(name: str, slot: str | None) -> Written:
     first = ["perilune new system SYSTEM", "perilune export SYSTEM/blocks.py"] if slot is None else []
     write_atomically(path, text.encode())
     run = write_command(RUN, {"system": system}, {"use": {component: name}})
-    return Written([path], [f"perilune export {path}", *first, run])
+    return CreatedFiles([path], [f"perilune export {path}", *first, run])
 
 
 def where_it_flies(slot: str) -> tuple[str, str]:

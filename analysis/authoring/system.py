@@ -17,14 +17,14 @@ from ..compose.source import read_source
 from ..options.command import write_command
 from ..options.declared.campaigns import BATCH, RUN
 from ..options.declared.studies import STABILITY
-from .block import Written, render, template_names
+from .block import CreatedFiles, render, template_names
 from .names import check_free, check_name, class_name
 
 SYSTEM, BLOCKS = "system", "blocks.py"
 PARTS = ("plant", "control")  # names of the blocks in the system, in order of definition
 
 
-def new_system(name: str) -> Written:
+def new_system(name: str) -> CreatedFiles:
     """Write the folder ``name`` into the working folder, completely or not at all. Raises InputError and OSError."""
     check_name(name, tuple(f"{name}_{part}" for part in PARTS))
     folder = Path(name)
@@ -46,7 +46,7 @@ def new_system(name: str) -> Written:
         write_command(BATCH, {"system": name, "campaign": "dispersed"}, {"output": f"{name}_results"}),
         write_command(STABILITY, {"system": name}, {"report": f"{name}_stability.html"}),
     ]
-    return Written([folder / entry for entry in names], commands)
+    return CreatedFiles([folder / entry for entry in names], commands)
 
 
 def _write(folder: Path, name: str) -> list[str]:

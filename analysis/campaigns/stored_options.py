@@ -13,12 +13,11 @@ import msgspec
 from ...common.errors import InputError
 from ..options.choices import OpenInputs
 from ..options.option import members_of, options_of
-from ..options.system import SystemOptions as Declared
-from ..options.system import TrustOptions
+from ..options.system import SystemKeywords, TrustOptions
 from ..runtime.system.options import SystemOptions
 
 REFUSE: OpenInputs = "refuse"
-STORED = {name: each for name, each in options_of(Declared).items() if name not in options_of(TrustOptions)}
+STORED = {name: each for name, each in options_of(SystemKeywords).items() if name not in options_of(TrustOptions)}
 
 
 def _in_json(annotation: object) -> Any:

@@ -40,7 +40,7 @@ COMPONENT_NAME = re.compile(r"[^\s.,\[\]>]+")
 
 
 @dataclass(frozen=True)
-class Entry:
+class ListEntry:
     """An entry of a list with its position in the file."""
 
     text: str
@@ -68,15 +68,15 @@ class SystemSource:
 
     name: str
     components: Mapping[str, ComponentSource]
-    connections: tuple[Entry, ...] = ()
+    connections: tuple[ListEntry, ...] = ()
     description: str = ""
     start_time: float = 0.0
     stop_time: float | None = None
     step: float | None = None
     parameters: tuple[str, ...] = ()
     connectors: Mapping[str, str] = field(default_factory=dict)
-    declare: tuple[Entry, ...] = ()
-    unconnected: tuple[Entry, ...] = ()
+    declare: tuple[ListEntry, ...] = ()
+    unconnected: tuple[ListEntry, ...] = ()
     set: Mapping[str, SetValue] = field(default_factory=dict)
     units: Mapping[str, Unit] = field(default_factory=dict)
     annotations: bytes = b""
@@ -140,15 +140,15 @@ class _Lines:
         """Return a key followed by its line."""
         return f"{key} (line {self.keys[key]})" if key in self.keys else key
 
-    def of_entries(self, key: str, texts: tuple[str, ...]) -> Iterator[Entry]:
+    def of_entries(self, key: str, texts: tuple[str, ...]) -> Iterator[ListEntry]:
         """Yield the entries of a list, each with its line; the entries must be in the order of the file."""
         index = self.keys.get(key, 1) - 1
         for each in texts:
             index = next((i for i in range(index, len(self.texts)) if each in self.texts[i]), index)
-            yield Entry(each, f"{key} (line {index + 1})")
+            yield ListEntry(each, f"{key} (line {index + 1})")
 
 
-def _entries(table: TomlTable, key: str, lines: _Lines) -> tuple[Entry, ...]:
+def _entries(table: TomlTable, key: str, lines: _Lines) -> tuple[ListEntry, ...]:
     return tuple(lines.of_entries(f"{table.element}.{key}".lstrip("."), _list(table, key)))
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from ...common.errors import InputError
 from ..runtime.ssp.archive import OSP_SUFFIX, SystemArchive
-from ..runtime.ssp.description import Binding, Component, Description, Element
+from ..runtime.ssp.description import Binding, Component, Element, SystemDescription
 from ..runtime.ssp.dimensions import Shape, array_shapes, element_names
 from ..runtime.ssp.parameter_sets import Assignment, read_binding
 from ..runtime.ssp.reading import read_description
@@ -17,7 +17,7 @@ from ..runtime.system.fmu import Fmu
 from .assembly import load_fmus
 from .document import RESOURCES, fmu_source, set_source, write_document
 from .likeness import find_difference
-from .source import ComponentSource, Entry, SystemSource
+from .source import ComponentSource, ListEntry, SystemSource
 from .units import underived_units
 from .values import read_values
 from .wiring import ARROW, INDEX, Point, wire
@@ -73,7 +73,7 @@ def _point(point: tuple[str | None, str]) -> Point:
     return point[0] or "", point[1]
 
 
-def _components(description: Description) -> Iterator[tuple[str, ComponentSource]]:
+def _components(description: SystemDescription) -> Iterator[tuple[str, ComponentSource]]:
     for name, element in description.system.elements.items():
         if not isinstance(element, Component):
             where = f"{name} (line {element.line})"
@@ -83,7 +83,7 @@ def _components(description: Description) -> Iterator[tuple[str, ComponentSource
         yield name, ComponentSource(fmu, _parameters(description, element), element.step)
 
 
-def _parameters(description: Description, element: Element) -> tuple[str, ...]:
+def _parameters(description: SystemDescription, element: Element) -> tuple[str, ...]:
     """Return the names, as in a `system.toml`, of the parameter sets bound to an element."""
     names = []
     for binding in element.bindings:
@@ -100,7 +100,7 @@ def _is_adapted(binding: Binding) -> bool:
     return bool(binding.prefix or binding.mapping_source) or binding.mapping_inline is not None
 
 
-def _annotations(ssd: bytes, description: Description) -> bytes:
+def _annotations(ssd: bytes, description: SystemDescription) -> bytes:
     """Return the exact bytes inside the annotations of the SSD."""
     if not description.annotations:
         return b""
@@ -132,8 +132,8 @@ def _wiring(pairs: list[tuple[Point, Point]], declared: Mapping[Point, str], fmu
     return {
         "connections": tuple(_connections(pairs, shapes)),
         "connectors": {_base(name, shapes): kind for name, kind in kinds.items()},
-        "declare": tuple(Entry(name, "declare") for name in _whole(idle, shapes)),
-        "unconnected": tuple(Entry(name, "unconnected") for name in _whole(inputs, shapes)),
+        "declare": tuple(ListEntry(name, "declare") for name in _whole(idle, shapes)),
+        "unconnected": tuple(ListEntry(name, "unconnected") for name in _whole(inputs, shapes)),
     }
 
 
@@ -153,7 +153,7 @@ def _whole(points: list[Point], shapes: Mapping[Point, Shape]) -> list[str]:
     return list(dict.fromkeys(names))
 
 
-def _connections(pairs: list[tuple[Point, Point]], shapes: Mapping[Point, Shape]) -> Iterator[Entry]:
+def _connections(pairs: list[tuple[Point, Point]], shapes: Mapping[Point, Shape]) -> Iterator[ListEntry]:
     """Yield connections by source, in the order of the SSD; arrays connected element by element become one entry."""
     present = set(pairs)
     targets: dict[str, dict[str, None]] = {}
@@ -165,4 +165,4 @@ def _connections(pairs: list[tuple[Point, Point]], shapes: Mapping[Point, Shape]
         source, target = (".".join(filter(None, point)) for point in (arrays if alike else (start, end)))
         targets.setdefault(source, {})[target] = None
     for source, names in targets.items():
-        yield Entry(f"{source} {ARROW} {', '.join(names)}", "connections")
+        yield ListEntry(f"{source} {ARROW} {', '.join(names)}", "connections")

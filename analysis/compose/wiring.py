@@ -8,14 +8,14 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 
 from ...common.errors import NEAR, InputError, SeveralProblemsError, suggestion
-from ..runtime.fmi.variable import Variable
+from ..runtime.fmi.variable import ScalarVariable
 from ..runtime.ssp.conversions import Unit
 from ..runtime.ssp.dimensions import array_shapes, text_of
 from ..runtime.ssp.kinds import leads
 from ..runtime.ssp.names import elements, split_name
 from ..runtime.system.flattening import WIDENED
 from ..runtime.system.fmu import Fmu
-from .source import Entry, SystemSource
+from .source import ListEntry, SystemSource
 
 ARROW = "->"
 ALL = ".*"  # after a component: all its unconnected inputs
@@ -91,11 +91,11 @@ class _Wirer:
             for component, fmu in fmus.items()
         }
 
-    def refuse(self, entry: Entry, problem: str, remedy: str) -> None:
+    def refuse(self, entry: ListEntry, problem: str, remedy: str) -> None:
         where = f"{entry.where}: {entry.text}"
         self.problems.append(self.source.problem(where, problem, remedy))
 
-    def end(self, name: str, entry: Entry) -> End | None:
+    def end(self, name: str, entry: ListEntry) -> End | None:
         """Return one side of a connection; None after recording a problem."""
         component, variable = split_name(name, self.fmus)
         if component:
@@ -114,7 +114,7 @@ class _Wirer:
             self.refuse(entry, problem, suggestion(name, [*self.source.connectors, *self.fmus]))
         return None
 
-    def connect(self, entry: Entry) -> None:
+    def connect(self, entry: ListEntry) -> None:
         """Add the connections of one entry, from one source to one or more targets."""
         start, arrow, targets = entry.text.partition(ARROW)
         texts = [each.strip() for each in TARGETS.split(targets)]
@@ -128,7 +128,7 @@ class _Wirer:
                 for end in (source, target):
                     self.written |= {(end.component, name) for name in end.names} if end is not None else set()
 
-    def join(self, source: End, target: End, entry: Entry) -> bool:
+    def join(self, source: End, target: End, entry: ListEntry) -> bool:
         """Connect two sides element by element; False after recording a problem."""
         if not source.component and not target.component:
             self.refuse(entry, "both are connectors of the system", "connect it with a component")
@@ -150,7 +150,7 @@ class _Wirer:
             return end
         return End("", end.variable, tuple(end.variable + index for index in other.indices))
 
-    def join_one(self, source: Point, target: Point, entry: Entry) -> bool:
+    def join_one(self, source: Point, target: Point, entry: ListEntry) -> bool:
         """Connect two elements; False after recording a problem."""
         ends = [self.connector(point, other) for point, other in ((source, target), (target, source))]
         start, end = ends
@@ -190,12 +190,12 @@ class _Wirer:
         kind = self.source.connectors.get(name) or self.source.connectors[INDEX.sub("", name)]
         return ConnectorSource(kind, like.type, like.unit)
 
-    def of_variable(self, component: str, variable: Variable) -> ConnectorSource:
+    def of_variable(self, component: str, variable: ScalarVariable) -> ConnectorSource:
         """Return the connector for a variable of a component's FMU."""
         kind = "Integer" if variable.type == "Enumeration" else variable.type
         return ConnectorSource(variable.causality, kind, self.fmus[component].unit_of(variable))
 
-    def unused(self, entry: Entry) -> list[Point]:
+    def unused(self, entry: ListEntry) -> list[Point]:
         """Return the unconnected elements of a variable of a component; none after recording a problem."""
         end = self.end(entry.text, entry)
         if end is None:
@@ -209,13 +209,13 @@ class _Wirer:
             self.refuse(entry, "is connected", "leave it out here")
         return remaining
 
-    def declare(self, entry: Entry) -> None:
+    def declare(self, entry: ListEntry) -> None:
         """Add the unconnected connectors of an entry."""
         for component, name in self.unused(entry):
             variable = self.fmus[component].variables[name]
             self.wiring.connectors[component, name] = self.of_variable(component, variable)
 
-    def leave(self, entry: Entry) -> None:
+    def leave(self, entry: ListEntry) -> None:
         """Record inputs that keep their start values: a named one, or for ``component.*`` all unconnected ones."""
         if entry.text.endswith(ALL):
             self.leave_all(entry.text.removesuffix(ALL), entry)
@@ -227,7 +227,7 @@ class _Wirer:
                 return
             self.left.add((component, name))
 
-    def leave_all(self, component: str, entry: Entry) -> None:
+    def leave_all(self, component: str, entry: ListEntry) -> None:
         """Record all unconnected inputs of a component."""
         if component not in self.fmus:
             self.refuse(entry, f"no component {component}", suggestion(component, self.fmus))

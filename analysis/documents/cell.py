@@ -31,7 +31,7 @@ class Displayed(NamedTuple):
     exact: float | complex
 
 
-class Vector(NamedTuple):
+class QuantityVector(NamedTuple):
     """Elements of a vector in SI, each displayed like a `Quantity`; ``is_bare`` omits the unit."""
 
     values: Sequence[float]
@@ -156,7 +156,7 @@ class Phrase(NamedTuple):
     is_unbroken: bool = True
 
 
-Cell = Inline | Vector | Track | Bar | Digest | Lines | float | bool | Phrase | None
+Cell = Inline | QuantityVector | Track | Bar | Digest | Lines | float | bool | Phrase | None
 
 
 class Head(NamedTuple):

@@ -14,7 +14,7 @@ from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with,
 from ...fmus_src.export.sources import record_source, remove_outdated
 from ..runtime.ssp.archive import system_names
 from .fmus import needs_python, no_compiler, zig_is_here
-from .request import ExportRequest, Written
+from .request import ExportedFiles, ExportRequest
 
 
 def check_there(file: Path) -> None:
@@ -45,7 +45,7 @@ def find_block_file(name: str) -> Path | None:
     return files[0] if files else None
 
 
-def export_file(file: Path, request: ExportRequest, only: str | None = None) -> Written:
+def export_file(file: Path, request: ExportRequest, only: str | None = None) -> ExportedFiles:
     """Export the blocks of a file, or ``only`` one, to build/fmus, where the option `use` finds them by name.
 
     Raises InputError.
@@ -75,7 +75,7 @@ def export_file(file: Path, request: ExportRequest, only: str | None = None) -> 
         folders = {path.parent.name for path in written}
         built = tuple(name for name in flavours if folder_of(name, fmi) in folders)
         paths = tuple(path.relative_to(Path.cwd()) for path in written)
-        return Written(paths, built, tuple(platforms) if "native" in built else ())
+        return ExportedFiles(paths, built, tuple(platforms) if "native" in built else ())
     if output.suffix != ".fmu" or len(blocks) > 1:
         problem = "not an .fmu" if output.suffix != ".fmu" else f"the {len(blocks)} blocks of {file} are no one FMU"
         raise InputError("`output`", str(output), problem, "leave it out: FMUs go to build/fmus")
@@ -88,4 +88,4 @@ def export_file(file: Path, request: ExportRequest, only: str | None = None) -> 
         if not written:
             raise needs_python(file, blocks[0].__name__, fmi)
         write_atomically(output, written[0].read_bytes())
-    return Written((output,), tuple(flavours[:1]), tuple(platforms) if flavours[0] == "native" else ())
+    return ExportedFiles((output,), tuple(flavours[:1]), tuple(platforms) if flavours[0] == "native" else ())

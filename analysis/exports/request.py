@@ -58,7 +58,7 @@ class ExportRequest:
 
 
 @dataclass(frozen=True)
-class Written:
+class ExportedFiles:
     """Written files with their flavours and platforms; no platforms if all FMUs are Python FMUs."""
 
     paths: tuple[Path, ...]

@@ -118,7 +118,7 @@ class ChosenOptions(ScheduleOptions, TreatmentOptions, total=False):
     """Options that distinguish two simulations of one system with equal FMUs and values"""
 
 
-class SystemOptions(TrustOptions, AssemblyOptions, TreatmentOptions, LimitOptions, total=False):
+class SystemKeywords(TrustOptions, AssemblyOptions, TreatmentOptions, LimitOptions, total=False):
     """System options"""
 
 
@@ -186,4 +186,4 @@ Workers = Annotated[int | None, Option("simulations in parallel; default: one pe
 Overwrite = Annotated[bool, Option("overwrite existing results in the folder of --output", False)]
 UntilDecided = Annotated[bool, Option("stop as soon as the campaign's requirements are met or violated", False)]
 
-SHARED = {"system options": SystemOptions, "simulation options": SimulationOptions}  # which --help-all explains
+SHARED = {"system options": SystemKeywords, "simulation options": SimulationOptions}  # which --help-all explains

@@ -20,7 +20,7 @@ from ..documents.model import Document
 from ..documents.of.files import exported_document
 from ..exports.block_files import check_there, export_file, find_block_file
 from ..exports.fmus import build_fmu, zig_is_here
-from ..exports.request import ExportRequest, Written
+from ..exports.request import ExportedFiles, ExportRequest
 from ..exports.system_fmu.build import build_system_fmu
 from ..exports.system_fmu.request import OneFmu
 from ..exports.systems import export_system
@@ -34,7 +34,7 @@ from .common.documented import Documented
 
 
 @dataclass(frozen=True)
-class Exported(Documented, Written):
+class Exported(Documented, ExportedFiles):
     """Files that were written, and their version of FMI."""
 
     fmi: int
@@ -108,7 +108,7 @@ def _candidates(slot: str, fmus: object) -> list[str]:
     return [os.fspath(each).strip() for each in several]
 
 
-def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
+def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> ExportedFiles:
     """Export a system as one FMU from its name, its folder or an .ssp."""
     request.check_one_fmu()
     name = request.name
@@ -122,7 +122,7 @@ def _export_as_fmu(request: ExportRequest, one_fmu: OneFmu) -> Written:
     if not platforms:
         raise InputError("export", name, "needs a C compiler, and there is none", "install cc, or pip install ziglang")
     build_system_fmu(archive, path, one_fmu, platforms, portable=zig_is_here())
-    return Written((path,), ("native",), tuple(platforms))
+    return ExportedFiles((path,), ("native",), tuple(platforms))
 
 
 def _names_system(name: str) -> bool:
@@ -138,7 +138,7 @@ def _archive_name(name: str) -> str:
     return path.parent.name if path.name == DESCRIPTION else path.stem
 
 
-def _export(request: ExportRequest) -> Written:
+def _export(request: ExportRequest) -> ExportedFiles:
     text = request.name
     is_system = _names_system(text) and (text in system_names() or text not in catalogue())
     for option, value in (("ssp", request.ssp), ("studies", ", ".join(request.studies))):
@@ -153,7 +153,7 @@ def _export(request: ExportRequest) -> Written:
     return _export_named(request)
 
 
-def _export_named(request: ExportRequest) -> Written:
+def _export_named(request: ExportRequest) -> ExportedFiles:
     """Export an FMU or a system by name or folder."""
     name, flavour, fmi = request.name, request.flavour or "native", request.fmi
     platforms = [] if flavour == "python" else request.find_platforms(prebuilt=True)
@@ -173,4 +173,4 @@ def _export_named(request: ExportRequest) -> Written:
         problem = "neither an FMU, a system nor a .py file, and no block of a .py file here"
         own = [block for path in sorted(Path().glob("*.py")) for block in (path.stem, *defines(path))]
         raise InputError("export", name, problem, suggestion(name, [*blocks, *system_names(), *own]))
-    return Written((path,), (flavour,), tuple(platforms))
+    return ExportedFiles((path,), (flavour,), tuple(platforms))

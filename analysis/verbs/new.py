@@ -10,7 +10,7 @@ from ..options.verb import verb
 from .common.documented import Documented
 
 
-class NewFiles(Documented, block.Written):
+class NewFiles(Documented, block.CreatedFiles):
     """The ``paths`` that were written, and the ``commands`` to run next."""
 
     def document(self) -> Document:

@@ -44,7 +44,7 @@ STUCK = "nothing is written; see its messages with `log` all, or give a longer `
 
 
 @dataclass(repr=False, kw_only=True)
-class Result(Documented, results.Result):
+class Result(Documented, results.FlightResult):
     """Result of a simulation: ``result["plant.position"]`` is a signal over ``time``, [n] or [n, k]; see `Flight`.
 
     ``prepared`` is the simulated system, ``figures`` are those that its SSD declares for `report`, ``faults`` the

@@ -17,7 +17,7 @@ from ...common.scratch import make_folder
 from ...fmus_src.export.ssp_package import DESCRIPTION, SYSTEM_FILE
 from ..compose.document import RESOURCES
 from ..compose.files import check_unedited, check_unedited_source, write_new
-from ..compose.source import ComponentSource, Entry, SetValue, SystemSource
+from ..compose.source import ComponentSource, ListEntry, SetValue, SystemSource
 from ..compose.text import write_toml
 from ..options.declared.campaigns import RunOptions
 from ..options.option import FilePath
@@ -72,7 +72,7 @@ class System:
 
         A system connector must be declared by `connector` first.
         """
-        entries = [Entry(f"{source} -> {', '.join(sinks)}", "connect")]
+        entries = [ListEntry(f"{source} -> {', '.join(sinks)}", "connect")]
         self._source = replace(self._source, connections=(*self._source.connections, *entries))
 
     def connector(self, name: str, kind: str) -> None:
@@ -89,12 +89,12 @@ class System:
 
     def declare(self, *names: str) -> None:
         """Declare connectors of components that remain unconnected."""
-        entries = (Entry(name, "declare") for name in names)
+        entries = (ListEntry(name, "declare") for name in names)
         self._source = replace(self._source, declare=(*self._source.declare, *entries))
 
     def leave_unconnected(self, *names: str) -> None:
         """Leave inputs unconnected, at the start values of their FMUs."""
-        entries = (Entry(name, "leave_unconnected") for name in names)
+        entries = (ListEntry(name, "leave_unconnected") for name in names)
         self._source = replace(self._source, unconnected=(*self._source.unconnected, *entries))
 
     def write(self, folder: FilePath) -> list[Path]:

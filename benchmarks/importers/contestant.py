@@ -9,7 +9,7 @@ from pathlib import Path
 
 from perilune.analysis.runtime.ssp.conversions import IDENTITY
 from perilune.analysis.runtime.ssp.given_values import ParameterValue
-from perilune.analysis.runtime.system.network import Link
+from perilune.analysis.runtime.system.network import NodeLink
 from perilune.analysis.runtime.system.prepared import PreparedSystem, prepare_system
 from perilune.common.errors import InputError
 
@@ -39,7 +39,7 @@ class Course:
         return replace(self.prepared, steps=steps, algorithm=algorithm)
 
     @cached_property
-    def links(self) -> list[Link]:
+    def links(self) -> list[NodeLink]:
         """Connections between FMUs, in the order of the SSD."""
         return [link for link in self.prepared.network.driver.values() if link.target.component is not None]
 
@@ -53,7 +53,7 @@ class Course:
         return dict(self.prepared.settings.variables)
 
 
-def _is_plain(link: Link) -> bool:
+def _is_plain(link: NodeLink) -> bool:
     return (
         link.source.component is not None
         and link.source.type_name == link.target.type_name == "Real"

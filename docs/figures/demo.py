@@ -14,7 +14,7 @@ from perilune.analysis.campaigns.execute.runner import run_batch
 from perilune.analysis.documents.of.batch.batch import batch_document
 from perilune.analysis.documents.of.simulation.run import RunContext, run_document
 from perilune.analysis.documents.render.html import write_document
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.shipped import main as build
 from perilune.common.errors import InputError
@@ -65,7 +65,7 @@ def fly_mission(output: Path) -> Path:
     return page
 
 
-def fly_sample(plan: BatchPlan) -> tuple[Result, list[Result]]:
+def fly_sample(plan: BatchPlan) -> tuple[FlightResult, list[FlightResult]]:
     """Simulate one landing of the campaign's first variant with all signals, and others to show for comparison."""
     others = sample_trials()
     larger = read_plan(SYSTEM, CAMPAIGN, plan.options, trials=max(LANDING, *others) + 1)
@@ -73,7 +73,7 @@ def fly_sample(plan: BatchPlan) -> tuple[Result, list[Result]]:
     return flights[0], flights[1:]
 
 
-def write_files(landing: Result, sample: list[Result], batch: CampaignResult, output: Path) -> Path:
+def write_files(landing: FlightResult, sample: list[FlightResult], batch: CampaignResult, output: Path) -> Path:
     """Write the landing's data, the two full reports and the page; files of the batch exist already."""
     print("Writing pages ...", flush=True)
     landing.write(output / "landing.csv")

@@ -23,7 +23,7 @@ from perilune.analysis.documents.common.colours import BLUE, INK, VERMILION
 from perilune.analysis.documents.common.panels import HALF_WIDTH, PANEL_HEIGHT, FigurePanel
 from perilune.analysis.documents.interactive.charts import NO_BOX, Chart, Drawing
 from perilune.analysis.documents.of.simulation.trajectory_chart import View, view_chart
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.runtime.flight.simulation import Simulation
 
 HEIGHT, PLOT_WIDTH = 2.6, 5.2  # in
@@ -36,7 +36,7 @@ THIN = 10  # every n-th sample of flights in the background is drawn
 ARROW_SCALE = 7.0  # pt of arrow per m/s2
 
 
-def fly_landings(plan: BatchPlan, variant: Variant, trials: Iterable[int]) -> list[Result]:
+def fly_landings(plan: BatchPlan, variant: Variant, trials: Iterable[int]) -> list[FlightResult]:
     """Simulate some trials of a campaign with every signal; the results equal those of the batch."""
     prepared = plan.prepare(variant)
     varied = variant_names(plan, prepared).varied
@@ -48,19 +48,21 @@ def fly_landings(plan: BatchPlan, variant: Variant, trials: Iterable[int]) -> li
     return landings
 
 
-def _copy(result: Result) -> Result:
+def _copy(result: FlightResult) -> FlightResult:
     """Return a copy of a result whose arrays the next simulation overwrites."""
     return replace(
         result, time=result.time.copy(), signals={name: values.copy() for name, values in result.signals.items()}
     )
 
 
-def vector(result: Result, name: str) -> np.ndarray:
+def vector(result: FlightResult, name: str) -> np.ndarray:
     """Return elements 1 to 3 of a signal, [3, rows]."""
     return np.stack([result[f"{name}[{index}]"] for index in (1, 2, 3)])
 
 
-def landing_charts(landing: Result, sample: list[Result], width: float, height: float, *, fluid: bool) -> list[Chart]:
+def landing_charts(
+    landing: FlightResult, sample: list[FlightResult], width: float, height: float, *, fluid: bool
+) -> list[Chart]:
     """Return side view with thrust arrows, plan view, speed and thrust over time, with the sample in the background.
 
     The side view is laid out for a figure of this size (pt), as in `view_chart`.
@@ -72,14 +74,14 @@ def landing_charts(landing: Result, sample: list[Result], width: float, height: 
     ]
 
 
-def landing_figure(landing: Result, sample: list[Result]) -> Figure:
+def landing_figure(landing: FlightResult, sample: list[FlightResult]) -> Figure:
     """Return the charts in one figure, for the documentation."""
     side, plan, *histories = landing_charts(landing, sample, POINTS * PLOT_WIDTH, POINTS * HEIGHT, fluid=False)
     charts = [side, _to_scale(plan, PLOT_WIDTH, HEIGHT, fluid=False), *histories]
     return plot_charts(charts, HEIGHT, PLOT_WIDTH, columns=2, titles=[chart.title for chart in charts])
 
 
-def landing_panels(landing: Result, sample: list[Result]) -> tuple[Drawing, list[FigurePanel]]:
+def landing_panels(landing: FlightResult, sample: list[FlightResult]) -> tuple[Drawing, list[FigurePanel]]:
     """Return the side view as a panel of full width, and panels of the other charts."""
     side, plan, *histories = landing_charts(landing, sample, BROAD, POINTS * HEIGHT, fluid=True)
     panels = [
@@ -97,7 +99,7 @@ def _to_scale(plan: Chart, width: float, height: float, *, fluid: bool = True) -
     return to_scale(chart_of, plan.x.ends, plan.y.ends, *size, title="" if fluid else plan.title, fluid=fluid)
 
 
-def _histories(landing: Result, sample: list[Result]) -> list[Chart]:
+def _histories(landing: FlightResult, sample: list[FlightResult]) -> list[Chart]:
     charts = []
     for title, history in HISTORIES.items():
         quantity, unit = title.rsplit(", ", 1)
@@ -113,16 +115,16 @@ def _thin(curve: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]
     return curve[0][::THIN], curve[1][::THIN]
 
 
-def _speed(result: Result) -> tuple[np.ndarray, np.ndarray]:
+def _speed(result: FlightResult) -> tuple[np.ndarray, np.ndarray]:
     return result.time, np.linalg.norm(vector(result, "plant.velocity"), axis=0)
 
 
-def _acceleration(result: Result) -> tuple[np.ndarray, np.ndarray]:
+def _acceleration(result: FlightResult) -> tuple[np.ndarray, np.ndarray]:
     """Return the commanded acceleration while thrusting, without the last row, which has no command."""
     return result.time[:-1], result["guidance.thrust_acceleration"][:-1]
 
 
-def _elevation(result: Result) -> tuple[np.ndarray, np.ndarray]:
+def _elevation(result: FlightResult) -> tuple[np.ndarray, np.ndarray]:
     direction = vector(result, "guidance.thrust_direction")[:, :-1]
     return result.time[:-1], np.degrees(np.arctan2(direction[2], np.hypot(direction[0], direction[1])))
 
@@ -134,13 +136,13 @@ HISTORIES = {
 }
 
 
-def _side(result: Result) -> np.ndarray:
+def _side(result: FlightResult) -> np.ndarray:
     """Return downrange from the site and altitude (m), [2, rows]."""
     x, y, z = vector(result, "plant.position")
     return np.stack([-np.hypot(x, y), z])
 
 
-def _side_view(landing: Result, sample: list[Result], width: float, height: float, *, fluid: bool) -> Chart:
+def _side_view(landing: FlightResult, sample: list[FlightResult], width: float, height: float, *, fluid: bool) -> Chart:
     path = _side(landing)
     names = ("downrange from the site", "altitude")
     view = View("Side view", "side", [path], ["landing"], landing.time, names, has_ground=True)
@@ -159,8 +161,8 @@ def _side_view(landing: Result, sample: list[Result], width: float, height: floa
     return replace(chart, title=f"{ordinate}; arrows: thrust", curves=curves)
 
 
-def _plan_view(landing: Result, sample: list[Result]) -> Chart:
-    def plan(result: Result) -> tuple[np.ndarray, np.ndarray]:
+def _plan_view(landing: FlightResult, sample: list[FlightResult]) -> Chart:
+    def plan(result: FlightResult) -> tuple[np.ndarray, np.ndarray]:
         x, y, _ = vector(result, "plant.position") / 1e3
         return -y, x
 

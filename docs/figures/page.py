@@ -17,7 +17,7 @@ from perilune.analysis.documents.of.batch.scatters import failure_figures, outco
 from perilune.analysis.documents.of.campaign.distributions import rates_figure
 from perilune.analysis.documents.render.cell_markup import rich_markup
 from perilune.analysis.documents.render.html import panel_of
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 
 from .landing import landing_panels, vector
 from .readme_figure import LANDING
@@ -42,7 +42,7 @@ PUBLISHED = {
 COMPARED = ("position_error", "velocity_error")
 
 
-def write_demo_page(landing: Result, sample: list[Result], batch: CampaignResult, path: Path) -> None:
+def write_demo_page(landing: FlightResult, sample: list[FlightResult], batch: CampaignResult, path: Path) -> None:
     """Write the page. Raises KeyError for a variant that the publication does not contain."""
     target = np.array([landing.provenance["parameters"][f"guidance.target_position[{i}]"] for i in (1, 2, 3)])
     campaign, content = batch.plan.campaign, BatchContent(batch)

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from perilune.analysis.documents.common.colours import BLUE, FAINT, INK, ORANGE, SKY, VERMILION, look
 from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.verbs.run import simulate
 from perilune.common.process import leave
 from perilune.fmus_src.guidance.rendezvous_guidance_jerk_limited import RendezvousGuidanceJerkLimited
@@ -29,12 +29,12 @@ REGULAR = 4.0 * np.sqrt(6.0) / 5.0  # no singularities below; docs/theory/rendez
 CAMERA, SPIN = 60.0, 45.0  # m of arrow, and of the spin axis either way
 
 
-def fly() -> Result:
+def fly() -> FlightResult:
     """Simulate the approach with the parameters of the figures and the first seed."""
     return simulate("robot_rendezvous", parameters=["best.ssv"])
 
 
-def draw_rendezvous_figures(flight: Result, folder: Path) -> list[Path]:
+def draw_rendezvous_figures(flight: FlightResult, folder: Path) -> list[Path]:
     """Write seven figures of a simulation of `robot_rendezvous` to an existing folder and print their paths."""
     paths = [folder / f"{name}.svg" for name in FIGURES]
     for path, draw in zip(paths, FIGURES.values(), strict=True):
@@ -43,7 +43,7 @@ def draw_rendezvous_figures(flight: Result, folder: Path) -> list[Path]:
     return paths
 
 
-def scene_figure(flight: Result) -> Figure:
+def scene_figure(flight: FlightResult) -> Figure:
     """Draw the paths of robot and object in the inertial frame, with camera axes and spin axis at changes of phase."""
     figure = new_figure(6.2, 7.2)
     axes: Any = figure.add_subplot(projection="3d", computed_zorder=False)
@@ -71,7 +71,7 @@ def scene_figure(flight: Result) -> Figure:
     return figure
 
 
-def range_figure(flight: Result) -> Figure:
+def range_figure(flight: FlightResult) -> Figure:
     """Draw range, range error and position error over time."""
     figure = new_figure(6.0)
     panels = figure.subplots(3, 1, sharex=True, height_ratios=[1.0, 1.3, 1.3])
@@ -85,7 +85,7 @@ def range_figure(flight: Result) -> Figure:
     return _over_time(figure, panels, "range, m", "range error, mm", "position error, mm")
 
 
-def thrust_figure(flight: Result) -> Figure:
+def thrust_figure(flight: FlightResult) -> Figure:
     """Draw the force of the jets in body axes over time, above the force that the plan requires."""
     figure = new_figure(6.0)
     panels = figure.subplots(3, 1, sharex=True, sharey=True)
@@ -100,7 +100,7 @@ def thrust_figure(flight: Result) -> Figure:
     return _over_time(figure, panels, *(f"force on body axis {axis}, N" for axis in "xyz"))
 
 
-def gyros_figure(flight: Result) -> Figure:
+def gyros_figure(flight: FlightResult) -> Figure:
     """Draw gimbal angles over the whole simulation and around the turn, unwrapped."""
     figure = new_figure(4.2)
     whole, turn = figure.subplots(1, 2, sharey=True)
@@ -115,7 +115,7 @@ def gyros_figure(flight: Result) -> Figure:
     return figure
 
 
-def momentum_figure(flight: Result) -> Figure:
+def momentum_figure(flight: FlightResult) -> Figure:
     """Draw the momentum envelope of the gyros in three dimensions and projections, with the path of the momentum."""
     figure = new_figure(6.2)
     solid: Any = figure.add_subplot(2, 2, 1, projection="3d")
@@ -147,7 +147,7 @@ def momentum_figure(flight: Result) -> Figure:
     return figure
 
 
-def turn_figure(flight: Result) -> Figure:
+def turn_figure(flight: FlightResult) -> Figure:
     """Draw planned attitude, angular velocity and acceleration of the turn, as components and magnitudes.
 
     The magnitudes of the time-optimal turn are shown for comparison.
@@ -171,7 +171,7 @@ def turn_figure(flight: Result) -> Figure:
     return _over_time(figure, panels, *labels, span=TURN)
 
 
-def plan_figure(flight: Result) -> Figure:
+def plan_figure(flight: FlightResult) -> Figure:
     """Draw planned position and velocity of the object relative to the robot, and the robot's acceleration."""
     figure = new_figure(6.0)
     panels = figure.subplots(3, 1, sharex=True)
@@ -201,11 +201,11 @@ def _quickest_turn(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarra
     return np.tan(0.25 * angle), np.degrees(rate), np.degrees(np.abs(acceleration))
 
 
-def _rows_at(flight: Result, interval: float, span: tuple[float, float] = WHOLE) -> np.ndarray:
+def _rows_at(flight: FlightResult, interval: float, span: tuple[float, float] = WHOLE) -> np.ndarray:
     return np.searchsorted(flight.time, np.arange(span[0], span[1] + 0.5 * interval, interval) - 1e-9)
 
 
-def _attitude(flight: Result, component: str, rows: np.ndarray) -> Rotation:
+def _attitude(flight: FlightResult, component: str, rows: np.ndarray) -> Rotation:
     """Return the rotations from body to inertial axes at these rows."""
     elements = [flight[f"{component}.quaternion[{index}]"][rows] for index in (1, 2, 3, 4)]
     return Rotation.from_quat(np.stack(elements, axis=1), scalar_first=True)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from perilune.analysis.documents.common.colours import FAINT, look
 from perilune.analysis.documents.common.style import house_style, new_figure, plain_ticks
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.verbs.run import simulate
 from perilune.common.process import leave
 
@@ -29,7 +29,7 @@ class Panel:
 
     xlabel: str
     ylabel: str
-    curves: Mapping[str, Callable[[Result], Curve]]
+    curves: Mapping[str, Callable[[FlightResult], Curve]]
     band: Sequence[float] = ()
 
 
@@ -42,40 +42,40 @@ class SystemPicture:
     rows: int = 1
 
 
-def over_time(signal: str, factor: float = 1.0, less: str | None = None) -> Callable[[Result], Curve]:
+def over_time(signal: str, factor: float = 1.0, less: str | None = None) -> Callable[[FlightResult], Curve]:
     """Return a curve of a signal over time, minus the signal ``less`` if stated, multiplied by ``factor``."""
 
-    def curve(flight: Result) -> Curve:
+    def curve(flight: FlightResult) -> Curve:
         values = flight[signal] if less is None else flight[signal] - flight[less]
         return flight.time, factor * values
 
     return curve
 
 
-def before_last(signal: str, factor: float = 1.0) -> Callable[[Result], Curve]:
+def before_last(signal: str, factor: float = 1.0) -> Callable[[FlightResult], Curve]:
     """Return a curve of a command over time, multiplied by ``factor``, without the last sample, which has no effect."""
     return lambda flight: (flight.time[:-1], factor * flight[signal][:-1])
 
 
-def after_first(signal: str) -> Callable[[Result], Curve]:
+def after_first(signal: str) -> Callable[[FlightResult], Curve]:
     """Return a curve over time of a signal that refers to the last step, without the start, which has none."""
     return lambda flight: (flight.time[1:], flight[signal][1:])
 
 
-def against(x: str, y: str, factor: float = 1e-3) -> Callable[[Result], Curve]:
+def against(x: str, y: str, factor: float = 1e-3) -> Callable[[FlightResult], Curve]:
     """Return a curve of one signal over another, both multiplied by ``factor``."""
     return lambda flight: (factor * flight[x], factor * flight[y])
 
 
-def size_over_time(vector: str, factor: float = 1.0) -> Callable[[Result], Curve]:
+def size_over_time(vector: str, factor: float = 1.0) -> Callable[[FlightResult], Curve]:
     """Return a curve of the magnitude of a vector over time, multiplied by ``factor``."""
     return lambda flight: (flight.time, factor * np.linalg.norm(flight[vector], axis=1))
 
 
-def settled(signal: str, factor: float) -> Callable[[Result], Curve]:
+def settled(signal: str, factor: float) -> Callable[[FlightResult], Curve]:
     """Return a curve over time, multiplied by ``factor``, from ten minutes after a satellite points to nadir."""
 
-    def curve(flight: Result) -> Curve:
+    def curve(flight: FlightResult) -> Curve:
         rows = (flight["modes.mode"] == 2) & (flight["modes.time_in_mode"] > 600.0)
         return flight.time[rows], factor * flight[signal][rows]
 
@@ -202,7 +202,7 @@ PICTURES = {
 }
 
 
-def system_figure(picture: SystemPicture, flight: Result) -> Figure:
+def system_figure(picture: SystemPicture, flight: FlightResult) -> Figure:
     """Return a picture's panels as a figure."""
     columns = len(picture.panels) // picture.rows
     figure = new_figure(2.5 * picture.rows, 3.4 * columns * 0.88)
@@ -212,7 +212,7 @@ def system_figure(picture: SystemPicture, flight: Result) -> Figure:
     return figure
 
 
-def _draw(axes: Axes, panel: Panel, flight: Result) -> None:
+def _draw(axes: Axes, panel: Panel, flight: FlightResult) -> None:
     for index, (label, curve) in enumerate(panel.curves.items()):
         x, y = curve(flight)
         rows = np.unique(np.linspace(0, len(x) - 1, POINTS).astype(int))

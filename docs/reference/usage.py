@@ -8,7 +8,7 @@ from pathlib import Path
 
 from perilune.analysis.campaigns.definition.source import read_source
 from perilune.analysis.runtime.ssp.archive import open_system, system_names
-from perilune.analysis.runtime.ssp.description import Component, System
+from perilune.analysis.runtime.ssp.description import Component, SystemElement
 from perilune.analysis.runtime.ssp.reading import read_description
 
 
@@ -36,12 +36,12 @@ def usages() -> dict[str, Usage]:
     return uses
 
 
-def components_of(system: System, within: str = "") -> list[tuple[str, str]]:
+def components_of(system: SystemElement, within: str = "") -> list[tuple[str, str]]:
     """Return the components of a system and its nested systems, each with the name of its FMU."""
     uses: list[tuple[str, str]] = []
     for element in system.elements.values():
         if isinstance(element, Component):
             uses.append((within + element.name, Path(element.source).stem))
-        elif isinstance(element, System):
+        elif isinstance(element, SystemElement):
             uses += components_of(element, f"{within}{element.name}.")
     return uses

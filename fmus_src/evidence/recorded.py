@@ -7,7 +7,7 @@ import io
 from collections.abc import Iterable, Sequence
 
 from ..block import Block
-from ..runtime import Component
+from ..runtime import BlockInstance
 from ..variables import Input, Variable
 from .check import TIME, Check, CheckError, elements_of
 
@@ -30,7 +30,7 @@ def _record(block_class: type[Block], check: Check) -> bytes:
     columns = check.columns()
     inputs = [name for name in columns if isinstance(elements.get(name), Input)]
     outputs = list(check.tolerances)
-    component = Component(block_class)
+    component = BlockInstance(block_class)
     for name, number in check.parameters.items():
         component.set([references[name]], [of_type(elements[name], number)])
     times = columns[TIME]

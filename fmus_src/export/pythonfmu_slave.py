@@ -13,7 +13,7 @@ from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 from ..block import Block
-from ..runtime import Component
+from ..runtime import BlockInstance
 
 
 def keep_source(package: str) -> None:
@@ -41,7 +41,7 @@ class BlockSlave(Fmi2Slave):
         super().__init__(**keywords)
         keep_source(__package__.partition(".")[0])
         self.modelName = self.block_class.fmu_name
-        self.component = Component(self.block_class, self.tunable)
+        self.component = BlockInstance(self.block_class, self.tunable)
         self.component.block.fmu_resources = self.resources
         self.time: float | None = None  # end of the last step; not known of a state put back
         self.stop_time = math.inf

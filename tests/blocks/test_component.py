@@ -1,4 +1,4 @@
-"""The life cycle of a component (`perilune.fmus_src.runtime.Component`) against the FMI co-simulation rules.
+"""The life cycle of a component (`perilune.fmus_src.runtime.BlockInstance`) against the FMI co-simulation rules.
 
 Truth: blocks whose behaviour is known by construction (accumulators, logs of their calls), and real blocks compared
 with themselves: a repeated initialisation must repeat every value to the last bit.
@@ -9,12 +9,12 @@ import pytest
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.disturbances.forming_filter import FormingFilter
 from perilune.fmus_src.navigation.noisy import NoisyNavigation
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.kernels.probe import Probe, everything, reference, references
 
 
 def test_value_references_number_the_elements_in_order_of_declaration():
-    component = Component(Probe)
+    component = BlockInstance(Probe)
     assert references(component, "gain", "level", "scaled", "number") == [0, 1, 2, 3, 4, 5]
     component.set([0, 2], [3.0, 7.0])
     assert component.block.gain == 3.0
@@ -23,7 +23,7 @@ def test_value_references_number_the_elements_in_order_of_declaration():
 
 
 def test_a_read_settles_an_instance_that_was_set():
-    component = Component(Probe)
+    component = BlockInstance(Probe)
     assert component.get([3, 4]) == [2.0, 20.0]
     component.set([0], [5.0])
     component.set([1], [4.0])
@@ -32,14 +32,14 @@ def test_a_read_settles_an_instance_that_was_set():
 
 
 def test_reads_without_a_change_do_not_settle_again():
-    component = Component(Probe)
+    component = BlockInstance(Probe)
     component.get([3])
     component.block.scaled = [-1.0, 20.0]  # a second settling would overwrite this
     assert component.get([3]) == [-1.0]
 
 
 def test_start_settles_once_and_ends_initialisation():
-    component = Component(Probe)
+    component = BlockInstance(Probe)
     component.set([1], [4.0])
     component.start()
     assert component.block.scaled == [8.0, 20.0]
@@ -50,7 +50,7 @@ def test_start_settles_once_and_ends_initialisation():
 
 
 def test_lists_keep_their_identity_through_settling_restoring_and_assignment():
-    component = Component(Probe)
+    component = BlockInstance(Probe)
     generator = component.block.generator
     component.start()
     component.set_state(component.get_state())
@@ -60,7 +60,7 @@ def test_lists_keep_their_identity_through_settling_restoring_and_assignment():
 
 
 def test_elements_are_got_and_set_in_any_order_and_number():
-    component = Component(Probe)
+    component = BlockInstance(Probe)
     component.start()
     count = len(component.elements)
     component.write(list(range(count)), [float(k) for k in range(count)])
@@ -78,7 +78,7 @@ def test_elements_are_got_and_set_in_any_order_and_number():
 
 
 def test_repeated_initialisation_repeats_the_random_stream():
-    once, often = Component(Probe), Component(Probe)
+    once, often = BlockInstance(Probe), BlockInstance(Probe)
     for value in (3.0, 4.0, 5.0):
         often.set([0], [value])
         everything(often)
@@ -93,7 +93,7 @@ def test_repeated_initialisation_repeats_the_random_stream():
 
 @pytest.mark.parametrize("block_class", [NoisyNavigation, FormingFilter])
 def test_repeated_initialisation_of_random_blocks_equals_one(block_class):
-    once, often = Component(block_class), Component(block_class)
+    once, often = BlockInstance(block_class), BlockInstance(block_class)
     seed = reference(once, "seed")
     for value in (9, 1, 4):
         often.set([seed], [value])
@@ -110,7 +110,7 @@ def test_repeated_initialisation_of_random_blocks_equals_one(block_class):
 @pytest.mark.parametrize("name", sorted(catalogue()))
 def test_every_block_initialises_from_its_declared_starts(name):
     """Importers call initialisation with nothing set; it repeats to the last bit."""
-    component = Component(catalogue()[name])
+    component = BlockInstance(catalogue()[name])
     first = everything(component)
     component.unsettled = True
     assert everything(component) == first
@@ -118,7 +118,7 @@ def test_every_block_initialises_from_its_declared_starts(name):
 
 
 def test_two_instances_share_nothing():
-    first, second = Component(Probe), Component(Probe)
+    first, second = BlockInstance(Probe), BlockInstance(Probe)
     first.set([1], [50.0])
     first.start()
     assert second.get([1, 3]) == [1.0, 2.0]

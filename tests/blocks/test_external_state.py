@@ -21,7 +21,7 @@ from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.common.errors import InputError
 from perilune.fmus_src.catalogue import blocks_in_file
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.runtime import Component, StateError
+from perilune.fmus_src.runtime import BlockInstance, StateError
 
 LIBRARY = '''"""A simulator that keeps its state to itself."""
 import cmath
@@ -161,7 +161,7 @@ def test_what_needs_its_state_refuses_it_by_name(folder, here):
 
 
 def test_a_component_makes_it_anew_and_does_not_save_it(folder):
-    component = Component(block_in(folder / "my_oscillator.py"))
+    component = BlockInstance(block_in(folder / "my_oscillator.py"))
     assert component.block.simulation is None
     component.start()
     first = component.block.simulation

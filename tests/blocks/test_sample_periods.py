@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from perilune.fmus_src.block import Block, Output, Parameter
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.kernels.probe import Probe
 from tests.support.lengths import either
 
@@ -48,7 +48,7 @@ def test_samples_fall_on_the_first_communication_point_at_or_after_each_tick(per
     """Exact fractions say where; communication points are start + n h in floating point."""
     exact = Fraction(period) / Fraction(step)
     h = float(Fraction(step))
-    component = Component(Sampler)
+    component = BlockInstance(Sampler)
     component.set([0], [float(Fraction(period))])
     component.start_time = start
     component.start()
@@ -63,7 +63,7 @@ def test_samples_fall_on_the_first_communication_point_at_or_after_each_tick(per
 def test_no_sample_is_lost_or_doubled_for_any_period(step_thousandths, more_thousandths, start_thousandths):
     exact = Fraction(step_thousandths + more_thousandths, step_thousandths)
     h, start = step_thousandths / 1000.0, start_thousandths / 1000.0
-    component = Component(Sampler)
+    component = BlockInstance(Sampler)
     component.set([0], [(step_thousandths + more_thousandths) / 1000.0])
     component.start_time = start
     component.start()
@@ -73,7 +73,7 @@ def test_no_sample_is_lost_or_doubled_for_any_period(step_thousandths, more_thou
 
 
 def test_sample_period_of_zero_steps_at_every_communication_point():
-    component = Component(Sampler)
+    component = BlockInstance(Sampler)
     component.start()
     for n in range(10):
         component.do_step(0.1 * n, 0.1)
@@ -81,7 +81,7 @@ def test_sample_period_of_zero_steps_at_every_communication_point():
 
 
 def test_blocks_without_a_sample_period_step_always():
-    component = Component(Probe)
+    component = BlockInstance(Probe)
     component.start()
     for n in range(3):
         before = component.get([5])
@@ -90,7 +90,7 @@ def test_blocks_without_a_sample_period_step_always():
 
 
 def test_outputs_hold_between_samples():
-    component = Component(Sampler)
+    component = BlockInstance(Sampler)
     component.set([0], [0.5])
     component.start()
     lasts = []
@@ -102,7 +102,7 @@ def test_outputs_hold_between_samples():
 
 @pytest.mark.parametrize(("step", "samples"), [(0.2, 2), (0.21, 2), (1.0, 10)])
 def test_a_step_takes_all_its_samples(step, samples):
-    component = Component(Sampler)
+    component = BlockInstance(Sampler)
     component.set([0], [0.1])
     component.start()
     component.do_step(0.0, step)
@@ -110,7 +110,7 @@ def test_a_step_takes_all_its_samples(step, samples):
 
 
 def test_a_step_of_almost_two_periods_that_holds_one_sample_is_taken():
-    component = Component(Sampler)
+    component = BlockInstance(Sampler)
     component.set([0], [0.1])
     component.start()
     component.do_step(0.0, 0.199)
@@ -118,7 +118,7 @@ def test_a_step_of_almost_two_periods_that_holds_one_sample_is_taken():
 
 
 def test_sampling_starts_again_with_initialisation():
-    component = Component(Sampler)
+    component = BlockInstance(Sampler)
     component.set([0], [0.2])
     component.start()
     for n in range(5):
@@ -130,7 +130,7 @@ def test_sampling_starts_again_with_initialisation():
 
 def test_samples_are_kept_at_a_late_start_time():
     """A start counted from an epoch: at 7.8e8 s time is rounded to 1e-7 s, more than 1e-9 periods."""
-    component = Component(Sampler)
+    component = BlockInstance(Sampler)
     component.set([0], [0.3])
     component.start_time = 7.8e8
     component.start()
@@ -140,7 +140,7 @@ def test_samples_are_kept_at_a_late_start_time():
 
 
 def test_samples_are_kept_by_an_importer_that_adds_up_its_time():
-    component = Component(Sampler)
+    component = BlockInstance(Sampler)
     component.set([0], [0.1])
     component.start()
     t = 0.0

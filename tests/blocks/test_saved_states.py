@@ -12,13 +12,13 @@ from perilune.fmus_src.disturbances.forming_filter import FormingFilter
 from perilune.fmus_src.guidance.analytic import AnalyticGuidance
 from perilune.fmus_src.navigation.noisy import NoisyNavigation
 from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.kernels.probe import Probe, everything, references
 
 
 def lander_in_flight():
     """Return a plant halfway through a turning burn."""
-    component = Component(FlatMoonLander)
+    component = BlockInstance(FlatMoonLander)
     component.set(
         references(component, "thrust", "thrust_direction", "thrust_direction_rate", "burn_duration"),
         [4500.0, 0.8, 0.0, 0.6, 0.003, 0.01, -0.004, 1.15],
@@ -27,14 +27,14 @@ def lander_in_flight():
 
 
 def navigation_in_flight():
-    component = Component(NoisyNavigation)
+    component = BlockInstance(NoisyNavigation)
     names = ("position", "velocity", "position_sigma", "velocity_sigma")
     component.set(references(component, *names), [1e5, 0.0, 1e4, -900.0, 0.0, 0.0, 20.0, 0.2])
     return component, 0.1
 
 
 def guidance_in_flight():
-    component = Component(AnalyticGuidance)
+    component = BlockInstance(AnalyticGuidance)
     component.set(
         references(component, "position", "velocity", "sample_period"), [1e5, 0.0, 1.05e4, -948.0, 0.0, -47.0, 0.3]
     )
@@ -42,7 +42,7 @@ def guidance_in_flight():
 
 
 def filter_in_flight():
-    return Component(FormingFilter), 0.1
+    return BlockInstance(FormingFilter), 0.1
 
 
 @pytest.mark.parametrize("made", [lander_in_flight, navigation_in_flight, guidance_in_flight, filter_in_flight])
@@ -60,7 +60,7 @@ def test_a_restored_state_repeats_the_flight_to_the_last_bit(made, fresh):
         component.do_step(n * h, h)
         first.append(everything(component))
     assert first[-1] != saved["values"]
-    other = Component(type(component.block)) if fresh else component
+    other = BlockInstance(type(component.block)) if fresh else component
     other.set_state(saved)
     assert saved == untouched
     assert everything(other) == saved["values"]
@@ -81,7 +81,7 @@ def test_a_saved_state_is_not_changed_by_later_steps():
 
 
 def test_state_saved_in_initialisation_restores_initialisation():
-    component = Component(Probe)
+    component = BlockInstance(Probe)
     component.set([0], [3.0])
     saved = component.get_state()
     component.start()

@@ -23,7 +23,7 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.runtime import Component, StepError
+from perilune.fmus_src.runtime import BlockInstance, StepError
 from perilune.fmus_src.start_values import StartError
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance, library
 from tests.support.kernels.users_blocks import Bounded
@@ -63,8 +63,8 @@ def native() -> Iterator[NativeInstance]:
     instance.free()
 
 
-def plain_with(**values: float) -> Component:
-    component = Component(Bounded)
+def plain_with(**values: float) -> BlockInstance:
+    component = BlockInstance(Bounded)
     component.set([NAMES.index(name) for name in values], list(values.values()))
     return component
 
@@ -148,7 +148,7 @@ PLANTS = [name for name, block in catalogue().items() if "internal_step" in bloc
 @pytest.mark.parametrize("name", PLANTS)
 def test_a_step_of_a_million_seconds_is_refused_by_every_plant_in_place_of_taking_all_night(name: str) -> None:
     block = catalogue()[name]
-    component = Component(block)
+    component = BlockInstance(block)
     component.start()
     with pytest.raises(StepError) as error:
         component.do_step(0.0, 1e6)
@@ -163,7 +163,7 @@ def test_a_step_of_a_million_seconds_is_refused_by_every_plant_in_place_of_takin
 
 def test_the_step_that_a_lander_takes_for_a_short_lag_counts() -> None:
     """A hundredth of internal_step: 2000 s hold two million of them."""
-    component = Component(catalogue()["spherical_moon_lander"])
+    component = BlockInstance(catalogue()["spherical_moon_lander"])
     names = list(component.block.variables)
     first = sum(component.block.variables[name].size for name in names[: names.index("thrust_lag")])
     component.set([first], [1e-3])

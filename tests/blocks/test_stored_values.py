@@ -10,7 +10,7 @@ from perilune.fmus_src.block import Block, Input, Output, State
 from perilune.fmus_src.guidance.network_operator_law import NetworkOperatorLaw
 from perilune.fmus_src.mathlib.vectors import Vector3, vector
 from perilune.fmus_src.plants.free_flying_robot import FreeFlyingRobot
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 
 
 class Storing(Block):
@@ -31,7 +31,7 @@ class Storing(Block):
 
 def test_python_only_blocks_store_any_sequence_and_outputs_stay_connected():
     """An output stays connected where a library's list replaces the declared one."""
-    component = Component(Storing)
+    component = BlockInstance(Storing)
     component.start()
     for n in range(3):
         component.set([0, 1, 2], [n, 2.0 * n, 3.0])

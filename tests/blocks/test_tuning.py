@@ -26,7 +26,7 @@ from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.judge.tunable import tunable_parameters
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from perilune.fmus_src.start_values import TuningError
 from tests.support.kernels.comparison import another, bits
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance, library
@@ -134,7 +134,7 @@ def test_a_parameter_set_between_steps_is_one_replaced_in_the_state(name: str, t
 
 def test_the_next_step_reads_what_was_set_and_outputs_stand_till_then() -> None:
     """1 + 3 after a step; then twice (2 * 4 * 1 + 5) more, at once nothing."""
-    plain, native = Component(Gains, tunable_parameters(Gains)), NativeInstance(Gains, dll=library(Gains))
+    plain, native = BlockInstance(Gains, tunable_parameters(Gains)), NativeInstance(Gains, dll=library(Gains))
     settings = {GAINS["gain"]: 2.0, GAINS["axes[1]"]: 4.0, GAINS["axes[2]"]: 5.0, GAINS["count"]: 2}
     plain.start()
     native.enter()
@@ -160,7 +160,7 @@ def test_the_next_step_reads_what_was_set_and_outputs_stand_till_then() -> None:
 @pytest.mark.parametrize(("name", "number"), WRONG)
 def test_what_cannot_be_set_is_refused_by_name_and_nothing_is_set(name: str, number: float) -> None:
     """Also where it stands behind one that could be."""
-    plain, native = Component(Gains, tunable_parameters(Gains)), NativeInstance(Gains, dll=library(Gains))
+    plain, native = BlockInstance(Gains, tunable_parameters(Gains)), NativeInstance(Gains, dll=library(Gains))
     plain.start()
     native.enter()
     native.start()

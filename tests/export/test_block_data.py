@@ -18,7 +18,7 @@ from perilune.analysis.runtime.system.stale import report_fmus
 from perilune.fmus_src.catalogue import blocks_in_file
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from perilune.fmus_src.user_modules import import_file
 
 BLOCK = '''"""A table looked up."""
@@ -89,7 +89,7 @@ os._exit(0)
 def test_modules_and_data_travel(tmp_path, form):
     """2 from a module's module, 3 from the file, 1.5 from outside: 9, as an object and in an FMU away from it all."""
     (block,) = blocks_in_file(write(tmp_path / "mine", *IMPORTS[form]))
-    component = Component(block)
+    component = BlockInstance(block)
     component.block.u = 1.5
     component.start()
     assert component.block.y == 9.0

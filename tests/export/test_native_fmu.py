@@ -18,7 +18,7 @@ from perilune.fmus_src.export.description.origin import STANDARD_HEADERS
 from perilune.fmus_src.export.libraries import build_library
 from perilune.fmus_src.export.native_fmu import build_native_fmu, wrapper_files
 from perilune.fmus_src.export.write.names import WRAPPER_NAMES
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support import kernels
 from tests.support.kernels.native_instance import CACHE
 
@@ -98,7 +98,7 @@ def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
     program = tmp_path / "step_fmu"
     source = Path(kernels.__file__).with_name("step_fmu.c")
     subprocess.run(["cc", "-I", tmp_path / "sources", "-o", program, source, "-ldl"], check=True)
-    component = Component(BLOCK)
+    component = BlockInstance(BLOCK)
     references = [i for i, (name, _) in enumerate(component.elements) if name in ("disturbance", "disturbance_rate")]
     guid = fmpy.read_model_description(str(path)).guid
     arguments = [str(library), guid, "0.25", "20", *map(str, references)]

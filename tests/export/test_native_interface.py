@@ -11,7 +11,7 @@ import pytest
 
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.runtime import Component, StepError
+from perilune.fmus_src.runtime import BlockInstance, StepError
 from tests.support.kernels.native_instance import ERROR, GUID, OK, NativeInstance, library
 
 DISCARD = 2
@@ -87,7 +87,7 @@ def test_reads_during_initialisation_settle_each_time(walk: NativeInstance) -> N
     ("period", "step", "start"), [(0.3, 0.1, 0.0), (0.1, 0.1, 7.3), (1e-3, 1e-3, 1e6), (0.25, 0.1, 0.0)]
 )
 def test_sample_instants_are_those_of_python(walk: NativeInstance, period: float, step: float, start: float) -> None:
-    plain = Component(Walk)
+    plain = BlockInstance(Walk)
     plain.start_time = start
     plain.set([REFERENCE["sample_period"], REFERENCE["x"]], [period, 1.0])
     set_to(walk, sample_period=period, x=1.0)
@@ -105,7 +105,7 @@ def test_sample_instants_are_those_of_python(walk: NativeInstance, period: float
     ("h", "period"), [(0.1, 5e-8), (1e-7, 1e-15), (123456789.125, 0.1), (1e22, 2e15), (0.7, 1 / 3e7)]
 )
 def test_step_of_too_many_periods_is_refused_in_pythons_words(walk: NativeInstance, h: float, period: float) -> None:
-    plain = Component(Walk)
+    plain = BlockInstance(Walk)
     plain.set([REFERENCE["sample_period"]], [period])
     set_to(walk, sample_period=period)
     walk.enter()

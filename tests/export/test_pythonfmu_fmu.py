@@ -22,7 +22,7 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.own_blocks import build_own_blocks
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.builders import component, document, fly, pack, system
 from tests.support.lengths import either
 
@@ -145,7 +145,7 @@ def test_runs_where_the_repository_cannot_be_imported(fmus, tmp_path, flavour):
     """With -I, from elsewhere; the finder of the editable installation is taken out too."""
     unhook = "import sys\nsys.meta_path[:] = [f for f in sys.meta_path if 'editable' not in repr(f).lower()]\n"
     unhook += f"sys.path[:] = [p for p in sys.path if p != {str(ROOT)!r} and 'editable' not in p]\n"
-    block = Component(FlatMoonLander)
+    block = BlockInstance(FlatMoonLander)
     block.start()
     step = 0.1
     for n in range(10):
@@ -303,7 +303,7 @@ def test_unpacked_files_are_gone_afterwards_and_the_exit_status_is_right(tmp_pat
 def test_the_fmu_steps_as_the_plain_object(fmus):
     path = fmus / "flat_moon_lander.fmu"
     fmu = load_fmu(path.read_bytes(), str(path))
-    block = Component(FlatMoonLander)
+    block = BlockInstance(FlatMoonLander)
     instance = instantiate(fmu, "plant")
     slave = instance.slave
     reals = [v.reference for v in fmu.variables.values() if v.type == "Real" and v.causality == "output"]

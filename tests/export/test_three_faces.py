@@ -19,7 +19,7 @@ from perilune.fmus_src.block import Block, Input, Parameter
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support import lengths
 from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches
 from tests.support.kernels.native_instance import CACHE
@@ -101,7 +101,7 @@ def fly_faces(block: type[Block], files: list[Path], wanted: int) -> None:
     while steps < wanted:
         flights += 1
         h = block.default_step * random.choice([0.5, 1.0])
-        plain = Component(block)
+        plain = BlockInstance(block)
         plain.start_time = random.choice([0.0, 12.5])
         settings = [drawn(block, kind, random, h, None) for kind in (Parameter, Input)]
         for references, values in settings:

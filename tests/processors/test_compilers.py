@@ -15,7 +15,7 @@ import pytest
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.kernels.comparison import bits
 from tests.support.kernels.elementary_block import ElementaryFunctions
 from tests.support.kernels.native_instance import NativeInstance
@@ -47,7 +47,7 @@ def test_every_compiler_and_processor_gives_the_same_bits(block: type[Block], co
 
 
 def test_python_and_c_give_the_same_elementary_functions() -> None:
-    python, native = Component(ElementaryFunctions), NativeInstance(ElementaryFunctions)
+    python, native = BlockInstance(ElementaryFunctions), NativeInstance(ElementaryFunctions)
     references = list(range(sum(variable.size for variable in ElementaryFunctions.variables.values())))
     python.start()
     native.enter()

@@ -18,7 +18,7 @@ from typing import Any
 import fmpy
 from pythonfmu import FmuBuilder
 
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
@@ -379,7 +379,7 @@ def pack(path: Path, fmus: Path, ssd: str, **files: str | bytes) -> Path:
     return write_zip(path, content)
 
 
-def fly(path: Path, faults: Any = (), **options: Any) -> Result:
+def fly(path: Path, faults: Any = (), **options: Any) -> FlightResult:
     """Fly a packed system; the result's arrays are its own."""
     with Simulation(prepare_system(path, SystemOptions(**options)), faults=faults) as simulation:
         result = simulation.fly()

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from ...runtime.flight.base_simulation import BaseSimulation
 from ...runtime.flight.group import FlightGroup
 from ...runtime.flight.interruptible import StuckError, fly, nothing_flown, run
-from ...runtime.flight.results import CRASHED, LOST, NONFINITE, Flight, Result
+from ...runtime.flight.results import CRASHED, LOST, NONFINITE, Flight, FlightResult
 from ...runtime.instances.instance import Log
 from ...runtime.instances.library import LOADING
 from ...runtime.process.opening import may_load_here, open_simulation
@@ -152,7 +152,7 @@ class Flyer:
         """
         return self._look_at(self._flight(variant, trial, overlay), trial, self.simulation(variant)[1])
 
-    def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
+    def replay(self, variant: str, trial: int) -> tuple[FlightResult, TrialResult]:
         """Simulate one trial with every signal recorded, with the same bits as in the batch.
 
         If an output that the batch does not read is not finite, only signals that the batch reads are recorded.
@@ -169,7 +169,7 @@ class Flyer:
 
     def _fly_recorded(
         self, variant: str, prepared: PreparedSystem, trial: int, names: VariantNames, wanted: set[str] | None
-    ) -> Result:
+    ) -> FlightResult:
         """Simulate a trial with these signals recorded, None for all."""
         faults, log, sampled = self.plan.list_faults(), self._log_of(variant), self.values_for(trial)
         with open_simulation(

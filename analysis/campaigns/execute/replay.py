@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ....common.errors import InputError, suggestion
-from ...runtime.flight.results import TIMED_OUT, Result
+from ...runtime.flight.results import TIMED_OUT, FlightResult
 from ...runtime.system.options import UNTRUSTED, Trust
 from ...runtime.system.prepared import PreparedSystem
 from ..definition.campaign import Variant
@@ -36,7 +36,7 @@ class ReplayedTrial:
     prepared: PreparedSystem
     configuration: str
     trial: int
-    flight: Result
+    flight: FlightResult
     outcome: TrialResult
     faults: tuple[str, ...]
     stored: bool

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...runtime.flight.results import Result
+from ...runtime.flight.results import FlightResult
 from ...runtime.ssp.names import split_name
 
 STATES = (
@@ -29,7 +29,7 @@ def vector_of(name: str) -> str:
     return indexed[1] if indexed else name
 
 
-def axes_of(result: Result) -> Mapping[str, str]:
+def axes_of(result: FlightResult) -> Mapping[str, str]:
     """Return the names of axes by signal, as declared by the system of a run."""
     return result.provenance.get("axes", {})
 
@@ -82,12 +82,12 @@ class SignalGroup:
     def is_real(self) -> bool:
         return self.type == "Real"
 
-    def values(self, result: Result) -> np.ndarray:
+    def values(self, result: FlightResult) -> np.ndarray:
         """Return the values in SI, [elements, samples]."""
         return np.stack([result[name] for name in self.names])
 
 
-def signal_groups(result: Result) -> list[SignalGroup]:
+def signal_groups(result: FlightResult) -> list[SignalGroup]:
     """Return all signals in their order, with elements of vectors grouped."""
     components, axes = result.provenance["fmus"], axes_of(result)
     by_key: dict[tuple[str, str, str | None, str, bool], list[tuple[str, str]]] = {}
@@ -106,7 +106,7 @@ def signal_groups(result: Result) -> list[SignalGroup]:
     return groups
 
 
-def distinct(groups: Iterable[SignalGroup], result: Result) -> dict[SignalGroup, SignalGroup]:
+def distinct(groups: Iterable[SignalGroup], result: FlightResult) -> dict[SignalGroup, SignalGroup]:
     """Map each group to the first group with the same unit and values, possibly itself.
 
     A connected input repeats the output that drives it and needs no separate plot.
@@ -117,7 +117,7 @@ def distinct(groups: Iterable[SignalGroup], result: Result) -> dict[SignalGroup,
     }
 
 
-def states_and_commands(groups: Iterable[SignalGroup], result: Result) -> list[SignalGroup]:
+def states_and_commands(groups: Iterable[SignalGroup], result: FlightResult) -> list[SignalGroup]:
     """Return states and commands, recognised by their names: for each variable the first signal that changes."""
     first: dict[str, SignalGroup] = {}
     for group in groups:
@@ -128,7 +128,7 @@ def states_and_commands(groups: Iterable[SignalGroup], result: Result) -> list[S
     return list(first.values())
 
 
-def position_groups(result: Result) -> list[SignalGroup]:
+def position_groups(result: FlightResult) -> list[SignalGroup]:
     """Return distinct signals COMPONENT.position[1..3] in m, the paths of a trajectory plot."""
     groups = [
         group

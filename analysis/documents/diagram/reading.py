@@ -10,7 +10,15 @@ from pathlib import PurePosixPath
 from ....fmus_src.catalogue import block_kinds
 from ...options.fault import Fault
 from ...runtime.ssp.conversions import IDENTITY, Transformation
-from ...runtime.ssp.description import Component, Connection, Connector, DictionaryReference, Element, Point, System
+from ...runtime.ssp.description import (
+    Component,
+    Connection,
+    Connector,
+    DictionaryReference,
+    Element,
+    Point,
+    SystemElement,
+)
 from ...runtime.ssp.kinds import PARAMETERS
 from ...runtime.ssp.names import split_name
 from ...runtime.system.flattening import orient
@@ -38,7 +46,7 @@ class _GraphReader:
         self.faults = faults
         self.vectors: dict[str, Vectors] = {}
 
-    def system(self, system: System, path: str, name: str) -> DiagramBlock:
+    def system(self, system: SystemElement, path: str, name: str) -> DiagramBlock:
         """Read a system; ``path`` ends with a dot, or is empty for the whole."""
         block = DiagramBlock(path.removesuffix("."), name, SYSTEM)
         self.add_ports(block, system, path)
@@ -77,7 +85,7 @@ class _GraphReader:
 
     def element(self, element: Element, path: str) -> DiagramBlock:
         name = path + element.name
-        if isinstance(element, System):
+        if isinstance(element, SystemElement):
             return self.system(element, f"{name}.", element.name)
         if isinstance(element, DictionaryReference):
             block = DiagramBlock(name, element.name, DICTIONARY, element.dictionary)

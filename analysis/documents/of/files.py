@@ -10,7 +10,7 @@ from ..cell import Code, CommandLine
 from ..model import Document, Listing, Node, Text
 
 if TYPE_CHECKING:  # templates need an engine that a verb without any does not
-    from ...authoring.block import Written
+    from ...authoring.block import CreatedFiles
 
 
 def exported_document(paths: Iterable[Path], flavours: Iterable[str], platforms: Iterable[str], fmi: int) -> Document:
@@ -20,7 +20,7 @@ def exported_document(paths: Iterable[Path], flavours: Iterable[str], platforms:
     return Document("Exported", _code(texts), [], json)
 
 
-def new_files_document(written: Written) -> Document:
+def new_files_document(written: CreatedFiles) -> Document:
     """Return the document of files written from templates: their paths, and the commands to run next."""
     nodes: list[Node] = [
         Text(f"written: {', '.join(map(str, written.paths))}"),

@@ -22,10 +22,10 @@ from ..cell import (
     Percentage,
     Phrase,
     Quantity,
+    QuantityVector,
     Rich,
     Strong,
     Track,
-    Vector,
 )
 from ..chart.legend import swatch_of
 from ..common.colours import Look
@@ -71,7 +71,7 @@ def cell_markup(cell: Cell) -> Markup:
             return Markup("{} to {}").format(cell_markup(low), cell_markup(high))
         case Displayed(text, exactly):
             return with_exact(repr(exactly).strip("()"), text)
-        case Vector(values, unit, digits, is_bare):
+        case QuantityVector(values, unit, digits, is_bare):
             numbers = Markup(", ").join(exact(value, unit, digits) for value in values)
             return numbers if is_bare else Markup("{} {}").format(numbers, display_unit(unit))
         case Percentage(fraction, decimals):

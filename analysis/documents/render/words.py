@@ -22,13 +22,13 @@ from ..cell import (
     Percentage,
     Phrase,
     Quantity,
+    QuantityVector,
     Rich,
     Row,
     RowHeading,
     RowNote,
     Strong,
     Track,
-    Vector,
 )
 from ..common.quantities import display_unit, in_display_unit, number
 from ..model import Document, KeyNumbers, Table, Verdict
@@ -53,7 +53,7 @@ def cell_text(cell: Cell) -> str:
             return f"at most {cell_text(high)}"
         case Interval(low, high):
             return f"{cell_text(low)} to {cell_text(high)}"
-        case Vector(values, unit, _, is_bare):
+        case QuantityVector(values, unit, _, is_bare):
             text = ", ".join(cell_text(Quantity(value, unit, cell.digits, is_bare=True)) for value in values)
             return text if is_bare or not display_unit(unit) else f"{text} {display_unit(unit)}"
         case Percentage(fraction, decimals):

@@ -6,12 +6,12 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ...runtime.flight.results import Result
+from ...runtime.flight.results import FlightResult
 from ..common.quantities import display_unit, number
 from ..figures.scene.declared import Arrow, Body, SceneFigure, Thrust, ThrustAxis
 
 
-def scene_notes(scene: SceneFigure, result: Result) -> list[str]:
+def scene_notes(scene: SceneFigure, result: FlightResult) -> list[str]:
     """Return the sentences below a view, and those on its omissions."""
     return [
         frame_note(scene),
@@ -42,7 +42,7 @@ def _arrow_note(arrow: Arrow) -> str:
     return f"Arrow: {arrow.name}, the direction of {arrow.signal.label}{axes}, {length}."
 
 
-def _body_notes(body: Body, result: Result) -> list[str]:
+def _body_notes(body: Body, result: FlightResult) -> list[str]:
     notes = []
     if isinstance(body.attitude, ThrustAxis):
         notes.append(f"{body.name}: roll about {body.attitude.signal.label} is unknown and not shown.")
@@ -56,7 +56,7 @@ def _body_notes(body: Body, result: Result) -> list[str]:
     return notes
 
 
-def _plume(body: Body, thrust: Thrust, result: Result) -> str:
+def _plume(body: Body, thrust: Thrust, result: FlightResult) -> str:
     largest = number(largest_magnitude(thrust.signal.values(result)))
     unit = display_unit(thrust.signal.unit_name)
     length = f"{number(plume_length(body))} m at {largest} {unit}".rstrip()

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...runtime.flight.results import Result
+from ...runtime.flight.results import FlightResult
 from ..common.colours import COLOURS, HUES
 from ..common.quantities import display_unit
 from ..common.round_body import track_normal
@@ -174,7 +174,7 @@ class SceneView:
     camera: CameraStart = START
 
 
-def scene_view(scene: SceneFigure, result: Result) -> SceneView | None:
+def scene_view(scene: SceneFigure, result: FlightResult) -> SceneView | None:
     """Return the scene of a simulation, or None without samples."""
     if not result.time.size:
         return None
@@ -225,7 +225,7 @@ def ground_view(scene: SceneFigure, position: np.ndarray) -> GroundView | None:
     return GroundView(surface.name, surface.radius, surface.centre, normal)
 
 
-def _body(body: Body, pose: Pose, origin: np.ndarray, colour: str, result: Result) -> BodyView:
+def _body(body: Body, pose: Pose, origin: np.ndarray, colour: str, result: FlightResult) -> BodyView:
     return BodyView(
         name=body.name,
         colour=colour,
@@ -251,7 +251,7 @@ def _body(body: Body, pose: Pose, origin: np.ndarray, colour: str, result: Resul
     )
 
 
-def _jets(jets: Jets, result: Result) -> list[JetView]:
+def _jets(jets: Jets, result: FlightResult) -> list[JetView]:
     values = jets.signal.values(result)
     if jets.pulses:
         values = remaining_pulses(result.time, values, None if jets.count is None else jets.count.values(result)[0])
@@ -276,7 +276,7 @@ def remaining_pulses(time: np.ndarray, lengths: np.ndarray, count: np.ndarray | 
     return np.sign(fired) * np.maximum(np.abs(fired) - (time - time[start]), 0.0)
 
 
-def _site(site: Site, origin: np.ndarray, colour: str, result: Result) -> SiteView:
+def _site(site: Site, origin: np.ndarray, colour: str, result: FlightResult) -> SiteView:
     if isinstance(site.position, Signal):
         position = site.position.values(result)
     else:
@@ -284,12 +284,12 @@ def _site(site: Site, origin: np.ndarray, colour: str, result: Result) -> SiteVi
     return SiteView(site.name, colour, list(position - origin[:, None]))
 
 
-def _line(line: Line, result: Result) -> LineView:
+def _line(line: Line, result: FlightResult) -> LineView:
     condition = None if line.condition is None else line.condition.values(result)[0]
     return LineView(line.start, None if line.end == GROUND else line.end, condition)
 
 
-def _arrow(arrow: Arrow, frame: np.ndarray | None, colour: str, flight: Result) -> ArrowView:
+def _arrow(arrow: Arrow, frame: np.ndarray | None, colour: str, flight: FlightResult) -> ArrowView:
     """Return an arrow with components in axes of this attitude, [4, n], or in those of the scene."""
     direction = normalise(arrow.signal.values(flight))
     return ArrowView(

@@ -24,7 +24,7 @@ NOT_ONE = "export the system as .ssp"
 
 
 @dataclass(frozen=True)
-class Choice:
+class SlotChoice:
     """A system with one candidate in each slot: ``candidates`` by slot, and their ``numbers``, counted from 1."""
 
     candidates: Mapping[str, str]
@@ -46,7 +46,7 @@ class Preparation:
         self.slots = slots
         self._loaded: dict[str, Fmu] = {}
 
-    def choices(self) -> list[Choice]:
+    def choices(self) -> list[SlotChoice]:
         """Return a choice for each combination of candidates. Raises InputError for a system that cannot be one FMU."""
         for slot, candidates in self.slots.items():
             names = [candidate_name(each) for each in candidates]
@@ -71,7 +71,7 @@ class Preparation:
         """Return, for every choice, the candidate of each slot."""
         return [dict(zip(self.slots, use, strict=True)) for use in itertools.product(*self.slots.values())]
 
-    def choice(self, use: Mapping[str, str], *more: str) -> Choice:
+    def choice(self, use: Mapping[str, str], *more: str) -> SlotChoice:
         """Return the system with these candidates; the parameter sets ``more`` apply after the chosen ones.
 
         Raises InputError.
@@ -90,7 +90,7 @@ class Preparation:
             starts = {name: start_of(prepared.network, name) for name in inputs}
             prepared = self._prepare(changed.but(set={**starts, **changed.set}))
         numbers = tuple(self.slots[slot].index(fmu) + 1 for slot, fmu in use.items())
-        return Choice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
+        return SlotChoice({slot: candidate_name(fmu) for slot, fmu in use.items()}, numbers, prepared)
 
     def _values_for(self, use: Mapping[str, str]) -> dict[str, SetValue]:
         """Return the values of the option `set`; of SLOT.CANDIDATE.PARAMETER only those of these candidates."""

@@ -71,7 +71,7 @@ static void {prefix}advance({type} *self, Fault *fault, double start_time, doubl
 
 
 @dataclass(frozen=True)
-class Member:
+class StructMember:
     """A variable of a block in its C struct.
 
     ``kind`` is KIND_REAL, KIND_INTEGER or KIND_BOOLEAN; ``role`` is ROLE_INPUT, ROLE_OUTPUT, ROLE_PARAMETER,
@@ -84,7 +84,7 @@ class Member:
 
 
 @dataclass(frozen=True)
-class ComponentSource:
+class BlockCode:
     """The C ``text`` of an FMU's block with names that begin with ``prefix``.
 
     ``members`` are its variables in the order of value references.
@@ -92,7 +92,7 @@ class ComponentSource:
 
     prefix: str
     text: str
-    members: tuple[Member, ...]
+    members: tuple[StructMember, ...]
 
     @property
     def block(self) -> str:
@@ -111,7 +111,7 @@ class ComponentSource:
         return {re.split(r"[.\[]", path)[0]: re.match(r"\w+\[", path) is not None for path in given}
 
 
-def read_component_source(fmu: Fmu, name: str) -> ComponentSource:
+def read_component_source(fmu: Fmu, name: str) -> BlockCode:
     """Read the C source of one of Perilune's FMUs; its names get the prefix ``name``_.
 
     Raises InputError for source of another build.
@@ -126,12 +126,12 @@ def read_component_source(fmu: Fmu, name: str) -> ComponentSource:
     tables = TABLES.search(main)
     if not (main.endswith(END) and known and tables):
         raise InputError(fmu.label, "sources", "its C is of another build of Perilune", REMEDY)
-    members = tuple(Member(*match.groups()) for match in ELEMENT.finditer(main))
+    members = tuple(StructMember(*match.groups()) for match in ELEMENT.finditer(main))
     if len(members) != len(fmu.variables):
         problem = f"its C has {len(members)} variables, its modelDescription.xml {len(fmu.variables)}"
         raise InputError(fmu.label, "sources", problem, REMEDY)
     text = main.replace(tables[0], "").removesuffix(END)
-    return ComponentSource(f"{name}_", rename(text, f"{name}_"), members)
+    return BlockCode(f"{name}_", rename(text, f"{name}_"), members)
 
 
 def rename(text: str, prefix: str) -> str:
@@ -150,7 +150,7 @@ def rename(text: str, prefix: str) -> str:
     return re.sub(r"^(CHECKED_FUNCTION|CHECKED_POWER)\((\w+),", rf"\1({prefix}\2,", renamed, flags=re.MULTILINE)
 
 
-def write_kind(source: ComponentSource) -> str:
+def write_kind(source: BlockCode) -> str:
     """Return the header of a type of component, which the system's source includes."""
     name = source.prefix.removesuffix("_")
     return FILE.format(
@@ -164,7 +164,7 @@ def write_kind(source: ComponentSource) -> str:
     )
 
 
-def _begin(source: ComponentSource) -> list[str]:
+def _begin(source: BlockCode) -> list[str]:
     """Return the statements that restore start values of a block but retain its parameters and inputs."""
     retained = [_retain(member, is_array) for member, is_array in source.given.items()]
     begin = f"self->block = {source.prefix}STARTS;"
@@ -177,6 +177,6 @@ def _retain(member: str, is_array: bool) -> str:
     return f"self->block.{member} = given.{member};"
 
 
-def file_name(source: ComponentSource) -> str:
+def file_name(source: BlockCode) -> str:
     """Return the name of a component's header."""
     return f"{source.prefix.removesuffix('_')}.h"

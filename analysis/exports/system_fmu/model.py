@@ -22,8 +22,8 @@ from ...runtime.system.checks import changeable
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.network import Network
 from ...runtime.system.prepared import PreparedSystem
-from .choices import Choice, check_type, system_connectors
-from .component_source import ComponentSource, Member, read_component_source
+from .choices import SlotChoice, check_type, system_connectors
+from .component_source import BlockCode, StructMember, read_component_source
 
 DEFINE = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)", re.MULTILINE)
 # Names of its headers, which a file of the same name would replace.
@@ -40,7 +40,7 @@ ALWAYS = (float("-inf"), float("inf"))
 
 
 @dataclass(frozen=True)
-class Candidate:
+class SlotCandidate:
     """A component, or a candidate of a slot.
 
     ``identifier`` is its name in C, ``label`` the prefix of its variables.
@@ -48,11 +48,11 @@ class Candidate:
 
     component: str
     fmu: Fmu
-    source: ComponentSource
+    source: BlockCode
     identifier: str
     label: str
 
-    def member(self, variable: str) -> Member:
+    def member(self, variable: str) -> StructMember:
         """Return the struct member of a variable."""
         return self.source.members[self.fmu.variables[variable].reference]
 
@@ -82,11 +82,11 @@ class Identifiers:
 class ChoiceProgram:
     """The instructions of one choice, with the list they were assembled from; ``candidates`` by component number."""
 
-    choice: Choice
+    choice: SlotChoice
     program: arrays.Program
     instructions: InstructionList
     layout: Layout
-    candidates: Sequence[Candidate]
+    candidates: Sequence[SlotCandidate]
 
     @property
     def prepared(self) -> PreparedSystem:
@@ -111,12 +111,12 @@ class SystemModel:
     for whose faults it has inputs. Raises InputError for unknown names, and for C source of another build.
     """
 
-    def __init__(self, choices: Sequence[Choice], exposed: Sequence[str], faulty: Sequence[str]) -> None:
+    def __init__(self, choices: Sequence[SlotChoice], exposed: Sequence[str], faulty: Sequence[str]) -> None:
         self.choices = choices
         self.first = choices[0].prepared
         self.members = Identifiers({*RESERVED, *_macros(), "point", "start_time", "has_finished", "signal", "fault"})
-        self._candidates: dict[tuple[str, str], Candidate] = {}
-        self._sources: dict[str, ComponentSource] = {}
+        self._candidates: dict[tuple[str, str], SlotCandidate] = {}
+        self._sources: dict[str, BlockCode] = {}
         self._prefixes = Identifiers(
             {"model", *C_LIBRARY, *(PurePath(file).stem for file in read_wrapper(2, "system"))}
         )
@@ -135,11 +135,11 @@ class SystemModel:
             self._check_alike(name)
 
     @property
-    def candidates(self) -> list[Candidate]:
+    def candidates(self) -> list[SlotCandidate]:
         return list(self._candidates.values())
 
     @property
-    def sources(self) -> list[ComponentSource]:
+    def sources(self) -> list[BlockCode]:
         return list(self._sources.values())
 
     @property
@@ -175,7 +175,7 @@ class SystemModel:
                 "`slots`", name, problem, "neither expose it nor give it a fault, or leave a candidate out"
             )
 
-    def _program(self, choice: Choice) -> ChoiceProgram:
+    def _program(self, choice: SlotChoice) -> ChoiceProgram:
         prepared = choice.prepared
         instances = dict.fromkeys(prepared.network.fmus, Unloaded())
         injections = [Injection(name, codes.OVERRIDE, 0.0, ALWAYS) for name in self.faulty]
@@ -184,14 +184,14 @@ class SystemModel:
         candidates = [self._candidate(choice, name, fmu) for name, fmu in prepared.network.fmus.items()]
         return ChoiceProgram(choice, program, instructions, layout, candidates)
 
-    def _candidate(self, choice: Choice, component: str, fmu: Fmu) -> Candidate:
+    def _candidate(self, choice: SlotChoice, component: str, fmu: Fmu) -> SlotCandidate:
         candidate = choice.candidates.get(component, "")
         if (component, candidate) not in self._candidates:
             path = f"{component}.{candidate}" if candidate else component
             if fmu.digest not in self._sources:
                 self._sources[fmu.digest] = read_component_source(fmu, self._prefixes.new(fmu.name.lower()))
             source = self._sources[fmu.digest]
-            self._candidates[component, candidate] = Candidate(component, fmu, source, self.members.new(path), path)
+            self._candidates[component, candidate] = SlotCandidate(component, fmu, source, self.members.new(path), path)
         return self._candidates[component, candidate]
 
     def _find_exposed(self, names: Sequence[str]) -> list[str]:
@@ -251,7 +251,7 @@ def _is_known(network: Network, name: str) -> bool:
     )
 
 
-def _find_faulty(choices: Sequence[Choice], names: Sequence[str]) -> list[str]:
+def _find_faulty(choices: Sequence[SlotChoice], names: Sequence[str]) -> list[str]:
     """Return the connectors and tunable parameters with fault inputs; all choices must have them. Raises InputError."""
     for name in names:
         for choice in choices:

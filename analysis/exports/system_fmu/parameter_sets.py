@@ -9,7 +9,7 @@ from pathlib import PurePosixPath
 
 from ....common.errors import InputError
 from ....fmus_src.evidence.parameter_set import write_parameter_set
-from ...runtime.ssp.description import Element, System
+from ...runtime.ssp.description import Element, SystemElement
 from ...runtime.ssp.given_values import ParameterValue
 from .choices import Preparation
 from .model import SystemModel
@@ -26,7 +26,7 @@ class OtherSets:
     unfit: Sequence[str]
 
 
-def other_parameter_sets(preparation: Preparation, system: System, declared: Sequence[FmuVariable]) -> OtherSets:
+def other_parameter_sets(preparation: Preparation, system: SystemElement, declared: Sequence[FmuVariable]) -> OtherSets:
     """Return the further sets of the ``system``, each reduced to the ``declared`` variables that it changes."""
     files, unfit = {}, []
     starts = {each.name: each.start for each in declared if each.causality in ("parameter", "input")}
@@ -40,7 +40,7 @@ def other_parameter_sets(preparation: Preparation, system: System, declared: Seq
     return OtherSets(files, unfit)
 
 
-def _others(preparation: Preparation, system: System) -> list[str]:
+def _others(preparation: Preparation, system: SystemElement) -> list[str]:
     """Return the parameter sets of a system that are neither chosen nor bound by its description."""
     files = preparation.archive.files
     used = _bound(system)
@@ -51,7 +51,7 @@ def _others(preparation: Preparation, system: System) -> list[str]:
 
 def _bound(element: Element) -> set[str]:
     """Return the parameter files bound to an element or to elements inside it."""
-    inner = element.elements.values() if isinstance(element, System) else ()
+    inner = element.elements.values() if isinstance(element, SystemElement) else ()
     files = {posixpath.normpath(binding.source) for binding in element.bindings if binding.source is not None}
     return files.union(*map(_bound, inner))
 

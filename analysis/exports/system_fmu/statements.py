@@ -15,17 +15,17 @@ import numpy as np
 from ....fmus_src.export.write.layout import NO_BREAK
 from ....fmus_src.export.write.names import literal
 from ...runtime.flight.orders.fmi2 import FUNCTION
-from ...runtime.fmi.variable import Variable
+from ...runtime.fmi.variable import ScalarVariable
 from ...runtime.fused.statements import Instruction, table_entries
 from ...runtime.loop import codes
-from .model import Candidate, ChoiceProgram
+from .model import ChoiceProgram, SlotCandidate
 
 GET_REAL = FUNCTION["GetReal"]
 SKIPPED = (codes.SETUP, codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.READ_BACK, codes.WHOLE_READ_BACK)
 
 
 @dataclass
-class Statements:
+class ChoiceStatements:
     """Writer of the statements of one choice; ``constants`` are the C constants of signals by name.
 
     ``is_starting`` is True during initialisation. ``unsettled`` are the components whose inputs were set since their
@@ -75,7 +75,7 @@ class Statements:
         """Return the statement that applies a fault to its signal."""
         return f"{function}(&{self.signal(int(self.choice.program.fault_slot[number]))}, &self->fault[{number}]);"
 
-    def give(self, candidate: Candidate, slot: int) -> list[str]:
+    def give(self, candidate: SlotCandidate, slot: int) -> list[str]:
         """Return the statements that write the signal of a slot to its variable in a component."""
         member = candidate.source.members[int(self.choice.program.reference[slot])]
         path, signal = f"self->{candidate.identifier}.block.{member.path}", self.signal(slot)
@@ -107,7 +107,7 @@ class Statements:
         member = candidate.source.members[int(self.choice.program.reference[slot])]
         return f"self->{candidate.identifier}.block.{member.path}", member.kind
 
-    def candidate(self, row: Instruction) -> Candidate:
+    def candidate(self, row: Instruction) -> SlotCandidate:
         return self.choice.candidates[row.component]
 
     def settle(self, component: int) -> list[str]:
@@ -120,7 +120,7 @@ class Statements:
         return [call, check(candidate.component)]
 
 
-def _check_bounds(variable: Variable, signal: str, name: str) -> list[str]:
+def _check_bounds(variable: ScalarVariable, signal: str, name: str) -> list[str]:
     """Return the checks of a tunable parameter, including its fault, against the bounds of the FMU."""
     lines = [f"CHECK_FINITE({signal}, {quoted(name)})"] if variable.type == "Real" else []
     for sign, bound, side in (
@@ -144,15 +144,15 @@ def quoted(text: str) -> str:
     return f'"{escaped}"'
 
 
-def _mode(to: Statements, row: Instruction) -> list[str]:
+def _mode(to: ChoiceStatements, row: Instruction) -> list[str]:
     return to.settle(row.component) if row.function == FUNCTION["ExitInitializationMode"] else []
 
 
-def _copy(to: Statements, row: Instruction) -> list[str]:
+def _copy(to: ChoiceStatements, row: Instruction) -> list[str]:
     return [f"{to.signal(row.first + i)} = {to.signal(row.address + i)};" for i in range(row.size)]
 
 
-def _transform(to: Statements, row: Instruction, assign: str = "=") -> list[str]:
+def _transform(to: ChoiceStatements, row: Instruction, assign: str = "=") -> list[str]:
     program, lines = to.choice.program, []
     for number in range(row.first, row.first + row.size):
         target, source = to.signal(int(program.target[number])), to.signal(int(program.source[number]))
@@ -161,11 +161,11 @@ def _transform(to: Statements, row: Instruction, assign: str = "=") -> list[str]
     return lines
 
 
-def _add(to: Statements, row: Instruction) -> list[str]:
+def _add(to: ChoiceStatements, row: Instruction) -> list[str]:
     return _transform(to, row, "+=")
 
 
-def _map(to: Statements, row: Instruction) -> list[str]:
+def _map(to: ChoiceStatements, row: Instruction) -> list[str]:
     program, lines = to.choice.program, []
     for number in range(row.first, row.first + row.size):
         slot = int(program.source[number])
@@ -188,24 +188,24 @@ def map_value(source: str, target: str, entries: Iterable[tuple[float, float]], 
     return [" else ".join([*tests, f"{{ {otherwise} }}"])]
 
 
-def _set_real(to: Statements, row: Instruction) -> list[str]:
+def _set_real(to: ChoiceStatements, row: Instruction) -> list[str]:
     if row.function == GET_REAL:  # a READ_REAL, whose values are not checked
         return [*to.settle(row.component), *(f"{s} = {to.variable(row, slot)[0]};" for slot, s in to.slots(row))]
     return _give(to, row)
 
 
-def _give(to: Statements, row: Instruction) -> list[str]:
+def _give(to: ChoiceStatements, row: Instruction) -> list[str]:
     to.unsettled.add(row.component)
     return [line for slot, _ in to.slots(row) for line in to.give(to.candidate(row), slot)]
 
 
-def _get_real(to: Statements, row: Instruction) -> list[str]:
+def _get_real(to: ChoiceStatements, row: Instruction) -> list[str]:
     reads = [f"{signal} = {to.variable(row, slot)[0]};" for slot, signal in to.slots(row)]
     checks = [f"CHECK_FINITE({signal}, {quoted(to.choice.names[slot])})" for slot, signal in to.slots(row)]
     return [*to.settle(row.component), *reads, *checks]
 
 
-def _get_whole(to: Statements, row: Instruction) -> list[str]:
+def _get_whole(to: ChoiceStatements, row: Instruction) -> list[str]:
     lines = to.settle(row.component)
     for slot, signal in to.slots(row):
         path, kind = to.variable(row, slot)
@@ -215,7 +215,7 @@ def _get_whole(to: Statements, row: Instruction) -> list[str]:
     return lines
 
 
-def _step(to: Statements, row: Instruction) -> list[str]:
+def _step(to: ChoiceStatements, row: Instruction) -> list[str]:
     candidate = to.candidate(row)
     times = "time, SYSTEM_STEP"
     if row.size:
@@ -224,11 +224,11 @@ def _step(to: Statements, row: Instruction) -> list[str]:
     return [call, check(candidate.component)]
 
 
-def _inject(to: Statements, row: Instruction) -> list[str]:
+def _inject(to: ChoiceStatements, row: Instruction) -> list[str]:
     return [to.injection(number) for number in range(row.first, row.first + row.size)]
 
 
-WRITERS: dict[int, Callable[[Statements, Instruction], list[str]]] = {
+WRITERS: dict[int, Callable[[ChoiceStatements, Instruction], list[str]]] = {
     codes.MODE: _mode,
     codes.COPY: _copy,
     codes.TRANSFORM: _transform,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
-from ....fmus_src.export.write.layout import Lines
+from ....fmus_src.export.write.layout import CodeLines
 from ....fmus_src.export.write.names import comment, literal
 from ....fmus_src.runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, STEP_LIMIT, TIME_TOLERANCE
 from ...runtime.flight.instructions import write_renewal
@@ -14,7 +14,7 @@ from ...runtime.ssp.kinds import PARAMETERS
 from .choices import parameter_chain
 from .component_source import file_name
 from .model import ChoiceProgram, SystemModel
-from .statements import Statements, quoted
+from .statements import ChoiceStatements, quoted
 from .tables_in_c import write_tables
 from .variables import FmuVariable, Variables
 from .variables_in_c import (
@@ -88,8 +88,8 @@ def write_system(name: str, about: str, guid: str, model: SystemModel, variables
 
 def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables) -> list[str]:
     """Return the initialisation and step functions of one choice."""
-    statements = Statements(program, model.signals)
-    initialise = Lines()
+    statements = ChoiceStatements(program, model.signals)
+    initialise = CodeLines()
     initialise.open(f"static void initialize{program.choice.name}(Block *self, Fault *fault)\n{{")
     initialise.add(SIGNALS if model.signals else "(void)self;")
     passed = _find_passed_signals(program, variables)
@@ -111,7 +111,7 @@ def _functions(program: ChoiceProgram, model: SystemModel, variables: Variables)
     ]:
         initialise.add(line)
     initialise.close("}")
-    step = Lines()
+    step = CodeLines()
     step.comment("From one communication point to the next.")
     step.open(f"static void step{program.choice.name}(Block *self, Fault *fault)\n{{")
     step.add(SIGNALS if model.signals else "(void)self;")
@@ -149,7 +149,7 @@ def _take_inputs(program: ChoiceProgram, model: SystemModel, variables: Variable
     return [f"s[{signal}] = (double)self->{path};" for signal, path in sources.items()]
 
 
-def _renewal(statements: Statements, phase: int) -> list[str]:
+def _renewal(statements: ChoiceStatements, phase: int) -> list[str]:
     """Return the statements that pass system inputs and faulty parameters to components at the start of a step.
 
     They concern the components that step with the inputs of the start.
@@ -179,7 +179,7 @@ def _check_faults(model: SystemModel) -> list[str]:
     ]
 
 
-def _end_step(statements: Statements, model: SystemModel, variables: Variables) -> list[str]:
+def _end_step(statements: ChoiceStatements, model: SystemModel, variables: Variables) -> list[str]:
     """Return the statements at the end of a step: end of the system, applied faults, outputs."""
     program = statements.choice
     finished = program.program.finished_slot
@@ -197,7 +197,7 @@ def _end_step(statements: Statements, model: SystemModel, variables: Variables) 
 
 def _entry_points(model: SystemModel, variables: Variables) -> str:
     """Return the functions that the wrapper calls; they select the choice by the parameters of the slots."""
-    lines = Lines()
+    lines = CodeLines()
     lines.open("static void model_set_start_time(Block *self, double start_time)\n{")
     lines.add("self->start_time = start_time;")
     lines.close("}")
@@ -210,7 +210,7 @@ def _entry_points(model: SystemModel, variables: Variables) -> str:
     return "\n".join(lines.text)
 
 
-def _dispatch(lines: Lines, function: str, programs: Sequence[ChoiceProgram], slots: Sequence[FmuVariable]) -> None:
+def _dispatch(lines: CodeLines, function: str, programs: Sequence[ChoiceProgram], slots: Sequence[FmuVariable]) -> None:
     """Add the calls of the choices' functions; among the programs the candidates of the last slot vary fastest."""
     numbers_of = itertools.product(*(slot.enumeration.numbers.values() for slot in slots if slot.enumeration))
     for program, chosen in zip(programs, numbers_of, strict=True):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ....fmus_src.export.write.layout import Lines
+from ....fmus_src.export.write.layout import CodeLines
 from ....fmus_src.export.write.tables import write_ranges
 from ....fmus_src.start_values import LARGEST
 from .model import SystemModel
@@ -13,7 +13,7 @@ from .variables import FmuVariable, Variables
 
 
 @dataclass(frozen=True)
-class Row:
+class StructElement:
     """An element of the system's struct: its role in the wrapper, and the range of its start value."""
 
     name: str
@@ -23,14 +23,14 @@ class Row:
     range: tuple[float, float] | None = None
 
 
-def _row_of(each: FmuVariable) -> Row:
+def _row_of(each: FmuVariable) -> StructElement:
     """Return the row of a variable declared in modelDescription.xml."""
     within = None
     if each.causality == "parameter":
         within = _range(each.kind, each.minimum, each.maximum)
     elif each.causality == "input":
         within = _range(each.kind, None, None)
-    return Row(each.name, each.path, each.kind, each.role, within)
+    return StructElement(each.name, each.path, each.kind, each.role, within)
 
 
 def _range(kind: str, minimum: str | None, maximum: str | None) -> tuple[float, float] | None:
@@ -40,12 +40,14 @@ def _range(kind: str, minimum: str | None, maximum: str | None) -> tuple[float, 
     return (-LARGEST if minimum is None else float(minimum), LARGEST if maximum is None else float(maximum))
 
 
-def _list_hidden(model: SystemModel, variables: Variables) -> list[Row]:
+def _list_hidden(model: SystemModel, variables: Variables) -> list[StructElement]:
     """Return the rows of state elements that modelDescription.xml does not declare."""
     declared = {each.path for each in variables.declared}
     faulty = {each.candidate.path_of(each.variable.name) for each in variables.tuned}  # steps compare these
     hidden = [
-        Row(each.name, each.path, each.kind, range=_range(each.kind, each.variable.minimum, each.variable.maximum))
+        StructElement(
+            each.name, each.path, each.kind, range=_range(each.kind, each.variable.minimum, each.variable.maximum)
+        )
         for each in variables.tuned
         if each.path not in declared
     ]
@@ -56,25 +58,27 @@ def _list_hidden(model: SystemModel, variables: Variables) -> list[Row]:
                 kind = candidate.member(variable.name).kind
                 is_parameter = variable.causality == "parameter" and path not in faulty
                 within = _range(kind, variable.minimum, variable.maximum) if is_parameter else None
-                hidden.append(Row(name, path, kind, range=within))
-        hidden.append(Row(f"{candidate.label}, its samples", f"{candidate.identifier}.tick", "KIND_INTEGER"))
-    hidden += [Row(f"signal {name}", f"signal[{constant}]", "KIND_REAL") for name, constant in model.signals.items()]
+                hidden.append(StructElement(name, path, kind, range=within))
+        hidden.append(StructElement(f"{candidate.label}, its samples", f"{candidate.identifier}.tick", "KIND_INTEGER"))
+    hidden += [
+        StructElement(f"signal {name}", f"signal[{constant}]", "KIND_REAL") for name, constant in model.signals.items()
+    ]
     for number, name in enumerate(model.faulty):
-        hidden.append(Row(f"{name}, frozen", f"fault[{number}].frozen", "KIND_REAL"))
-        hidden.append(Row(f"{name}, kind of the last step", f"fault[{number}].last_kind", "KIND_INTEGER"))
-        hidden.append(Row(f"{name}, value of the last step", f"fault[{number}].last_value", "KIND_REAL"))
+        hidden.append(StructElement(f"{name}, frozen", f"fault[{number}].frozen", "KIND_REAL"))
+        hidden.append(StructElement(f"{name}, kind of the last step", f"fault[{number}].last_kind", "KIND_INTEGER"))
+        hidden.append(StructElement(f"{name}, value of the last step", f"fault[{number}].last_value", "KIND_REAL"))
     return [
         *hidden,
-        Row("start time", "start_time", "KIND_REAL"),
-        Row("steps", "point", "KIND_INTEGER"),
-        Row("end", "has_finished", "KIND_BOOLEAN"),
+        StructElement("start time", "start_time", "KIND_REAL"),
+        StructElement("steps", "point", "KIND_INTEGER"),
+        StructElement("end", "has_finished", "KIND_BOOLEAN"),
     ]
 
 
 def write_tables(guid: str, model: SystemModel, variables: Variables) -> str:
     """Return the tables of the wrapper: GUID, and elements by value reference, undeclared ones last."""
     rows = [*map(_row_of, variables.declared), *_list_hidden(model, variables)]
-    lines = Lines()
+    lines = CodeLines()
     lines.add(f'#define MODEL_GUID "{guid}"')
     lines.text.append("")
     lines.comment(f"By value reference; those from {len(variables.declared)} on belong to the state alone.")

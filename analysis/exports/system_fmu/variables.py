@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from ....fmus_src.export.description.system import EnumerationType, numbered_type
-from ...runtime.fmi.variable import Variable
+from ...runtime.fmi.variable import ScalarVariable
 from ...runtime.ssp.given_values import ParameterValue, parse_value
 from ...runtime.ssp.kinds import PARAMETERS
 from ...runtime.system.network import Network, Node
 from .choices import check_type, parameter_chain
 from .dependence import fault_inputs
 from .enumerations import Enumerations
-from .model import Candidate, ChoiceProgram, SystemModel
+from .model import ChoiceProgram, SlotCandidate, SystemModel
 
 KINDS = {"Real": "KIND_REAL", "Integer": "KIND_INTEGER", "Enumeration": "KIND_INTEGER", "Boolean": "KIND_BOOLEAN"}
 C_TYPES = {"KIND_REAL": "double", "KIND_INTEGER": "int64_t", "KIND_BOOLEAN": "bool"}
@@ -76,8 +76,8 @@ class Passed:
 class Tuned:
     """A tunable parameter of a component with fault inputs; its value without faults is at ``path``."""
 
-    candidate: Candidate
-    variable: Variable
+    candidate: SlotCandidate
+    variable: ScalarVariable
     path: str
 
     @property
@@ -184,7 +184,7 @@ class Variables:
             enumeration=numbered_type(f"{name}.use.Candidate", candidates, 1),
         )
 
-    def _component_parameters(self, program: ChoiceProgram, candidate: Candidate) -> Iterator[FmuVariable]:
+    def _component_parameters(self, program: ChoiceProgram, candidate: SlotCandidate) -> Iterator[FmuVariable]:
         network, settings = program.prepared.network, program.prepared.settings
         for variable in candidate.fmu.variables.values():
             full, path = f"{candidate.component}.{variable.name}", candidate.path_of(variable.name)
@@ -255,7 +255,7 @@ class Variables:
             yield FmuVariable(strength, "input", "Real", f"{path}.value", about, 0.0, unit if is_real else None)
 
 
-def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate]]:
+def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, SlotCandidate]]:
     """Yield each candidate once, with the first choice that contains it."""
     seen: set[str] = set()
     for program in model.programs:
@@ -265,7 +265,7 @@ def _by_candidate(model: SystemModel) -> Iterator[tuple[ChoiceProgram, Candidate
                 yield program, candidate
 
 
-def _is_tunable(variable: Variable) -> bool:
+def _is_tunable(variable: ScalarVariable) -> bool:
     """Return True for a variable that the component's FMU permits to be set between steps."""
     return variable.variability == "tunable" or variable.causality == "input"
 
@@ -283,7 +283,7 @@ def _convert(node: Node, value: float | str) -> ParameterValue:
     return {"Real": float, "Integer": int, "Boolean": bool}[_type_of(node)](value)
 
 
-def _start(variable: Variable, candidate: Candidate) -> ParameterValue:
+def _start(variable: ScalarVariable, candidate: SlotCandidate) -> ParameterValue:
     return parse_value(variable.start_text, _in_a_system(variable.type), candidate.fmu.label, variable.name)
 
 

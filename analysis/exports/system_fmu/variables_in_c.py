@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ....fmus_src.export.write.layout import Lines
+from ....fmus_src.export.write.layout import CodeLines
 from ....fmus_src.export.write.names import comment, literal
-from ...runtime.system.network import Link, Network
+from ...runtime.system.network import Network, NodeLink
 from ...runtime.system.passing.parameters import numbers
 from .model import SystemModel
 from .statements import map_value
@@ -15,7 +15,7 @@ from .variables import C_TYPES, Passed, Variables
 
 def write_signals(model: SystemModel) -> str:
     """Return the enum of signal numbers."""
-    lines = Lines()
+    lines = CodeLines()
     lines.comment(
         "Values on their way from component to component, by number: of outputs, connected inputs, connectors."
     )
@@ -28,7 +28,7 @@ def write_signals(model: SystemModel) -> str:
 
 
 def write_struct(model: SystemModel, variables: Variables) -> str:
-    lines = Lines()
+    lines = CodeLines()
     lines.open("typedef struct System {")
     for each in variables.declared:
         if each.is_member:
@@ -53,7 +53,7 @@ def write_struct(model: SystemModel, variables: Variables) -> str:
 
 
 def write_starts(model: SystemModel, variables: Variables) -> str:
-    lines = Lines()
+    lines = CodeLines()
     lines.open("static void get_starts(Block *self)\n{")
     lines.add("memset(self, 0, sizeof *self);")
     for candidate in model.candidates:
@@ -70,7 +70,7 @@ def write_starts(model: SystemModel, variables: Variables) -> str:
 
 def write_parameters(model: SystemModel, variables: Variables) -> str:
     """Return the function that sets component parameters from system parameters."""
-    lines = Lines()
+    lines = CodeLines()
     lines.comment("Parameters of components that follow from those of systems.")
     lines.open("static void pass_parameters(Block *self, Fault *fault)\n{")
     lines.add("(void)self, (void)fault;")
@@ -87,7 +87,7 @@ def write_parameters(model: SystemModel, variables: Variables) -> str:
 
 def write_use(model: SystemModel, variables: Variables) -> str:
     """Return the function that tells whether a variable belongs to a chosen candidate."""
-    lines = Lines()
+    lines = CodeLines()
     lines.comment("True where the variable there is of what is simulated, and not of a candidate that is not chosen.")
     lines.open("static bool is_used(const Block *self, uint32_t offset)\n{")
     for candidate in model.candidates:
@@ -111,7 +111,7 @@ def pass_along(network: Network, chain: Sequence[str]) -> list[str]:
     return [line for number, name in enumerate(chain[1:]) for line in _pass_on(network, network.driver[name], number)]
 
 
-def _pass_on(network: Network, link: Link, number: int) -> list[str]:
+def _pass_on(network: Network, link: NodeLink, number: int) -> list[str]:
     transformation = link.transformation
     if transformation.table:
         entries = numbers(network, link) + ([(float("nan"), float("nan"))] if transformation.is_partial else [])

@@ -14,7 +14,7 @@ from ..system import (
     RequireOptions,
     Seed,
     SimulationOptions,
-    SystemOptions,
+    SystemKeywords,
     TrustOptions,
     UntilDecided,
     Workers,
@@ -28,7 +28,7 @@ SYSTEM = Argument(
 )
 
 
-class RunOptions(SystemOptions, SimulationOptions, RequireOptions, total=False):
+class RunOptions(SystemKeywords, SimulationOptions, RequireOptions, total=False):
     """Options of run"""
 
     record: Annotated[
@@ -76,7 +76,7 @@ FOLDER = Argument("folder", "DIR", "the folder of a campaign, of batch or prepar
 OF_CAMPAIGN = "a requirement of the campaign is not met or undecided, a --require is not met, or a simulation failed"
 
 
-class CampaignOptions(SystemOptions, SimulationOptions, total=False):
+class CampaignOptions(SystemKeywords, SimulationOptions, total=False):
     """Options of everything that simulates a campaign"""
 
     seed: Seed

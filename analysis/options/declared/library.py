@@ -8,7 +8,7 @@ from typing import Annotated, Literal, TypedDict
 from ....common.paths import Build
 from ..declaration import Argument, Verb
 from ..option import EMPTY, FilePath, Option
-from ..system import AssemblyOptions, ReportFiles, SystemOptions, TrustOptions
+from ..system import AssemblyOptions, ReportFiles, SystemKeywords, TrustOptions
 
 PATHS = Argument(
     "paths", "PATH", "a system, .ssp, .fmu, .ssv, law .json or campaign .toml", "systems_and_files", many=True
@@ -49,7 +49,7 @@ LIST = Verb(
 )
 
 
-class DescribeOptions(SystemOptions, total=False):
+class DescribeOptions(SystemKeywords, total=False):
     """Options of describe"""
 
     campaign: Annotated[
@@ -81,7 +81,7 @@ DESCRIBE = Verb(
 )
 
 
-class ValidateOptions(SystemOptions, total=False):
+class ValidateOptions(SystemKeywords, total=False):
     """Options of validate"""
 
     all_variants: Annotated[bool, Option("check every SSD of an archive, not only the one that would be flown", False)]

@@ -8,13 +8,13 @@ from typing import Annotated, TypedDict
 from ..choices import MarginKind
 from ..declaration import Argument, Verb
 from ..option import EMPTY, FilePath, Option
-from ..system import Overwrite, ReportFiles, RequireOptions, Seed, SystemOptions, Workers
+from ..system import Overwrite, ReportFiles, RequireOptions, Seed, SystemKeywords, Workers
 from .campaigns import CAMPAIGN, SYSTEM, CampaignOptions, TrialsOptions
 
 PAPER = "lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance"  # of the examples
 
 
-class StabilityOptions(SystemOptions, TrialsOptions, total=False):
+class StabilityOptions(SystemKeywords, TrialsOptions, total=False):
     """Options of stability"""
 
     loops: Annotated[

@@ -17,7 +17,7 @@ from .base_memory import BaseMemory
 from .group import FlightGroup
 from .program import Layout
 from .recorder import FlightRecorder
-from .results import Flight, Provenance, Result, provenance_of
+from .results import Flight, FlightResult, Provenance, provenance_of
 from .selection import Selection
 
 NOTHING = np.zeros((0, 0))  # no excitation
@@ -71,13 +71,13 @@ class BaseSimulation(ABC):
         self._faults: Sequence[Fault | None] = faults
         self._log = choices.get("log")
 
-    def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> Result:
+    def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> FlightResult:
         """Simulate from the start with these ``values`` of varied parameters, and record every ``every``-th row.
 
         The arrays of the result belong to the simulation and are overwritten by its next run.
         """
         flight = self.run(values or {}, every=every)
-        return Result(
+        return FlightResult(
             **vars(flight),
             units={name: self.layout.units[name] for name in self.signal_names},
             provenance=self.provenance(),

@@ -17,7 +17,7 @@ from .results import Flight
 RECORD_BYTES = 2**23  # of a group: dozens of long flights, thousands of short ones
 
 
-def group_of(table: FlightTable, keys: Mapping[str, Key], parameters: Parameters, margin: float) -> arrays.Group:
+def group_of(table: FlightTable, keys: Mapping[str, Key], parameters: Parameters, margin: float) -> arrays.RunGroup:
     """Return a table as arrays for the loop; ``margin`` (s) is subtracted from fault windows to allow for rounding."""
     real = [name for name in table.values if parameters.types[keys[name]] == "Real"]
     whole = [name for name in table.values if name not in real]
@@ -27,7 +27,7 @@ def group_of(table: FlightTable, keys: Mapping[str, Key], parameters: Parameters
         window[:, number, 0] = np.where(fault.flies, fault.start - margin, NEVER[0])
         window[:, number, 1] = np.where(fault.flies, fault.end - margin, NEVER[1])
         value[:, number] = fault.value
-    return arrays.Group(
+    return arrays.RunGroup(
         real=_columns(table, real, np.float64),
         real_position=_positions(real, keys, parameters),
         whole=_columns(table, whole, np.int32),

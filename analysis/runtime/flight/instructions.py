@@ -12,13 +12,13 @@ from ..system.schedule import Schedule
 from .orders.connections import Term
 from .orders.fmi2 import Fmi2Orders
 from .orders.fmi3 import Fmi3Orders
-from .orders.rows import Callee, Rows
-from .orders.texts import Texts
+from .orders.rows import Callee, InstructionRows
+from .orders.texts import TextSlots
 
 Orders = Fmi2Orders | Fmi3Orders
 
 
-class InstructionList(Rows):
+class InstructionList(InstructionRows):
     """Writer of a system's instructions.
 
     ``orders`` write the calls of each component. ``connections`` [component] lists the terms of the connections to a
@@ -33,8 +33,8 @@ class InstructionList(Rows):
         connections: Sequence[Sequence[Term]],
         fault_slots: Sequence[int],
         drives: Sequence[tuple[int, int]],
-        texts: Texts,
-        binaries: Texts,
+        texts: TextSlots,
+        binaries: TextSlots,
     ) -> None:
         super().__init__(instances, fault_slots)
         self.orders: list[Orders] = []

@@ -15,7 +15,7 @@ from ..ssp.given_values import ParameterValue
 from ..system.prepared import PreparedSystem
 from .base_simulation import BaseSimulation
 from .recorder import FlightRecorder
-from .results import HUNG, TIMED_OUT, Flight, Result
+from .results import HUNG, TIMED_OUT, Flight, FlightResult
 
 T = TypeVar("T")
 Flown = TypeVar("Flown", bound=Flight)
@@ -26,7 +26,7 @@ class StuckError(TimeoutError):
     """Step of an FMU that does not return: thread and instances are lost. The message names the time of the step."""
 
 
-def fly(simulation: BaseSimulation, timeout: float | None = None) -> Result:
+def fly(simulation: BaseSimulation, timeout: float | None = None) -> FlightResult:
     """Simulate once. Ctrl-C and ``timeout`` (s of wall time) end it at the next communication point.
 
     The rows recorded so far are returned with the status ``interrupted`` or ``timed_out``. Raises KeyboardInterrupt or

@@ -11,7 +11,7 @@ import numpy as np
 from lxml import etree
 
 from ....common.errors import InputError
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from ..instances.instance import Instance
 from ..instances.slaves import Fmi3Slave
 from ..loop import arrays
@@ -38,7 +38,7 @@ class Snapshot:
     stored: tuple[np.ndarray, ...]
 
 
-class Piece:
+class FmuReals:
     """Cells of one FMU, read in one call."""
 
     def __init__(self, instance: Instance, references: np.ndarray, size: int) -> None:
@@ -81,7 +81,7 @@ class Memory(BaseMemory[Snapshot]):
         self._stored = () if fmi3 is None else (fmi3.stored.sent, fmi3.stored.exact)
         self.cells: list[MemoryCell] = []
         self._write: dict[str, Callable[[bytes, int, float], bytes]] = {}
-        self._pieces: list[Piece] = []
+        self._pieces: list[FmuReals] = []
         for component, instance in instances.items():
             encoding, frozen = _layout(instance.fmu, component)
             self._write[component] = ENCODINGS[encoding]
@@ -90,7 +90,7 @@ class Memory(BaseMemory[Snapshot]):
                 MemoryCell(f"{component}.{item.name}", item.unit, component, index) for index, item in mine.items()
             ]
             references = list(dict.fromkeys(item.reference for item in mine.values()))
-            self._pieces.append(Piece(instance, np.array(references, dtype=np.uint32), len(mine)))
+            self._pieces.append(FmuReals(instance, np.array(references, dtype=np.uint32), len(mine)))
         # Followers' outputs that others read a step late are remembered by the exchange only.
         followers = set(prepared.schedule.followers)
         self._slots: list[int] = []
@@ -145,12 +145,12 @@ class Memory(BaseMemory[Snapshot]):
             self._instances[component].free_state(state)
 
 
-def _find_cells(fmu: Fmu, frozen: set[int]) -> dict[int, Variable]:
+def _find_cells(fmu: Fmu, frozen: set[int]) -> dict[int, ScalarVariable]:
     """Return the variables that are cells, by their index in the serialised state.
 
     The index is the value reference; elements of an array have consecutive indices from their array's reference.
     """
-    remembered: dict[int, Variable] = {}
+    remembered: dict[int, ScalarVariable] = {}
     for variable in fmu.variables.values():
         index = variable.reference + variable.index
         if variable.representation.name == "Float64" and variable.causality in REMEMBERED and index not in frozen:

@@ -9,12 +9,12 @@ from collections.abc import Collection, Mapping
 import numpy as np
 
 from ....common.errors import InputError
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from ..loop import arrays
 from ..ssp.given_values import ParameterValue, parse_value
 from ..system.fmu import STRUCTURAL, Fmu
 from ..system.network import Network
-from ..system.passing.settings import Settings
+from ..system.passing.settings import SystemSettings
 from .orders.transfers import ComponentTransfers, TransferTable, whole
 
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}
@@ -39,7 +39,7 @@ class Parameters:
     def __init__(
         self,
         network: Network,
-        settings: Settings,
+        settings: SystemSettings,
         table: TransferTable | None = None,
         tuned: Collection[str] = (),
     ) -> None:
@@ -89,7 +89,7 @@ class Parameters:
     def _place_transfers(self, component: str, fmu: Fmu, given: list[str]) -> ComponentTransfers:
         """Return the transfers of a component of FMI 3.0, in which arrays are set as a whole."""
         transfers = ComponentTransfers()
-        arrays_of: dict[str, list[Variable]] = {}
+        arrays_of: dict[str, list[ScalarVariable]] = {}
         for variable in whole(fmu.variables.values(), set(given)):
             arrays_of.setdefault(variable.array or variable.name, []).append(variable)
         for elements in arrays_of.values():
@@ -114,7 +114,7 @@ class Parameters:
                 transfers.back.append(transfer)
         return transfers
 
-    def _grade(self, component: str, variable: Variable, *, driven: bool) -> int:
+    def _grade(self, component: str, variable: ScalarVariable, *, driven: bool) -> int:
         """Return the treatment of a parameter: 0, 1 or 2.
 
         - 0: set again in initialisation mode, and read back

@@ -9,7 +9,7 @@ import numpy as np
 
 from ....fmus_src.roles import FINISHED
 from ..fmi.representations import TEXTS
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from ..loop import arrays
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
@@ -17,7 +17,7 @@ from ..system.checks import changeable
 from ..system.fmu import Fmu
 from ..system.inputs import Drive
 from ..system.network import Network
-from ..system.passing.settings import Settings
+from ..system.passing.settings import SystemSettings
 from ..system.prepared import PreparedSystem
 from .instructions import InstructionList, Orders, write_instructions
 from .orders.connections import Connections
@@ -29,7 +29,7 @@ from .orders.placing_fmi2 import ComponentSlots, place_component
 from .orders.placing_fmi3 import TransferPlacing
 from .orders.rows import Callee
 from .orders.slots import Slots
-from .orders.texts import Texts
+from .orders.texts import TextSlots
 from .orders.transfers import ComponentTransfers, TransferTable
 from .parameters import Key, Parameters
 
@@ -46,15 +46,15 @@ class Layout:
     types: dict[str, str]
     units: dict[str, str | None]
     parameters: Parameters
-    texts: Texts
-    binaries: Texts
+    texts: TextSlots
+    binaries: TextSlots
     unfed: frozenset[str] = frozenset()
     bases: Mapping[Key, int] = field(default_factory=dict)
 
 
 def build_program(
     prepared: PreparedSystem,
-    settings: Settings,
+    settings: SystemSettings,
     instances: Mapping[str, Callee],
     wanted: Collection[str] | None,
     injections: Sequence[Injection],
@@ -72,7 +72,7 @@ def build_program(
 
 def layout_of(
     network: Network,
-    settings: Settings,
+    settings: SystemSettings,
     wanted: Collection[str] | None = None,
     injections: Sequence[Injection] = (),
     more: Collection[str] = (),
@@ -85,7 +85,7 @@ class _Builder:
     def __init__(
         self,
         network: Network,
-        settings: Settings,
+        settings: SystemSettings,
         wanted: Collection[str] | None,
         injections: Sequence[Injection],
         more: Collection[str],
@@ -100,7 +100,7 @@ class _Builder:
         self.component_slots: dict[int, ComponentSlots] = {}  # of components of FMI 2.0
         self.transfers: dict[int, ComponentTransfers] = {}  # of components of FMI 3.0
         self.parameters = Parameters(network, settings, self.table, self.exchanged.tuned)
-        self.texts, self.binaries = (Texts(network, settings, kind) for kind in TEXTS)
+        self.texts, self.binaries = (TextSlots(network, settings, kind) for kind in TEXTS)
         placing = TransferPlacing(network, self.exchanged, self.signals, self.table)
         for index, name in enumerate(self.names):
             if network.fmus[name].version == 3:
@@ -110,7 +110,7 @@ class _Builder:
                 self.component_slots[index] = place_component(network, name, self.exchanged, self.signals)
         self._place_system_connectors(settings)
 
-    def _place_system_connectors(self, settings: Settings) -> None:
+    def _place_system_connectors(self, settings: SystemSettings) -> None:
         for node in self.network.nodes.values():
             known = self.exchanged.is_given(node.name) or node.name in settings.nodes
             is_signal = node.kind not in PARAMETERS or node.name in self.exchanged.passed_parameters
@@ -119,7 +119,7 @@ class _Builder:
                 start = float(settings.nodes.get(node.name, np.nan))
                 self.signals.add(node.name, 0, start, node.type_name or "Real", unit)
 
-    def _texts(self, index: int) -> list[list[tuple[Sequence[Variable], int]]]:
+    def _texts(self, index: int) -> list[list[tuple[Sequence[ScalarVariable], int]]]:
         """Return the Strings and Binaries of a component with their first rows, for inputs and for outputs."""
         kinds = (self.texts, self.binaries)
         return [[(each.variables[index][way], int(each.ranges[index, way, 0])) for each in kinds] for way in (0, 1)]

@@ -13,7 +13,7 @@ from ..loop import codes
 OUTCOME_WORDS = codes.INSTRUCTION + 1
 
 
-class Phase(IntEnum):
+class FmuActivity(IntEnum):
     """Activity of a simulation: the group of FMI calls being executed."""
 
     IDLE = 0
@@ -27,8 +27,8 @@ class Phase(IntEnum):
 class FlightRecorder:
     """``record`` [signals, rows] and ``times`` [rows] (s) of a flight; for ``outcome`` see `arrays.Buffers`.
 
-    Setting ``halt`` [1] ends the flight at its next communication point. ``phase`` [2] is the current `Phase` and the
-    component concerned.
+    Setting ``halt`` [1] ends the flight at its next communication point. ``phase`` [2] is the current `FmuActivity` and
+    the component concerned.
     """
 
     record: np.ndarray = field(default_factory=lambda: np.empty((0, 0)))
@@ -50,7 +50,7 @@ class FlightRecorder:
         self.record = np.empty((signals, rows))
         self.times = np.empty(rows)
 
-    def enter(self, phase: Phase, component: int = 0) -> None:
+    def enter(self, phase: FmuActivity, component: int = 0) -> None:
         """Record the phase that begins, and the component concerned."""
         self.phase[:] = phase, component
 

@@ -25,7 +25,7 @@ from ..ssp.types import WHOLE
 from ..system.arrays.axes import names_of_axes
 from ..system.inputs import DrivenInput, InputFacts
 from ..system.network import Network
-from ..system.passing.settings import Settings
+from ..system.passing.settings import SystemSettings
 from ..system.prepared import PreparedSystem
 from .parameters import Parameters
 
@@ -135,14 +135,14 @@ def _column_type(type_name: str, values: np.ndarray) -> pyarrow.DataType:
 
 
 @dataclass(repr=False)
-class Result(Flight):
+class FlightResult(Flight):
     """Flight with its signals' units, and with parameter values, hashes and versions as provenance."""
 
     units: dict[str, str | None]
     provenance: Provenance
 
     @classmethod
-    def extending(cls, flight: Result, **more: Any) -> Self:
+    def extending(cls, flight: FlightResult, **more: Any) -> Self:
         """Return an instance of a subclass with the fields of ``flight`` and the further fields ``more``."""
         return cls(**vars(flight), **more)
 
@@ -240,7 +240,7 @@ def with_meaning(network: Network, name: str, value: int) -> str:
 
 def provenance_of(
     prepared: PreparedSystem,
-    settings: Settings,
+    settings: SystemSettings,
     parameters: Parameters,
     faults: Sequence[Fault | None],
     signals: Iterable[str],

@@ -13,7 +13,7 @@ from ..ssp.names import elements
 from ..system.checks import check_fault
 from ..system.fmu import NOT_VARIED, STRUCTURAL
 from ..system.network import Network
-from ..system.passing.settings import Settings
+from ..system.passing.settings import SystemSettings
 from ..system.prepared import PreparedSystem
 from .orders.exchanged import find_tuned
 from .orders.injections import Injection, of_excitation, of_fault
@@ -48,7 +48,7 @@ class Selection:
         """Return (component, variable) of each varied parameter by name. Raises InputError for other names."""
         return {name: _key(network, name) for name in self.varied}
 
-    def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> Settings:
+    def settings(self, prepared: PreparedSystem, keys: Mapping[str, Key]) -> SystemSettings:
         """Return the system's settings, with every varied parameter and every one that changes during simulation.
 
         Those without a setting have their start value.

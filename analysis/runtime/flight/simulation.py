@@ -30,7 +30,7 @@ from .memory import Memory
 from .orders.injections import NEVER, of_fault
 from .orders.transfers import needs_events
 from .program import build_program
-from .recorder import FlightRecorder, Phase, rows_between
+from .recorder import FlightRecorder, FmuActivity, rows_between
 from .results import Flight
 from .selection import TIME_MARGIN, check_replaced
 
@@ -55,7 +55,7 @@ class Simulation(BaseSimulation):
     def _instantiate(self) -> None:
         prepared = self.prepared
         for number, (name, fmu) in enumerate(prepared.network.fmus.items()):
-            self.recorder.enter(Phase.INSTANTIATION, number)
+            self.recorder.enter(FmuActivity.INSTANTIATION, number)
             if prepared.options.trust["in_process"]:
                 note_loaded(fmu)
             uses_events = needs_events(prepared.network, name)
@@ -80,7 +80,7 @@ class Simulation(BaseSimulation):
         self.loop = Loop(self_contained=prepared.is_self_contained)
         self.fused_steps = self._fuse(prepared)
         self.life_cycle = LifeCycle(self.instances, self.program, self.fmi3, self._instructions, self._note_subject)
-        self.recorder.enter(Phase.IDLE)
+        self.recorder.enter(FmuActivity.IDLE)
 
     def _fuse(self, prepared: PreparedSystem) -> int:
         """Return the address of the system's compiled steps, 0 if its options do not request them."""
@@ -161,10 +161,10 @@ class Simulation(BaseSimulation):
     def _advance(self, first: int, last: int, every: int, excitation: np.ndarray) -> Flight:
         prepared, recorder = self.prepared, self.recorder
         if first < 0:
-            recorder.enter(Phase.RENEWAL)
+            recorder.enter(FmuActivity.RENEWAL)
         reset = first < 0 and self.life_cycle.make_ready()
         recorder.reserve(self._recorded.size, rows_between(first, last, every), prepared.step)
-        recorder.enter(Phase.FLIGHT)
+        recorder.enter(FmuActivity.FLIGHT)
         for instance in self.instances.values():
             instance.said.clear()
         count = self.loop.fly(self._run(first, last, every, reset, excitation))
@@ -188,11 +188,11 @@ class Simulation(BaseSimulation):
     def fly_group(self, table: FlightTable) -> FlightGroup:
         """See `BaseSimulation.fly_group`."""
         prepared, recorder = self.prepared, self.recorder
-        recorder.enter(Phase.RENEWAL)
+        recorder.enter(FmuActivity.RENEWAL)
         reset = self.life_cycle.make_ready()
         rows, signals = rows_between(-1, prepared.steps), self._recorded.size
         recorder.reserve(signals, rows * table.flights, prepared.step)
-        recorder.enter(Phase.FLIGHT)
+        recorder.enter(FmuActivity.FLIGHT)
         for instance in self.instances.values():
             instance.said.clear()  # normal ends are not reported
         group = group_of(table, self._varied, self.layout.parameters, TIME_MARGIN * prepared.step)
@@ -212,7 +212,7 @@ class Simulation(BaseSimulation):
     def _conclude(self, outcome: Outcome, start: int, end: int) -> Flight:
         """Return the flight with these rows of the record, with the status that the loop reported."""
         prepared, recorder = self.prepared, self.recorder
-        recorder.enter(Phase.IDLE)
+        recorder.enter(FmuActivity.IDLE)
         self.life_cycle.note(outcome, self.program)
         status, message = in_words(
             outcome,
@@ -311,7 +311,7 @@ class Simulation(BaseSimulation):
     def close(self) -> None:
         """Free the instances. Those of a simulation still running in an abandoned thread stay until exit."""
         if self.loop.under_way.acquire(blocking=False):
-            self.recorder.enter(Phase.END)
+            self.recorder.enter(FmuActivity.END)
             if self._log is not None:
                 self._log.close()
             self.life_cycle.close()

@@ -6,12 +6,12 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from ....common.errors import InputError
 from ..ssp.archive import SystemArchive
-from ..ssp.description import Binding, Description, Element, System
+from ..ssp.description import Binding, Element, SystemDescription, SystemElement
 from ..ssp.parameter_sets import Assignment, read_binding
 
 
 def structural_sizes(
-    description: Description,
+    description: SystemDescription,
     archive: SystemArchive,
     component: str,
     names: Collection[str],
@@ -30,22 +30,22 @@ def structural_sizes(
     return sizes | _sizes(chosen, f"{component}.", names)
 
 
-def _bindings(system: System, component: str) -> Iterator[tuple[str, list[Binding]]]:
+def _bindings(system: SystemElement, component: str) -> Iterator[tuple[str, list[Binding]]]:
     """Yield bindings from the component outwards, each with the prefix that its names need there."""
     owner, remainder = _element(system, component)
     if owner is None:
         return
-    if isinstance(owner, System):
+    if isinstance(owner, SystemElement):
         yield from _bindings(owner, remainder)
     else:
         yield "", owner.bindings
     yield f"{component}.", system.bindings
 
 
-def _element(system: System, name: str) -> tuple[Element | None, str]:
+def _element(system: SystemElement, name: str) -> tuple[Element | None, str]:
     """Return the element of a system that a flat name begins with, and the rest of the name."""
     for short, element in system.elements.items():
-        if name == short or (isinstance(element, System) and name.startswith(f"{short}.")):
+        if name == short or (isinstance(element, SystemElement) and name.startswith(f"{short}.")):
             return element, name[len(short) + 1 :]
     return None, name
 

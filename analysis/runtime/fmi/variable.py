@@ -16,7 +16,7 @@ from .representations import OF_FMI2, REPRESENTATIONS, Representation
 
 
 @dataclass(frozen=True, slots=True)
-class Variable:
+class ScalarVariable:
     """Scalar variable, or one element of an array.
 
     ``type`` is Real, Integer, Boolean, Enumeration, String or Binary. Bounds and ``start`` are text, as declared.
@@ -52,23 +52,23 @@ class Variable:
         return "nan" if self.start is None else self.start
 
 
-def variables_of(description: ModelDescription) -> dict[str, Variable]:
+def variables_of(description: ModelDescription) -> dict[str, ScalarVariable]:
     """Return the variables of an FMU by name, with declared array sizes."""
     declared = description.modelVariables
     return elements_of(declared, {}) if description.fmiMajorVersion == 3 else scalars(declared)
 
 
-def scalars(declared: Sequence[ModelVariable]) -> dict[str, Variable]:
+def scalars(declared: Sequence[ModelVariable]) -> dict[str, ScalarVariable]:
     """Return the variables of an FMU of FMI 2.0 by name."""
     return {each.name: _scalar(each, each.type, OF_FMI2[each.type]) for each in declared}
 
 
-def elements_of(declared: Sequence[ModelVariable], sizes: Mapping[int, int]) -> dict[str, Variable]:
+def elements_of(declared: Sequence[ModelVariable], sizes: Mapping[int, int]) -> dict[str, ScalarVariable]:
     """Return the variables of an FMU of FMI 3.0 by name, arrays as their elements.
 
     ``sizes`` are values of structural parameters by value reference.
     """
-    variables: dict[str, Variable] = {}
+    variables: dict[str, ScalarVariable] = {}
     for each in declared:
         type_name = "Enumeration" if each.type == "Enumeration" else REPRESENTATIONS[each.type].type
         whole = _scalar(each, type_name, "Int64" if each.type == "Enumeration" else each.type)
@@ -84,7 +84,7 @@ def shape(declared: ModelVariable, sizes: Mapping[int, int] | None = None) -> tu
     )
 
 
-def _elements(whole: Variable, declared: ModelVariable, sizes: Mapping[int, int]) -> Iterator[Variable]:
+def _elements(whole: ScalarVariable, declared: ModelVariable, sizes: Mapping[int, int]) -> Iterator[ScalarVariable]:
     if not declared.dimensions:
         yield whole
         return
@@ -103,10 +103,10 @@ def _starts(declared: ModelVariable) -> dict[tuple[int, ...], str]:
     return dict(zip(positions, texts * len(positions) if len(texts) == 1 else texts, strict=False))
 
 
-def _scalar(declared: ModelVariable, type_name: str, representation: str) -> Variable:
+def _scalar(declared: ModelVariable, type_name: str, representation: str) -> ScalarVariable:
     kind, stated = declared.declaredType, declared.relativeQuantity
     members = [] if kind is None or type_name != "Enumeration" else kind.items
-    return Variable(
+    return ScalarVariable(
         name=declared.name,
         type=type_name,
         representation=REPRESENTATIONS[representation],

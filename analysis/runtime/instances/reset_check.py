@@ -15,7 +15,7 @@ import numpy as np
 from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
 
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from ..system.fmu import Fmu
 from .instance import Instance, instantiate
 from .library import LOADING
@@ -168,7 +168,7 @@ def _changes(fmu: Fmu) -> list[dict[str, Number]]:
     return [changed, inputs, {}]
 
 
-def _other(variable: Variable) -> Number | None:
+def _other(variable: ScalarVariable) -> Number | None:
     """Return a value near the start value within the declared bounds, or None."""
     start = declared(variable)
     if start is None:

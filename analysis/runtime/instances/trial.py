@@ -8,7 +8,7 @@ import numpy as np
 from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
 
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from .instance import Instance
 from .slaves import Fmi3Slave
 
@@ -48,14 +48,14 @@ def step(instance: Instance, time: float, size: float) -> bool:
 
 def read(instance: Instance, causality: str) -> bytes:
     """Return the values of variables, type by type; for unreadable ones the failure."""
-    groups: dict[str, list[Variable]] = {}
+    groups: dict[str, list[ScalarVariable]] = {}
     for variable in instance.fmu.variables.values():
         if variable.causality == causality and variable.type in KINDS:
             groups.setdefault(_call(instance, variable), []).append(variable)
     return b"".join(_read(instance, call, group) for call, group in groups.items())
 
 
-def _read(instance: Instance, call: str, group: list[Variable]) -> bytes:
+def _read(instance: Instance, call: str, group: list[ScalarVariable]) -> bytes:
     """Return the values of variables read in one call, or one by one if one of them cannot be read."""
     references = list(dict.fromkeys(each.reference for each in group))
     wholes = [[each for each in group if each.reference == reference] for reference in references]
@@ -70,7 +70,7 @@ def _read(instance: Instance, call: str, group: list[Variable]) -> bytes:
     return b"".join(_read(instance, call, each) for each in wholes)
 
 
-def _names(group: list[Variable]) -> set[int]:
+def _names(group: list[ScalarVariable]) -> set[int]:
     """Return the elements of one variable, each once, although aliases may repeat them."""
     return {each.index for each in group}
 
@@ -90,7 +90,7 @@ def _set(instance: Instance, changes: Mapping[str, Number]) -> None:
             getattr(instance.slave, f"set{_call(instance, first)}")([first.reference], values)
 
 
-def declared(variable: Variable) -> Number | None:
+def declared(variable: ScalarVariable) -> Number | None:
     """Return a variable's declared start value, or None."""
     if variable.start is None:
         return None
@@ -99,7 +99,7 @@ def declared(variable: Variable) -> Number | None:
     return KINDS[variable.type](float(variable.start))
 
 
-def _call(instance: Instance, variable: Variable) -> str:
+def _call(instance: Instance, variable: ScalarVariable) -> str:
     if isinstance(instance.slave, Fmi3Slave):
         return variable.representation.name
     return FMI2_CALLS[variable.type]

@@ -65,7 +65,7 @@ class Recording(NamedTuple):
     offset: int  # the first row that is written
 
 
-class Group(NamedTuple):
+class RunGroup(NamedTuple):
     """Inputs and outcomes of n consecutive runs."""
 
     real: np.ndarray  # float64 [n, v], values of parameters

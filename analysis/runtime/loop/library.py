@@ -115,6 +115,6 @@ def _check(library: ctypes.CDLL) -> None:
     """Compare the declarations in Python and in C. Raises ImportError if they differ, which is a programming error."""
     numbers = enumerators("codes.h") | enumerators("run.h")
     differing = [name for name, number in numbers.items() if getattr(codes, name, None) != number]
-    sizes = [ctypes.sizeof(structures()[name]) for name in ("Run", "Group")]
+    sizes = [ctypes.sizeof(structures()[name]) for name in ("Run", "RunGroup")]
     if differing or list((ctypes.c_uint64 * len(sizes)).in_dll(library, "perilune_sizes")) != sizes:
         raise ImportError(f"codes.py or structures.py and c differ: {', '.join(differing) or 'sizes'}")

@@ -32,11 +32,11 @@ class Loop:
                 self._library.perilune_restore_floats()
             return rows
 
-    def fly_group(self, run: arrays.Run, flights: arrays.Group) -> int:
+    def fly_group(self, run: arrays.Run, flights: arrays.RunGroup) -> int:
         """Simulate a group of runs, each from its start; return the number of simulated ones."""
         with self.under_way:
             self._run.fill(run)
-            group = Filled("Group")
+            group = Filled("RunGroup")
             group.fill(flights)
             count: int = self._library.perilune_fly_group(ctypes.byref(self._run.memory), ctypes.byref(group.memory))
             return count

@@ -56,7 +56,7 @@ class Watchdog:
         return time.monotonic() - self._since > self.limit
 
 
-class Connection:
+class ChildConnection:
     """Connection to a child; ``write`` receives log lines of FMUs. Only `give_up` may be called from other threads."""
 
     def __init__(self, child: Child, write: Callable[[str], None], watchdog: Watchdog) -> None:

@@ -14,7 +14,7 @@ from ..system.options import SystemOptions
 from ..system.prepared import PreparedSystem
 from . import messages
 from .children import begin_child
-from .connection import ChildEndedError, Connection, Watchdog
+from .connection import ChildConnection, ChildEndedError, Watchdog
 from .restriction import limits_for
 
 DIFFERS = "a second process simulates it otherwise than the first"
@@ -25,14 +25,14 @@ class TrialWatch:
     """Handle by which another thread can end the tests of a system's FMUs."""
 
     def __init__(self) -> None:
-        self._connection: Connection | None = None
+        self._connection: ChildConnection | None = None
         self._why = ""
 
     @property
     def is_given_up(self) -> bool:
         return bool(self._why)
 
-    def begin(self, connection: Connection) -> None:
+    def begin(self, connection: ChildConnection) -> None:
         """Register the child of a test; it is ended at once if `give_up` was called before."""
         self._connection = connection
         if self._why:
@@ -157,11 +157,11 @@ class _Trials:
         renewal = self._try(with_reset=False).renewal if with_reset else Renewal.PROCESS
         return ResetVerdict(renewal, reason)
 
-    def _begin(self, *, with_reset: bool) -> Connection:
+    def _begin(self, *, with_reset: bool) -> ChildConnection:
         """Start a test in a child."""
         fmu, options = self._fmu, self._options
         task = messages.ResetTask(self._formats, with_reset)
         child = begin_child(fmu, task, folder=os.getcwd(), limits=limits_for([fmu], options))
-        connection = Connection(child, lambda line: None, Watchdog(lambda: None, options.limits["call_timeout"]))
+        connection = ChildConnection(child, lambda line: None, Watchdog(lambda: None, options.limits["call_timeout"]))
         self._watch.begin(connection)
         return connection

@@ -12,7 +12,7 @@ from contextlib import suppress
 
 import numpy as np
 
-from ..flight.recorder import OUTCOME_WORDS, FlightRecorder, Phase
+from ..flight.recorder import OUTCOME_WORDS, FlightRecorder, FmuActivity
 from ..system.prepared import PreparedSystem
 
 with suppress(ImportError):  # on Windows
@@ -71,7 +71,7 @@ class SharedRecorder(FlightRecorder):
 
     def describe_progress(self, prepared: PreparedSystem) -> str:
         """Return, as text, the component that was called last and the simulation time."""
-        if self.phase[0] == Phase.INSTANTIATION:
+        if self.phase[0] == FmuActivity.INSTANTIATION:
             return f"{self.component_in_phase(prepared)}: while it was instantiated"
         component = _name_of(prepared, self.subject)
         if not self.point:

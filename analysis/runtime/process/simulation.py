@@ -17,7 +17,7 @@ from ..flight.base_memory import BaseMemory, MemoryCell
 from ..flight.base_simulation import NOTHING, BaseSimulation, Choices
 from ..flight.endings import FLIGHT_STATUSES
 from ..flight.program import layout_of
-from ..flight.recorder import Phase
+from ..flight.recorder import FmuActivity
 from ..flight.results import COMPLETE, CRASHED, Flight
 from ..flight.selection import check_replaced
 from ..ssp.given_values import ParameterValue
@@ -120,7 +120,7 @@ class ProcessSimulation(BaseSimulation):
             answer = self.process.connection.receive(messages.Simulated)
         except ChildEndedError as error:
             self._announced.clear()
-            if self.recorder.phase[0] == Phase.RENEWAL and self._renews:
+            if self.recorder.phase[0] == FmuActivity.RENEWAL and self._renews:
                 self._renews = False  # it happened between two simulations
                 self._note("it was terminated and reset", error.how)
                 return self._simulate(scenario)
@@ -197,7 +197,7 @@ class ProcessSimulation(BaseSimulation):
 
     def close(self) -> None:
         """Free the instances and end the child; kill it if it still simulates for an abandoned thread."""
-        if self.recorder.phase[0] == Phase.IDLE and not self._announced:
+        if self.recorder.phase[0] == FmuActivity.IDLE and not self._announced:
             self._free()
         else:
             self.process.connection.kill()

@@ -11,7 +11,7 @@ import numpy as np
 from ....common.errors import InputError
 from ....common.machine.room import check_room
 from ...options.fault import Fault
-from ..flight.recorder import Phase, rows_between
+from ..flight.recorder import FmuActivity, rows_between
 from ..flight.selection import Selection
 from ..instances.instance import Log
 from ..instances.renewal import ResetVerdict
@@ -19,7 +19,7 @@ from ..ssp.given_values import ParameterValue
 from ..system.prepared import PreparedSystem
 from . import messages
 from .children import begin_child
-from .connection import ChildEndedError, Connection, Watchdog
+from .connection import ChildConnection, ChildEndedError, Watchdog
 from .restriction import limits_for
 from .shared_recorder import SharedRecorder, make_recorder
 
@@ -58,7 +58,7 @@ class SystemProcess:
         self._signals, self._log = signals, log
         self.turn = 0  # the number of a recorder
         self.recorders = [self._make_recorder(rows_between(-1, prepared.steps))]
-        self.recorder.enter(Phase.INSTANTIATION)
+        self.recorder.enter(FmuActivity.INSTANTIATION)
         self.last: Scenario | None = None  # that was sent
         self.has_verdicts, self._is_ready = False, False
         self.connection = self._begin(selection, formats=formats)
@@ -77,7 +77,7 @@ class SystemProcess:
         check_room(self._signals, rows, self.prepared.step)
         return make_recorder(self._signals, rows)
 
-    def _begin(self, selection: Selection, *, formats: bool) -> Connection:
+    def _begin(self, selection: Selection, *, formats: bool) -> ChildConnection:
         prepared, options, recorder = self.prepared, self.prepared.options, self.recorder
         level = None if self._log is None else self._log.level
         try:
@@ -92,7 +92,7 @@ class SystemProcess:
             recorder.close()
             raise
         watchdog = Watchdog(lambda: self.recorder.measure_progress(), options.limits["call_timeout"])
-        return Connection(child, self._write, watchdog)
+        return ChildConnection(child, self._write, watchdog)
 
     def wait_until_ready(self) -> None:
         """Wait until all FMUs are instantiated. Raises InputError if that fails, and ServerEndedError."""
@@ -154,7 +154,7 @@ class SystemProcess:
         return f"{self.recorder.describe_progress(self.prepared)}: {error.how}"
 
     @contextmanager
-    def refusing_end(self) -> Iterator[Connection]:
+    def refusing_end(self) -> Iterator[ChildConnection]:
         """Yield the connection for requests other than simulations. Raises InputError if the child ends."""
         try:
             yield self.connection

@@ -19,7 +19,7 @@ class NonFiniteError(Exception):
     """Number that is not finite, or out of range of its target's type: the status is ``nonfinite``."""
 
 
-class EndedError(Exception):
+class TerminationError(Exception):
     """Request of a ``component`` to end the simulation at ``time`` (s): ``terminated``, with one last row."""
 
     def __init__(self, component: str, time: float) -> None:
@@ -30,7 +30,7 @@ class EndedError(Exception):
 REFUSALS = (FailedError, NonFiniteError, FMICallException)
 
 
-class Component(ABC):
+class ComponentInstance(ABC):
     """Instance of an FMU, which manages its own modes; the loop calls these methods in the order of this class.
 
     Similar interfaces in other masters: `slave`, which libcosim's `algorithm` calls, and `model_instance` of Ecos.

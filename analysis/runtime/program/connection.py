@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..ssp.conversions import IDENTITY
-from ..system.network import Link, Network, Node
+from ..system.network import Network, Node, NodeLink
 from ..system.passing.parameters import numbers
 from .component import FailedError, Sample
 
 
-def carry(network: Network, link: Link, sample_of: Callable[[Node], Sample]) -> Sample:
+def carry(network: Network, link: NodeLink, sample_of: Callable[[Node], Sample]) -> Sample:
     """Return the value that a connection and the links added to it transfer to their target. Raises FailedError.
 
     ``sample_of`` returns the value of a source.
@@ -22,7 +22,7 @@ def carry(network: Network, link: Link, sample_of: Callable[[Node], Sample]) -> 
     return total
 
 
-def transform(network: Network, link: Link, sample: Sample) -> Sample:
+def transform(network: Network, link: NodeLink, sample: Sample) -> Sample:
     """Return a value after a connection's unit conversion and transformation. Raises FailedError."""
     change = link.transformation
     if change == IDENTITY:

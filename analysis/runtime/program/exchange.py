@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ...options.fault import Fault
 from ..fmi.representations import TEXTS
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from ..ssp.kinds import PARAMETERS
 from ..system.prepared import PreparedSystem
 from ..system.schedule import origin
@@ -22,9 +22,9 @@ class Roles:
     because the FMU supports it and has a discrete input.
     """
 
-    given: Sequence[Variable]
-    outputs: Sequence[Variable]
-    recorded: Sequence[Variable]
+    given: Sequence[ScalarVariable]
+    outputs: Sequence[ScalarVariable]
+    recorded: Sequence[ScalarVariable]
     uses_events: bool
 
 
@@ -71,9 +71,9 @@ class Exchange:
 
     def _find_roles(self, component: str) -> Roles:
         fmu = self._network.fmus[component]
-        given: list[Variable] = []
-        outputs: list[Variable] = []
-        recorded: list[Variable] = []
+        given: list[ScalarVariable] = []
+        outputs: list[ScalarVariable] = []
+        recorded: list[ScalarVariable] = []
         for array in arrays_of(fmu.variables.values()):
             first, names = array[0], {f"{component}.{each.name}" for each in array}
             is_output = first.causality == "output" or bool(names & self._unusual)
@@ -88,18 +88,18 @@ class Exchange:
         has_events = fmu.version == 3 and bool(fmu.description.coSimulation.hasEventMode)
         return Roles(given, outputs, recorded, has_events and discrete)
 
-    def _is_changing(self, component: str, variable: Variable) -> bool:
+    def _is_changing(self, component: str, variable: ScalarVariable) -> bool:
         """Return True if a variable itself is driven, rather than set with other elements of its array."""
         return f"{component}.{variable.name}" in (self._tuned if variable.is_tunable else self._changing)
 
-    def _is_fetched(self, variable: Variable, names: Collection[str]) -> bool:
+    def _is_fetched(self, variable: ScalarVariable, names: Collection[str]) -> bool:
         selected = self._texts if variable.type in TEXTS else self._fetched
         return selected is None or not selected.isdisjoint(names)
 
 
-def arrays_of(variables: Iterable[Variable]) -> list[list[Variable]]:
+def arrays_of(variables: Iterable[ScalarVariable]) -> list[list[ScalarVariable]]:
     """Return the variables grouped by array; scalars, as all variables of FMI 2.0 are, form groups of one."""
-    arrays: dict[str, list[Variable]] = {}
+    arrays: dict[str, list[ScalarVariable]] = {}
     for each in variables:
         arrays.setdefault(each.array or each.name, []).append(each)
     return list(arrays.values())

@@ -7,16 +7,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from fmpy.fmi3 import FMU3Slave
 
 from ..fmi.representations import TEXTS
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from ..system.fmu import Fmu
-from .component import Component, Sample, Samples
+from .component import ComponentInstance, Sample, Samples
 from .exchange import arrays_of
 from .numbers import as_stored
 from .parameters import Start, solver_tolerance
 from .stepping import enter_step_mode, step_to
 
 
-class Fmi3Component(Component):
+class Fmi3Component(ComponentInstance):
     """Component of FMI 3.0; ``slave`` is its instance, ``starts`` are the values set before the simulation.
 
     With ``uses_events`` the instance has event mode.
@@ -28,7 +28,7 @@ class Fmi3Component(Component):
         self.discrete: Samples = {}  # as the FMU has them
 
     def initialise(self, start: float, stop: float) -> None:
-        """See `Component.initialise`."""
+        """See `ComponentInstance.initialise`."""
         self.time = start
         if any(each.is_structural for each in self.starts):
             self.slave.enterConfigurationMode()
@@ -39,7 +39,10 @@ class Fmi3Component(Component):
         self._set_starts(each for each in self.starts if each.is_repeated)
 
     def set(self, values: Mapping[str, Sample]) -> None:
-        """See `Component.set`. Between steps discrete variables are set in event mode, all of them if one changes."""
+        """See `ComponentInstance.set`.
+
+        Between steps discrete variables are set in event mode, all of them if one changes.
+        """
         arrays = arrays_of(self.fmu.variables[name] for name in values)
         events = [each for each in arrays if self.uses_events and each[0].variability != "continuous"]
         self._set(arrays if not self.steps else [each for each in arrays if each not in events], values)
@@ -51,12 +54,12 @@ class Fmi3Component(Component):
             enter_step_mode(self.name, self.slave, self.time)
 
     def get(self, names: Iterable[str]) -> Samples:
-        """See `Component.get`."""
+        """See `ComponentInstance.get`."""
         arrays = arrays_of(self.fmu.variables[name] for name in names)
         return {each.name: got for array in arrays for each, got in zip(array, self._get(array), strict=True)}
 
     def settle(self) -> None:
-        """See `Component.settle`."""
+        """See `ComponentInstance.settle`."""
         self.slave.exitInitializationMode()
         if self.uses_events:
             enter_step_mode(self.name, self.slave, self.time)
@@ -66,7 +69,7 @@ class Fmi3Component(Component):
                 each.check(self.name, self._get(each.variables))
 
     def step(self, begin: float, size: float, end: float) -> None:
-        """See `Component.step`."""
+        """See `ComponentInstance.step`."""
         step_to(self.name, self.slave, begin, size, end, uses_events=self.uses_events)
         self.time = end
 
@@ -74,10 +77,10 @@ class Fmi3Component(Component):
         for each in starts:
             self._set([each.variables], each.values)
 
-    def _set(self, arrays: Iterable[Sequence[Variable]], values: Mapping[str, Sample]) -> None:
+    def _set(self, arrays: Iterable[Sequence[ScalarVariable]], values: Mapping[str, Sample]) -> None:
         for array in arrays:
             stored = [as_stored(each, values[each.name]) for each in array]
             getattr(self.slave, f"set{array[0].representation.name}")([array[0].reference], stored)
 
-    def _get(self, array: Sequence[Variable]) -> list[Sample]:
+    def _get(self, array: Sequence[ScalarVariable]) -> list[Sample]:
         return list(getattr(self.slave, f"get{array[0].representation.name}")([array[0].reference], len(array)))

@@ -7,13 +7,13 @@ import math
 import numpy as np
 
 from ..fmi.representations import TEXTS
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from .component import FailedError, NonFiniteError, Sample
 
 LONGEST = {"String": 4095, "Binary": 65536}  # bytes of a text that is passed on
 
 
-def as_stored(variable: Variable, sample: Sample) -> Sample:
+def as_stored(variable: ScalarVariable, sample: Sample) -> Sample:
     """Return a value converted to its variable's type. Raises NonFiniteError for a number out of range.
 
     A Float64 may have any value, since its FMU checks it; a Boolean is true unless it is 0.
@@ -32,7 +32,7 @@ def as_stored(variable: Variable, sample: Sample) -> Sample:
     return float(number) if variable.type == "Real" else int(number)
 
 
-def check_output(variable: Variable, sample: Sample) -> None:
+def check_output(variable: ScalarVariable, sample: Sample) -> None:
     """Raise NonFiniteError for a Real that is not finite, FailedError for a text that is too long."""
     if variable.type == "Real" and not math.isfinite(float(sample)):
         raise NonFiniteError(f"{variable.name} is {sample!r}")

@@ -10,7 +10,7 @@ from fmpy.fmi2 import fmi2Error
 from ...options.fault import Fault
 from ..instances.instance import Instance, instantiate
 from ..system.prepared import PreparedSystem
-from .component import Component
+from .component import ComponentInstance
 from .exchange import Exchange
 from .faults import Faults
 from .fmi2_component import Fmi2Component
@@ -49,7 +49,7 @@ def fly_reference(
     return Rows(signals.times, signals.rows, status)
 
 
-def _component(system: PreparedSystem, exchange: Exchange, instance: Instance) -> Component:
+def _component(system: PreparedSystem, exchange: Exchange, instance: Instance) -> ComponentInstance:
     name, roles = instance.name, exchange.roles[instance.name]
     tuned = {f"{name}.{each.name}" for each in roles.given if each.is_tunable}
     starts = find_starts(system.network, system.settings, name, tuned)

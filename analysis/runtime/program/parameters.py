@@ -6,10 +6,10 @@ import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from ..system.fmu import STRUCTURAL, Fmu
 from ..system.network import Network
-from ..system.passing.settings import Settings
+from ..system.passing.settings import SystemSettings
 from .component import FailedError, Sample, Samples
 from .exchange import arrays_of
 
@@ -24,7 +24,7 @@ class Start:
     lose values set before; ``is_read_back``: compared afterwards.
     """
 
-    variables: Sequence[Variable]
+    variables: Sequence[ScalarVariable]
     values: Samples
     is_structural: bool
     is_repeated: bool
@@ -45,7 +45,7 @@ def agrees(requested: Sample, stored: Sample) -> bool:
     return stored == requested or abs(stored - requested) <= LOSS * abs(requested) or both_nan
 
 
-def start_of(settings: Settings, component: str, variable: Variable) -> Sample:
+def start_of(settings: SystemSettings, component: str, variable: ScalarVariable) -> Sample:
     """Return the value set for a variable, else its FMU's start; integers and texts exactly."""
     start = settings.variables.get((component, variable.name), variable.start)
     if variable.type == "Binary":
@@ -56,7 +56,7 @@ def start_of(settings: Settings, component: str, variable: Variable) -> Sample:
     return float(number) if variable.type == "Real" else int(number)
 
 
-def find_starts(network: Network, settings: Settings, component: str, tuned: Collection[str]) -> list[Start]:
+def find_starts(network: Network, settings: SystemSettings, component: str, tuned: Collection[str]) -> list[Start]:
     """Return the values to set before a simulation; parameters named in ``tuned`` change during it.
 
     FMI permits setting inputs and variables with initial="exact" in initialisation mode; the FMU computes others from

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 from ..system.prepared import PreparedSystem
-from .component import REFUSALS, Component, EndedError, NonFiniteError
+from .component import REFUSALS, ComponentInstance, NonFiniteError, TerminationError
 from .signals import Signals
 
 
@@ -20,7 +20,7 @@ class ReferenceLoop:
     behind: Sequence[str] = ()
     refusal: Exception | None = None  # by which it has ended
 
-    def __init__(self, system: PreparedSystem, components: Mapping[str, Component], signals: Signals) -> None:
+    def __init__(self, system: PreparedSystem, components: Mapping[str, ComponentInstance], signals: Signals) -> None:
         self.system, self.components, self.signals = system, components, signals
 
     def fly(self) -> str:
@@ -37,7 +37,7 @@ class ReferenceLoop:
                 if self.signals.is_finished:
                     return "finished"
             return "stop_time"
-        except EndedError as end:
+        except TerminationError as end:
             self.signals.time = end.time
             self.get(end.component)
             self.signals.record(carries=True)
@@ -88,7 +88,7 @@ class ReferenceLoop:
 class Sequential(ReferenceLoop):
     """Sequential algorithm: FMUs without direct feedthrough are ahead; the others follow those that they read."""
 
-    def __init__(self, system: PreparedSystem, components: Mapping[str, Component], signals: Signals) -> None:
+    def __init__(self, system: PreparedSystem, components: Mapping[str, ComponentInstance], signals: Signals) -> None:
         super().__init__(system, components, signals)
         self.ahead, self.behind = system.schedule.sources_first, system.schedule.followers
 
@@ -96,6 +96,6 @@ class Sequential(ReferenceLoop):
 class Jacobi(ReferenceLoop):
     """Jacobi's algorithm: all FMUs are ahead, and read the others' outputs from the start of the step."""
 
-    def __init__(self, system: PreparedSystem, components: Mapping[str, Component], signals: Signals) -> None:
+    def __init__(self, system: PreparedSystem, components: Mapping[str, ComponentInstance], signals: Signals) -> None:
         super().__init__(system, components, signals)
         self.ahead = list(components)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from ..ssp.kinds import PARAMETERS
-from ..system.network import Link, Node
+from ..system.network import Node, NodeLink
 from ..system.prepared import PreparedSystem
 from ..system.schedule import origin
 from .component import Sample, Samples
@@ -79,7 +79,7 @@ class Signals:
         for name, row in self.rows.items():
             row.append(float(self.values[name]))
 
-    def _input(self, component: str, variable: Variable, known: Collection[str] | None) -> Sample:
+    def _input(self, component: str, variable: ScalarVariable, known: Collection[str] | None) -> Sample:
         name = f"{component}.{variable.name}"
         link = self._network.driver.get(name)
         if name in self._network.driven:
@@ -91,7 +91,7 @@ class Signals:
         self.values[name] = self._faults.apply(name, sample, self.time)
         return self.values[name]
 
-    def _all_known(self, links: Iterable[Link], known: Collection[str] | None) -> bool:
+    def _all_known(self, links: Iterable[NodeLink], known: Collection[str] | None) -> bool:
         """Return True if the values of all links originate in known components or outside the system."""
         if known is None:
             return True

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fmpy.fmi3 import FMU3Slave
 
-from .component import EndedError, FailedError
+from .component import FailedError, TerminationError
 from .times import tolerance_of
 
 MOST_ROUNDS = 1000  # of event iterations, and of steps in a row that return where they began
@@ -18,7 +18,7 @@ def enter_step_mode(name: str, slave: FMU3Slave, time: float) -> None:
     for _ in range(MOST_ROUNDS):
         needs_update, wants_end, *_ = slave.updateDiscreteStates()
         if wants_end:
-            raise EndedError(name, time)
+            raise TerminationError(name, time)
         if not needs_update:
             slave.enterStepMode()
             return
@@ -39,7 +39,7 @@ def step_to(name: str, slave: FMU3Slave, begin: float, size: float, end: float, 
             raise FailedError(f"{name} returned early at {last} s, outside of its step")
         is_early = is_early and end - last > allowed
         if wants_end:
-            raise EndedError(name, last if is_early else end)
+            raise TerminationError(name, last if is_early else end)
         if has_event and uses_events:
             slave.enterEventMode()
             enter_step_mode(name, slave, last if is_early else end)

@@ -105,7 +105,7 @@ class DictionaryReference(Element):
 
 
 @dataclass
-class System(Element):
+class SystemElement(Element):
     """System or inner system; an inner one may exchange values with another ``step`` (s).
 
     ``about`` is the system's own description.
@@ -119,12 +119,12 @@ class System(Element):
 
 
 @dataclass
-class Description:
+class SystemDescription:
     """Content of one document. ``varies`` is the line of a master algorithm with variable step."""
 
     file: str
     name: str
-    system: System
+    system: SystemElement
     units: dict[str, Unit]
     enumerations: dict[str, dict[str, int]]
     start_time: float

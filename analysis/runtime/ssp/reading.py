@@ -1,4 +1,4 @@
-"""Reads a SystemStructureDescription: from the XML of an SSD to a `Description`."""
+"""Reads a SystemStructureDescription: from the XML of an SSD to a `SystemDescription`."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from .description import (
     Component,
     Connection,
     Connector,
-    Description,
     DictionaryReference,
-    System,
+    SystemDescription,
+    SystemElement,
     is_elsewhere,
     source_file,
 )
@@ -32,14 +32,14 @@ Load = Callable[[str, str], bytes]  # content of a file by name, and the element
 FMU_TYPE = "application/x-fmu-sharedlibrary"
 
 
-def read_description(archive: SystemArchive, variant: str | None = None) -> Description:
+def read_description(archive: SystemArchive, variant: str | None = None) -> SystemDescription:
     """Return the content of an archive's SSD, the default one or a variant's. Raises InputError."""
     name = archive.description_name(variant)
     data, file = archive.read(name, "SSD"), f"{archive.label}/{name}"
     return read_osp(data, file, archive) if name.endswith(OSP_SUFFIX) else read_ssd(data, file, archive.read)
 
 
-def read_ssd(data: bytes, file: str, load: Load) -> Description:
+def read_ssd(data: bytes, file: str, load: Load) -> SystemDescription:
     """Return the content of an SSD; ``load(name, element)`` returns a file to which it refers. Raises InputError."""
     return Reader(file, load).read(data)
 
@@ -56,7 +56,7 @@ class Reader:
     def refuse(self, element: etree._Element, what: str, problem: str, remedy: str) -> InputError:
         return InputError(self.file, f"{what} (line {element.sourceline})", problem, remedy)
 
-    def read(self, data: bytes) -> Description:
+    def read(self, data: bytes) -> SystemDescription:
         """Return the content of the whole document. Raises InputError."""
         root = read_document(data, "ssd", self.file)
         check_annotations(root, self.file)
@@ -71,7 +71,7 @@ class Reader:
         pace = pace_of_experiment(experiment, self.file)
         if pace == Pace():
             pace = pace_of_system(system, self.file)
-        return Description(
+        return SystemDescription(
             file=self.file,
             name=root.get("name", ""),
             system=self.system(system),
@@ -94,9 +94,9 @@ class Reader:
             notes=self.notes,
         )
 
-    def system(self, element: etree._Element) -> System:
+    def system(self, element: etree._Element) -> SystemElement:
         about = element.get("description", "")
-        system = System(**self.common(element), step=pace_of_system(element, self.file).step, about=about)
+        system = SystemElement(**self.common(element), step=pace_of_system(element, self.file).step, about=about)
         for dictionary in children(child(element, "ssd:SignalDictionaries"), "ssd:SignalDictionary"):
             system.dictionaries[dictionary.get("name", "")] = self.dictionary(dictionary)
         elements = child(element, "ssd:Elements")

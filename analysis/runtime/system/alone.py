@@ -10,7 +10,7 @@ from fmpy.util import auto_interval
 from ....common.errors import InputError
 from ..fmi.proposals import proposed_step
 from ..fmi.representations import TEXTS
-from ..ssp.description import Component, Connector, Description, System
+from ..ssp.description import Component, Connector, SystemDescription, SystemElement
 from .fmu import Fmu
 from .options import STEP_ROUNDING, SystemOptions
 
@@ -18,7 +18,7 @@ CONNECTED = ("input", "output", "parameter")
 DURATION = 1.0  # s, where the FMU proposes no end; FMPy's, too
 
 
-def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[str]]:
+def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[SystemDescription, list[str]]:
     """Return the description of a system of one FMU, and remarks on defaults where the FMU proposes nothing.
 
     Inputs, outputs and parameters are the component's connectors; start, end and step are those of its default
@@ -42,8 +42,8 @@ def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[
         for variable in fmu.variables.values()
         if variable.type in TEXTS and variable.causality in ("input", "output")
     ]
-    root = System(name, {}, [], 0, elements={name: component})
-    return Description(fmu.label, fmu.name, root, {}, {}, start, stop, step), remarks
+    root = SystemElement(name, {}, [], 0, elements={name: component})
+    return SystemDescription(fmu.label, fmu.name, root, {}, {}, start, stop, step), remarks
 
 
 def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[str]]:

@@ -9,10 +9,10 @@ from dataclasses import replace
 from ....common.errors import InputError, suggestion
 from ...options.option import SetValue
 from ..fmi.representations import REPRESENTATIONS
-from ..fmi.variable import Variable
+from ..fmi.variable import ScalarVariable
 from ..ssp.archive import SystemArchive
 from ..ssp.conversions import Transformation
-from ..ssp.description import Binding, Component, System
+from ..ssp.description import Binding, Component, SystemElement
 from ..ssp.dimensions import element_names, text_of
 from ..ssp.given_values import ParameterValue, parse_value
 from ..ssp.kinds import PARAMETERS
@@ -22,7 +22,7 @@ from ..ssp.types import WHOLE
 from .network import Network, Node
 from .options import SystemOptions
 from .passing.parameters import pass_parameters
-from .passing.settings import Settings
+from .passing.settings import SystemSettings
 from .passing.units import check_offset
 
 SETTABLE = (*PARAMETERS, "input")
@@ -35,13 +35,13 @@ INDEX = re.compile(r"\[[\d,]+\]$")
 
 def collect_settings(
     network: Network, archive: SystemArchive, assignments: Sequence[Assignment], options: SystemOptions
-) -> Settings:
+) -> SystemSettings:
     """Return all values of a system: its bindings from the inside out, then ``assignments``; later ones win.
 
     Raises InputError for a name that matches nothing (unless allowed), a value that does not fit its variable, and
     declared inputs that have neither connection nor value (unless they keep their starts).
     """
-    settings, allow_unmatched = Settings(), options.chosen["allow_unmatched"]
+    settings, allow_unmatched = SystemSettings(), options.chosen["allow_unmatched"]
     notes = network.notes if allow_unmatched else None
     # Deeper systems first: the binding of an outer one wins.
     for path, system in sorted(network.systems.items(), key=lambda item: -item[0].count(".")):
@@ -95,7 +95,7 @@ def _element_names(network: Network, path: str, name: str) -> list[str]:
     system = network.systems[path]
     owner, remainder = split_name(name, system.elements)
     element = system.elements.get(owner)
-    if isinstance(element, System):
+    if isinstance(element, SystemElement):
         return _element_names(network, f"{path}{owner}.", remainder)
     if isinstance(element, Component):
         prefix, known = f"{path}{owner}.", list(network.fmus[path + owner].variables)
@@ -115,7 +115,12 @@ def _check_shape(network: Network, path: str, prefix: str, assignment: Assignmen
 
 
 def _bound(
-    network: Network, settings: Settings, archive: SystemArchive, bindings: list[Binding], place: str, notes: Notes
+    network: Network,
+    settings: SystemSettings,
+    archive: SystemArchive,
+    bindings: list[Binding],
+    place: str,
+    notes: Notes,
 ) -> list[Assignment]:
     """Return the assignments of parameter bindings in order, their names prefixed with ``place``."""
     assignments: list[Assignment] = []
@@ -132,20 +137,20 @@ def _bound(
 
 def _resolve(network: Network, path: str, name: str) -> Node | tuple[str, str] | None:
     """Return the target of a name inside a system: a system connector, or (component, variable)."""
-    system: System = network.systems[path]
+    system: SystemElement = network.systems[path]
     if name in system.connectors:
         return network.nodes[path + name]
     owner, remainder = split_name(name, system.elements)
     element = system.elements.get(owner)
     if isinstance(element, Component):
         return path + owner, remainder
-    if isinstance(element, System):
+    if isinstance(element, SystemElement):
         return _resolve(network, f"{path}{owner}.", remainder)
     return None
 
 
 def _apply(
-    network: Network, settings: Settings, path: str, prefix: str, assignment: Assignment, allow_unmatched: bool
+    network: Network, settings: SystemSettings, path: str, prefix: str, assignment: Assignment, allow_unmatched: bool
 ) -> None:
     _check_shape(network, path, prefix, assignment)
     target = _resolve(network, path, prefix + assignment.name)
@@ -269,7 +274,7 @@ def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue
         raise InputError(error.file, error.element, error.problem, f"write a number, in {node.unit.name}") from None
 
 
-def _check_bounds(assignment: Assignment, variable: Variable | None, value: ParameterValue) -> None:
+def _check_bounds(assignment: Assignment, variable: ScalarVariable | None, value: ParameterValue) -> None:
     """Reject a number that is not finite, or outside the bounds of the FMU or of the type."""
     if isinstance(value, str | bool):
         return

@@ -11,12 +11,12 @@ from ....fmus_src.export.available import fmu_flavours
 from ....fmus_src.roles import SAMPLE_PERIOD
 from ...options.fault import Fault, number_text
 from ..fmi.representations import TEXTS
-from ..fmi.variable import Variable, variables_of
+from ..fmi.variable import ScalarVariable, variables_of
 from ..ssp.description import Component
 from ..ssp.names import split_name
 from .network import Network
 from .options import STEP_ROUNDING
-from .passing.settings import Settings
+from .passing.settings import SystemSettings
 
 MOST = 6  # FMUs that are named
 
@@ -47,7 +47,7 @@ def _fitting(component: Component) -> Iterator[str]:
                 yield name
 
 
-def check_shared(network: Network, settings: Settings) -> None:
+def check_shared(network: Network, settings: SystemSettings) -> None:
     """Reject a chosen value that a parameter of the system replaces.
 
     Values on which several components must agree are parameters of the system, so that no component can deviate. Raises
@@ -76,7 +76,7 @@ def check_aliases(network: Network) -> None:
                     raise InputError(network.file, full, problem, "connect one of them")
 
 
-def check_samples(network: Network, settings: Settings, step: float, periods: dict[str, int]) -> None:
+def check_samples(network: Network, settings: SystemSettings, step: float, periods: dict[str, int]) -> None:
     """Reject a sample period shorter than the step of its component.
 
     The FMU would take several samples in one step, and others would read only the last. Raises InputError.
@@ -103,13 +103,13 @@ def refuse_fixed(network: Network, name: str, where: tuple[str, str]) -> None:
         raise InputError(*where, "a parameter that is fixed after initialisation", remedy)
 
 
-def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: bool = False) -> Variable:
+def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: bool = False) -> ScalarVariable:
     """Return the variable of a connector, ``component.connector``, that can be changed during simulation.
 
     These are outputs, inputs that are connected or driven, and with ``tunable`` also tunable parameters. ``where``
     (file, element) is named in errors. Raises InputError.
     """
-    known: dict[str, Variable] = {}
+    known: dict[str, ScalarVariable] = {}
     for component, fmu in network.fmus.items():
         for variable in fmu.variables.values():
             full = f"{component}.{variable.name}"
@@ -128,7 +128,7 @@ def changeable(network: Network, name: str, where: tuple[str, str], *, tunable: 
     raise InputError(*where, "no such connector of a component", suggestion(name, known))
 
 
-def check_value(variable: Variable, kind: str, value: float | bool, where: tuple[str, str]) -> None:
+def check_value(variable: ScalarVariable, kind: str, value: float | bool, where: tuple[str, str]) -> None:
     """Reject a value that a connector cannot have. ``where`` as in `changeable`. Raises InputError."""
     if kind == "freeze":
         return
@@ -146,7 +146,7 @@ def check_value(variable: Variable, kind: str, value: float | bool, where: tuple
         check_bounds(variable, float(value), where)
 
 
-def check_bounds(variable: Variable, number: float, where: tuple[str, str]) -> None:
+def check_bounds(variable: ScalarVariable, number: float, where: tuple[str, str]) -> None:
     """Reject a value of a tunable parameter outside its declared bounds. Raises InputError."""
     low, high = (None if text is None else float(text) for text in (variable.minimum, variable.maximum))
     if low is not None and number < low:

@@ -12,7 +12,7 @@ from ....common.regular import names_file
 from ....fmus_src.export.available import find_fmu, fmu_flavours
 from ..fmi.structure import structural_sizes
 from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, parameters_asked, read_fmu, use_asked
-from ..ssp.description import Component, Description
+from ..ssp.description import Component, SystemDescription
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from .arrays.sizes import Sizes, given_values
 from .assignments import single_value
@@ -30,7 +30,7 @@ class ComponentFmus:
     ``loaded`` caches FMUs by label; ``description`` is the system's current one, which determines array sizes.
     """
 
-    description: Description
+    description: SystemDescription
 
     def __init__(self, archive: SystemArchive, options: SystemOptions, loaded: dict[str, Fmu]) -> None:
         self.archive = archive

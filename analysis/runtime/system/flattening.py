@@ -11,16 +11,16 @@ from ..ssp.description import (
     Component,
     Connection,
     Connector,
-    Description,
     DictionaryReference,
     Element,
     Point,
-    System,
+    SystemDescription,
+    SystemElement,
 )
 from ..ssp.kinds import PARAMETERS, leads
 from ..ssp.types import is_of_type, runtime_type
 from .fmu import Fmu
-from .network import Link, Network, Node
+from .network import Network, Node, NodeLink
 from .passing.units import convert_units
 
 SUMMED = ("Real", "Integer")
@@ -28,7 +28,7 @@ SUMMED = ("Real", "Integer")
 WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"), ("Enumeration", "Integer"), ("Enumeration", "Real"))
 
 
-def build_network(description: Description, load: Callable[[str, Component], Fmu]) -> Network:
+def build_network(description: SystemDescription, load: Callable[[str, Component], Fmu]) -> Network:
     """Return the flat network of a description, with every connector and connection checked.
 
     ``load(name, component)`` returns the FMU of a component by its flat name. Raises InputError.
@@ -51,7 +51,7 @@ def build_network(description: Description, load: Callable[[str, Component], Fmu
     return network
 
 
-def _walk(network: Network, system: System, path: str) -> None:
+def _walk(network: Network, system: SystemElement, path: str) -> None:
     network.systems[path] = system
     for connector in system.connectors.values():
         _add(network, _plain_node(network, path + connector.name, connector))
@@ -59,7 +59,7 @@ def _walk(network: Network, system: System, path: str) -> None:
         for signal in signals.values():
             _add(network, _plain_node(network, f"{path}{dictionary}.{signal.name}", signal))
     for element in system.elements.values():
-        if isinstance(element, System):
+        if isinstance(element, SystemElement):
             _walk(network, element, f"{path}{element.name}.")
 
 
@@ -126,7 +126,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     return Node(name, kind, component, connector.name, variable.type, unit, connector.line, items, connector.array)
 
 
-def _end(network: Network, path: str, system: System, point: Point, connection: Connection) -> Node:
+def _end(network: Network, path: str, system: SystemElement, point: Point, connection: Connection) -> Node:
     """Return the node at one end of a connection."""
     element_name, connector_name = point
     owner: Element = system
@@ -167,7 +167,7 @@ def _signal(network: Network, path: str, reference: DictionaryReference, signal:
         level = level[: level.rstrip(".").rfind(".") + 1]
 
 
-def _connect(network: Network, path: str, system: System, connection: Connection) -> None:
+def _connect(network: Network, path: str, system: SystemElement, connection: Connection) -> None:
     link = _link(network, path, system, connection)
     if link.target.name in network.driver:
         first = network.driver[link.target.name]
@@ -186,7 +186,7 @@ def _connect(network: Network, path: str, system: System, connection: Connection
 
 
 def orient(
-    network: Network, path: str, system: System, connection: Connection
+    network: Network, path: str, system: SystemElement, connection: Connection
 ) -> tuple[tuple[Point, Node], tuple[Point, Node]]:
     """Return source and target of a connection with their nodes, since SSP does not define its direction.
 
@@ -208,7 +208,7 @@ def orient(
     return forwards[1], forwards[0]
 
 
-def _link(network: Network, path: str, system: System, connection: Connection) -> Link:
+def _link(network: Network, path: str, system: SystemElement, connection: Connection) -> NodeLink:
     """Return the link of a connection, from its start or, if values flow backwards, from its end."""
     (_, start), (_, end) = orient(network, path, system, connection)
     if start.kind == "calculatedParameter" and end.kind == "parameter":
@@ -217,7 +217,7 @@ def _link(network: Network, path: str, system: System, connection: Connection) -
             "calculated parameters are not passed on to parameters",
             "remove the connection and give the value in a parameter set",
         )
-    return Link(start, end, connection.transformation, connection.line, connection.suppress_unit_conversion)
+    return NodeLink(start, end, connection.transformation, connection.line, connection.suppress_unit_conversion)
 
 
 def _settle_types(network: Network) -> None:
@@ -231,7 +231,7 @@ def _settle_types(network: Network) -> None:
                     here.type_name, here.enumeration, changed = there.type_name, there.enumeration, True
 
 
-def _check_link(network: Network, link: Link) -> None:
+def _check_link(network: Network, link: NodeLink) -> None:
     source, target = link.source, link.target
     if source.type_name != target.type_name and (source.type_name, target.type_name) not in WIDENED:
         raise network.refuse(

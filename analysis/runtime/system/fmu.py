@@ -24,7 +24,7 @@ from ....common.zips import REMEDY, UNREADABLE, open_zip, read_entry
 from ....fmus_src.own_digests import is_own
 from ..fmi import description as fmi3
 from ..fmi.quantities import complete_quantities
-from ..fmi.variable import Variable, elements_of, variables_of
+from ..fmi.variable import ScalarVariable, elements_of, variables_of
 from ..ssp.conversions import Unit, units_of_fmu
 from ..ssp.documents import parse_xml
 from ..ssp.fmu_description import DESCRIPTION, check_description, check_rules, external_state_of
@@ -44,7 +44,7 @@ class Fmu:
     digest: str
     description: ModelDescription
     folder: Path  # unpacked; removed with the object
-    variables: dict[str, Variable] = field(default_factory=dict)
+    variables: dict[str, ScalarVariable] = field(default_factory=dict)
     units: dict[str, Unit] = field(default_factory=dict)
     is_own: bool = False  # built by Perilune
     external_state: tuple[str, ...] = ()  # names of a block's objects that its FMU state does not contain
@@ -92,7 +92,7 @@ class Fmu:
         """Parameters of FMI 3.0 that size arrays, or that are set before an instance is structured."""
         return [name for name, variable in self.variables.items() if variable.causality == STRUCTURAL]
 
-    def unit_of(self, variable: Variable) -> Unit | None:
+    def unit_of(self, variable: ScalarVariable) -> Unit | None:
         """Return the unit of a variable, or None if it has none or the FMU does not define it."""
         unit = self.units.get(variable.unit or "")
         return unit if unit is None else replace(unit, is_relative=variable.is_relative)
@@ -217,7 +217,7 @@ def _complete(description: ModelDescription, xml: bytes) -> ModelDescription:
 
 
 @lru_cache(maxsize=MOST_DESCRIPTIONS)
-def _read_variables(xml: bytes) -> Mapping[str, Variable]:
+def _read_variables(xml: bytes) -> Mapping[str, ScalarVariable]:
     """Return the variables of a description by name, with declared array sizes."""
     description, _ = _read_description(xml)
     assert description is not None

@@ -19,12 +19,12 @@ from ..fmi.representations import OF_FMI2, REPRESENTATIONS, TEXTS, Representatio
 from ..ssp.kinds import LED_OUT
 from ..ssp.names import split_name
 from .checks import check_bounds, refuse_fixed
-from .network import Link, Network, Node
-from .passing.settings import Settings
+from .network import Network, Node, NodeLink
+from .passing.settings import SystemSettings
 from .series import InputSeries
 
 
-def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: bool) -> None:
+def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_starts: bool) -> None:
     """Keep inputs without a source or value at their FMUs' start values, or reject all of them in one message.
 
     Raises InputError.
@@ -54,7 +54,7 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
             remedy = f"map {given} too, whose mapping leaves it out; or {remedy}"
         raise InputError(network.file, ", ".join(node.where for node in open_inputs), problem, remedy)
     without = {node.name for node in open_inputs}
-    readers: dict[str, list[Link]] = {}
+    readers: dict[str, list[NodeLink]] = {}
     for link in network.links():
         readers.setdefault(link.source.name, []).append(link)
     while open_inputs:
@@ -90,7 +90,7 @@ def missing_outputs(network: Network) -> list[str]:
     return [f"{network.file}: no FMU has an output: name what `run` is to record with `record`"]
 
 
-def check_signals(network: Network, settings: Settings) -> None:
+def check_signals(network: Network, settings: SystemSettings) -> None:
     """Reject a signal that is read but never driven; note outputs without a source and undeclared inputs.
 
     Raises InputError.

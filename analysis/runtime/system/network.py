@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from ....common.errors import InputError
 from ..ssp.conversions import Transformation, Unit
-from ..ssp.description import Component, Description, System
+from ..ssp.description import Component, SystemDescription, SystemElement
 from ..ssp.kinds import PARAMETERS
 from ..ssp.names import split_name
 from .fmu import Fmu
@@ -37,7 +37,7 @@ class Node:
 
 
 @dataclass(slots=True)
-class Link:
+class NodeLink:
     """Connection between nodes, with unit conversion and transformation combined.
 
     ``keeps_number``: units are not converted (SSP's suppressUnitConversion). ``added`` are links from components to the
@@ -49,7 +49,7 @@ class Link:
     transformation: Transformation
     line: int
     keeps_number: bool = False
-    added: list[Link] = field(default_factory=list)
+    added: list[NodeLink] = field(default_factory=list)
 
     @property
     def where(self) -> str:
@@ -69,11 +69,11 @@ class Network:
     (relativeQuantity). ``frames`` are the axis names of the frames declared by the SSD, ``axes`` those of signals.
     """
 
-    description: Description
+    description: SystemDescription
     fmus: dict[str, Fmu] = field(default_factory=dict)
     nodes: dict[str, Node] = field(default_factory=dict)
-    driver: dict[str, Link] = field(default_factory=dict)  # by name of the target node
-    systems: dict[str, System] = field(default_factory=dict)  # by path with trailing dot, "" for the root
+    driver: dict[str, NodeLink] = field(default_factory=dict)  # by name of the target node
+    systems: dict[str, SystemElement] = field(default_factory=dict)  # by path with trailing dot, "" for the root
     notes: list[str] = field(default_factory=list)
     driven: dict[str, str] = field(default_factory=dict)  # inputs that a series drives, with its columns
     mixed: set[str] = field(default_factory=set)
@@ -95,7 +95,7 @@ class Network:
         component, variable = split_name(signal, self.fmus)
         return self.fmus[component].unit_of(self.fmus[component].variables[variable])
 
-    def links(self) -> Iterator[Link]:
+    def links(self) -> Iterator[NodeLink]:
         """Yield all links, each followed by the links added to it."""
         for link in self.driver.values():
             yield link

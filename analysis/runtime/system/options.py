@@ -75,10 +75,10 @@ class Trust:
 
 
 UNTRUSTED = Trust()
-STATED = options_of(declared.SystemOptions)
+STATED = options_of(declared.SystemKeywords)
 
 
-class _Keywords(declared.SystemOptions, total=False):
+class _Keywords(declared.SystemKeywords, total=False):
     """Keyword arguments of `SystemOptions`."""
 
     folder: str
@@ -154,7 +154,7 @@ GROUPS: Mapping[str, type] = {  # attribute of `SystemOptions` -> its options
 
 def system_options(options: Mapping[str, Any]) -> SystemOptions:
     """Return the system options contained in the options of a verb, by name."""
-    keywords = {name: options[name] for name in options_of(declared.SystemOptions) if name in options}
+    keywords = {name: options[name] for name in options_of(declared.SystemKeywords) if name in options}
     return SystemOptions(**cast(_Keywords, keywords))
 
 

@@ -11,7 +11,7 @@ from ....common.collection import no_collection
 from ....common.errors import InputError, suggestion
 from ...options.choices import SEQUENTIAL
 from ..ssp.archive import SystemArchive, open_system, read_fmu
-from ..ssp.description import System
+from ..ssp.description import SystemElement
 from ..ssp.reading import read_description
 from .alone import describe_alone
 from .arrays.axes import read_frames
@@ -27,7 +27,7 @@ from .inputs import Drive, check_signals, drive_inputs, find_driven, settle_open
 from .namesakes.namesakes import check_namesakes
 from .network import Network
 from .options import SystemOptions
-from .passing.settings import Settings
+from .passing.settings import SystemSettings
 from .schedule import Schedule, make_schedule
 from .series import InputSeries
 from .times import component_periods, flight_times
@@ -44,7 +44,7 @@ class PreparedSystem:
     archive: SystemArchive
     options: SystemOptions
     network: Network
-    settings: Settings
+    settings: SystemSettings
     schedule: Schedule
     algorithm: str
     start: float
@@ -75,7 +75,7 @@ class PreparedSystem:
     def of_flights(self) -> PreparedSystem:
         """Return the data that simulations need, which can be sent to another process: no documents, no functions."""
         description = self.network.description
-        root = System(description.system.name, {}, [], description.system.line)
+        root = SystemElement(description.system.name, {}, [], description.system.line)
         network = replace(self.network, description=replace(description, system=root, annotations={}), systems={})
         return replace(self, network=network, options=SystemOptions(folder=self.options.folder), elsewhere={})
 
@@ -175,7 +175,7 @@ def _read_network(fmus: ComponentFmus) -> tuple[Network, list[str]]:
     return network, remarks
 
 
-def _settle(network: Network, fmus: ComponentFmus) -> Settings:
+def _settle(network: Network, fmus: ComponentFmus) -> SystemSettings:
     """Return the settings of a network, after checking it with them. Raises InputError."""
     archive, options = fmus.archive, fmus.options
     assignments = [each for name, (_, retired) in fmus.retired.items() for each in retired.assignments(name)]

@@ -9,7 +9,7 @@ from graphlib import CycleError, TopologicalSorter
 
 from ....common.errors import InputError
 from .feedthrough import Dependencies, Feedthrough, cut_loops
-from .network import Link, Network, Node
+from .network import Network, Node, NodeLink
 
 Edge = tuple[Node, Node]  # an output, and the input of another component that its value reaches
 
@@ -113,7 +113,7 @@ def _order(followers: Collection[str], edges: Collection[Edge]) -> list[str]:
     return list(TopologicalSorter(graph).static_order())
 
 
-def origin(network: Network, link: Link) -> Node:
+def origin(network: Network, link: NodeLink) -> Node:
     """Return the component's output, or the undriven connector, at which a link's value originates."""
     start = link.source
     while start.component is None and start.name in network.driver:

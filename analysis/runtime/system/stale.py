@@ -12,7 +12,7 @@ from ....fmus_src.export.available import find_fmu
 from ....fmus_src.export.sources import find_changed_source
 from ...options.option import SetValue
 from ..ssp.archive import open_system
-from ..ssp.description import Component, System
+from ..ssp.description import Component, SystemElement
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .assignments import single_value
@@ -95,11 +95,11 @@ def _file(name: str, flavour: str | None, system: Path) -> Path | None:
     return find_fmu(name, FLAVOURS if flavour is None else (flavour,), system)
 
 
-def _components(system: System, path: str = "") -> Iterator[tuple[str, Component]]:
+def _components(system: SystemElement, path: str = "") -> Iterator[tuple[str, Component]]:
     for element in system.elements.values():
         if isinstance(element, Component):
             yield path + element.name, element
-        elif isinstance(element, System):
+        elif isinstance(element, SystemElement):
             yield from _components(element, f"{path}{element.name}.")
 
 

@@ -9,7 +9,7 @@ from lxml import etree
 
 from ....common.errors import suggestion
 from ...runtime.ssp.annotations import AnnotationReader
-from ...runtime.ssp.description import Description
+from ...runtime.ssp.description import SystemDescription
 from ...runtime.system.options import Layer
 from ..loops.describing_function import ELEMENTS, complete_parameters
 from .declaration import Declaration, LoopDeclaration, MarginLimits, NonlinearElement, PointDeclaration, Sweep
@@ -18,7 +18,7 @@ ANNOTATION = "org.perilune.stability"
 LAYER_ELEMENTS = ("Use", "ParameterSet", "Set")
 
 
-def read_declaration(description: Description) -> Declaration:
+def read_declaration(description: SystemDescription) -> Declaration:
     """Return the declaration in the SSD, empty if there is none. Raises InputError with the line."""
     annotation = description.annotations.get(ANNOTATION)
     if annotation is None:

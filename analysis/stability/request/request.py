@@ -11,7 +11,7 @@ from ....common.errors import InputError, suggestion
 from ...campaigns.definition.checks import check_plan
 from ...campaigns.definition.plan import BatchPlan, read_plan
 from ...runtime.ssp.archive import open_system
-from ...runtime.ssp.description import Description
+from ...runtime.ssp.description import SystemDescription
 from ...runtime.ssp.reading import read_description
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.options import Layer, SystemOptions
@@ -92,7 +92,9 @@ def read_request(
     return replace(request, options=_values_of_trial(plan, options, trial))
 
 
-def _select(description: Description, names: Sequence[str], at: Sequence[float], options: SystemOptions) -> Declaration:
+def _select(
+    description: SystemDescription, names: Sequence[str], at: Sequence[float], options: SystemOptions
+) -> Declaration:
     """Return the declaration with only the requested loops."""
     declared = read_declaration(description)
     by_name = {loop.name: loop for loop in declared.loops}

@@ -9,7 +9,7 @@ from ....common.paths import SYSTEMS
 from ....fmus_src.roles import FINISHED
 from ...documents.figures.declared import FigureDeclaration, LimitsFigure, UnavailableFigure
 from ...documents.of.simulation.figures.limits import LimitVerdict, evaluate, limit_lines
-from ...runtime.flight.results import Flight, Result, status_lines
+from ...runtime.flight.results import Flight, FlightResult, status_lines
 from ...runtime.system.prepared import PreparedSystem
 
 REMEDIES = {
@@ -22,7 +22,7 @@ REMEDIES = {
 }
 
 
-def flight_lines(prepared: PreparedSystem, figures: Sequence[FigureDeclaration], result: Result) -> list[str]:
+def flight_lines(prepared: PreparedSystem, figures: Sequence[FigureDeclaration], result: FlightResult) -> list[str]:
     """Return lines on the end of a simulation: status, limits, statuses of components."""
     lines = [f"{prepared.archive.name}: {result.ending}"]
     for figure in figures:
@@ -33,7 +33,7 @@ def flight_lines(prepared: PreparedSystem, figures: Sequence[FigureDeclaration],
     return [*lines, *status_lines(prepared.network, result)]
 
 
-def flight_problems(prepared: PreparedSystem, figures: Sequence[FigureDeclaration], result: Result) -> list[str]:
+def flight_problems(prepared: PreparedSystem, figures: Sequence[FigureDeclaration], result: FlightResult) -> list[str]:
     """Return a line for each reason why a simulation did not complete or violates a limit of its SSD."""
     file, lines = prepared.network.file, []
     if not result.complete:

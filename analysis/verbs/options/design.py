@@ -17,7 +17,7 @@ from ...design.trajectories.vehicle import (
 from ...options.declaration import Argument, Verb
 from ...options.declared.campaigns import CAMPAIGN, SYSTEM
 from ...options.option import FilePath, Option
-from ...options.system import JsonFile, ReportFiles, Seed, SystemOptions
+from ...options.system import JsonFile, ReportFiles, Seed, SystemKeywords
 
 MOST_INTERVALS = 100_000
 NO_PLAN = "there is no such plan, or it takes more propellant than is on board"
@@ -197,7 +197,7 @@ TRANSFER = Verb(
 )
 
 
-class BoundOptions(SystemOptions, VehicleOptions, total=False):
+class BoundOptions(SystemKeywords, VehicleOptions, total=False):
     """Options of design bound"""
 
     range: Annotated[

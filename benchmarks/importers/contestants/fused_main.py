@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from perilune.analysis.runtime.system.network import Link
+from perilune.analysis.runtime.system.network import NodeLink
 from perilune.analysis.runtime.system.prepared import PreparedSystem
 
 from ..contestant import Course
@@ -119,7 +119,7 @@ class _Writer:
         finite = ["bool finite = true;", *(f"finite &= isfinite({self._member(name)}) != 0;" for name in names)]
         return ["{", *finite, f'if (!finite) return "{component}: an output is not finite";', "}"]
 
-    def _links_to(self, component: str) -> list[Link]:
+    def _links_to(self, component: str) -> list[NodeLink]:
         return [link for link in self.course.links if link.target.component == component]
 
     def _member(self, name: str) -> str:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from perilune.analysis.documents.common.colours import look
 from perilune.analysis.documents.common.style import house_style, new_figure
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.verbs.run import simulate
 from perilune.common.process import leave
 
@@ -31,12 +31,12 @@ EVERY = 10  # communication points
 ALONG = [f"plant.position[{i}]" for i in (1, 2)]
 
 
-def simulate_laws() -> dict[str, Result]:
+def simulate_laws() -> dict[str, FlightResult]:
     """Simulate the landing with each law; return the results."""
     return {name: simulate(SYSTEM, parameters=["ideal.ssv"], use={"guidance": fmu}) for name, fmu in LAWS.items()}
 
 
-def descent_figure(flights: Mapping[str, Result]) -> Figure:
+def descent_figure(flights: Mapping[str, FlightResult]) -> Figure:
     """Return the figure of these results, by the name of the law."""
     figure = new_figure(3.2, 8.6)
     path, thrust = figure.subplots(1, 2)
@@ -53,7 +53,7 @@ def descent_figure(flights: Mapping[str, Result]) -> Figure:
     return figure
 
 
-def draw_descent_laws(flights: Mapping[str, Result], folder: Path = IMAGES) -> Path:
+def draw_descent_laws(flights: Mapping[str, FlightResult], folder: Path = IMAGES) -> Path:
     """Write the figure of the descent laws."""
     with house_style():
         return write_picture(descent_figure(flights), folder / "descent_laws.svg")

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from perilune.analysis.documents.common.colours import look
 from perilune.analysis.documents.common.style import house_style, new_figure
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.verbs.run import simulate
 from perilune.common.process import leave
 
@@ -42,7 +42,7 @@ def simulate_methods() -> dict[str, Curve]:
     }
 
 
-def _errors(flight: Result) -> Curve:
+def _errors(flight: FlightResult) -> Curve:
     return (
         np.linalg.norm(flight["plant.position"] - TARGET, axis=1),
         np.linalg.norm(flight["plant.velocity"], axis=1),

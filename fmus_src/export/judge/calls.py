@@ -16,7 +16,7 @@ from .kernel import (
     BOOL,
     FLOAT,
     INT,
-    Bound,
+    BoundFunction,
     BuiltinCall,
     Function,
     Kernel,
@@ -126,12 +126,12 @@ class CallTypes(ExpressionTypes):
             assert isinstance(node, ast.Attribute)
             method = find_method(self.function.block_class, node.attr)
             if method is not None:
-                self.function.types[node] = Bound(*method)
+                self.function.types[node] = BoundFunction(*method)
                 return
         if isinstance(node, ast.Name) and node.id not in self.bound and node.id not in self.function.parameters:
             value = find_global(self.function.source.function, node.id)
             if isinstance(value, FunctionType):
-                self.function.types[node] = Bound(value, None)
+                self.function.types[node] = BoundFunction(value, None)
                 return
         self.infer(node)
 
@@ -149,7 +149,7 @@ class CallTypes(ExpressionTypes):
         permitted built-in or math function."""
         source = self.function.source
         bound = self.function.parameters.get(node.id) if isinstance(node, ast.Name) else None
-        if isinstance(bound, Bound):
+        if isinstance(bound, BoundFunction):
             return bound.function, bound.owner
         if isinstance(node, ast.Name) and node.id not in self.bound and node.id not in self.function.parameters:
             value = find_global(source.function, node.id)

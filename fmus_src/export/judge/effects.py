@@ -13,7 +13,7 @@ from .expressions import is_read_only
 from .kernel import (
     FLOAT,
     INT,
-    Bound,
+    BoundFunction,
     BuiltinCall,
     Function,
     Kernel,
@@ -21,8 +21,8 @@ from .kernel import (
     List,
     MakeMatrix,
     MathCall,
-    Matrix,
-    Vector,
+    MatrixType,
+    VectorType,
     is_self_attribute,
     targets_of,
 )
@@ -46,7 +46,7 @@ def is_nonzero_constant(function: Function, node: ast.expr) -> bool:
     """Return True if a divisor is a literal or a module constant, no component of which is zero."""
     if isinstance(node, ast.Constant):
         return bool(node.value)
-    if isinstance(function.types.get(node), Vector):
+    if isinstance(function.types.get(node), VectorType):
         return node in function.constants and all(function.constants[node].value)
     return node in function.constants and bool(function.constants[node].value)
 
@@ -117,7 +117,7 @@ class _Effects:
         """Take in that a variable of the block, or the elements of a list, are assigned."""
         if is_self_attribute(holder):
             self.function.changes_block = True
-        elif isinstance(holder, ast.Name) and isinstance(self.function.parameters.get(holder.id), List | Matrix):
+        elif isinstance(holder, ast.Name) and isinstance(self.function.parameters.get(holder.id), List | MatrixType):
             self.function.changed_lists.add(holder.id)
 
     def _calls(self, node: ast.stmt, whole: ast.expr | None) -> None:
@@ -150,7 +150,7 @@ class _Effects:
 
     def _is_also_used(self, callee: Function, argument: ast.expr, arguments: list[ast.expr]) -> bool:
         """Return True if a matrix that a call changes reaches it another way: Python and C would differ."""
-        if not isinstance(self.function.types[argument], Matrix):
+        if not isinstance(self.function.types[argument], MatrixType):
             return False
         several = [ast.unparse(each) for each in arguments].count(ast.unparse(argument)) > 1
         return several or not is_variable(argument) or (is_self_attribute(argument) and callee.takes_block)
@@ -159,7 +159,9 @@ class _Effects:
         """Return True if an argument is a function that changes anything where the callee calls it."""
         kind = self.function.types.get(argument)
         given = [
-            inner for inner in callee.callees() if isinstance(kind, Bound) and inner.source.function is kind.function
+            inner
+            for inner in callee.callees()
+            if isinstance(kind, BoundFunction) and inner.source.function is kind.function
         ]
         return any(inner.changes_anything for inner in given)
 
@@ -197,7 +199,7 @@ class _Effects:
 def makes_matrix(function: Function, node: ast.AST) -> bool:
     """Return True if C computes an expression by statements in front of its own."""
     product = isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
-    return product or (isinstance(function.types.get(node), Matrix) and not is_variable(node))  # type: ignore[arg-type, call-overload]
+    return product or (isinstance(function.types.get(node), MatrixType) and not is_variable(node))  # type: ignore[arg-type, call-overload]
 
 
 def operands(node: ast.expr) -> list[ast.expr]:

@@ -23,10 +23,10 @@ from .kernel import (
     Function,
     Kernel,
     List,
-    Matrix,
+    MatrixType,
     RecordType,
     Type,
-    Vector,
+    VectorType,
     is_self_attribute,
     length_of,
 )
@@ -40,7 +40,7 @@ from .subset_table import (
     OPERATORS,
     OTHER_SYNTAX,
     REFUSED_SYNTAX,
-    Rule,
+    SubsetRule,
 )
 
 SCALARS = {float: FLOAT, int: INT, bool: BOOL}
@@ -62,7 +62,7 @@ class ExpressionTypes(MatrixTypes):
         self.function = function
         self.bound = bound  # names that are local to the function
 
-    def report(self, node: ast.AST, rule: str | Rule, **details: object) -> None:
+    def report(self, node: ast.AST, rule: str | SubsetRule, **details: object) -> None:
         self.kernel.report(self.function.source, node, rule, **details)
 
     def refuse_syntax(self, node: ast.AST) -> None:
@@ -168,9 +168,9 @@ class ExpressionTypes(MatrixTypes):
             return self._constant(node, enumeration.__module__, node.attr, vars(enumeration).get(node.attr))
         if not isinstance(node.value, ast.Name) or node.value.id in {*self.bound, *self.function.parameters}:
             holder = self.infer(node.value)
-            if isinstance(holder, Vector):
+            if isinstance(holder, VectorType):
                 return self.component(node, holder)
-            if isinstance(holder, Matrix):
+            if isinstance(holder, MatrixType):
                 return self.transpose(node, holder)
             if isinstance(holder, RecordType):
                 return self.field(node, holder)
@@ -216,7 +216,7 @@ class ExpressionTypes(MatrixTypes):
     def _constant(self, node: ast.expr, module: str, name: str, value: Any) -> Type | None:
         if isinstance(value, vector_types.Vector):
             self.function.constants[node] = Constant(module, name, value)
-            return Vector(len(value))
+            return VectorType(len(value))
         elements = value if isinstance(value, tuple) else (value,)
         kinds = {type(element) for element in elements}
         if len(kinds) != 1 or not kinds <= set(SCALARS):
@@ -228,7 +228,7 @@ class ExpressionTypes(MatrixTypes):
 
     def infer_subscript(self, node: ast.Subscript) -> Type | None:
         container = self.infer(node.value)
-        if isinstance(container, Matrix):
+        if isinstance(container, MatrixType):
             return self.part_of_matrix(node, container)
         if isinstance(node.slice, ast.Slice):
             return self.part_of_vector(node, container)
@@ -240,7 +240,7 @@ class ExpressionTypes(MatrixTypes):
             self.report(node, "argument type", name="an index", expected=INT, argument="its value", got=index)
         if isinstance(container, List):
             return container.element
-        if isinstance(container, Vector):
+        if isinstance(container, VectorType):
             return FLOAT
         if container is not None:
             self.report(node, "number", name="an index", got=container)
@@ -258,9 +258,9 @@ class ExpressionTypes(MatrixTypes):
             return None
         if isinstance(kinds[0], RecordType) or isinstance(kinds[1], RecordType):
             return self.operate_on_records(node, node.op, kinds[0], kinds[1])
-        if isinstance(node.op, ast.MatMult) or isinstance(kinds[0], Matrix) or isinstance(kinds[1], Matrix):
+        if isinstance(node.op, ast.MatMult) or isinstance(kinds[0], MatrixType) or isinstance(kinds[1], MatrixType):
             return self.operate_on_matrices(node, node.op, kinds[0], kinds[1])
-        if isinstance(kinds[0], Vector) or isinstance(kinds[1], Vector):
+        if isinstance(kinds[0], VectorType) or isinstance(kinds[1], VectorType):
             return self.operate_on_vectors(node, node.op, kinds[0], kinds[1])
         for operand, kind in zip((node.left, node.right), kinds, strict=True):
             if kind not in (FLOAT, INT):
@@ -280,7 +280,7 @@ class ExpressionTypes(MatrixTypes):
             return BOOL
         if isinstance(node.op, ast.USub | ast.UAdd):
             kind = self.infer(node.operand)
-            space = isinstance(kind, Vector | Matrix) or (isinstance(kind, RecordType) and kind.is_space)
+            space = isinstance(kind, VectorType | MatrixType) or (isinstance(kind, RecordType) and kind.is_space)
             if kind in (FLOAT, INT) or (space and isinstance(node.op, ast.USub)):
                 return kind
             if kind is not None:
@@ -313,7 +313,7 @@ class ExpressionTypes(MatrixTypes):
         left, right = self.infer(node.body), self.infer(node.orelse)
         if left is None or right is None:
             return None
-        if left != right or isinstance(left, List | Matrix):
+        if left != right or isinstance(left, List | MatrixType):
             self.report(node, "branches", left=left, right=right)
             return None
         return left
@@ -325,9 +325,9 @@ def type_of_variable(variable: Variable) -> Type:
         return RecordType(variable.record)
     scalar = SCALARS[type(variable.elements[0])]
     if variable.shape is not None:
-        return Matrix(*variable.shape, scalar)
+        return MatrixType(*variable.shape, scalar)
     if variable.is_vector:
-        return Vector(variable.size)
+        return VectorType(variable.size)
     return List(scalar, variable.size) if variable.is_array else scalar
 
 

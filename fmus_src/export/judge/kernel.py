@@ -18,7 +18,7 @@ from ...block import Block
 from ...kernel import elementary, vector_types
 from ...kernel.records import Record, is_space
 from .source import Source
-from .subset_table import RULES, MathFunction, Rule
+from .subset_table import RULES, MathFunction, SubsetRule
 
 
 class Scalar(Enum):
@@ -47,7 +47,7 @@ class List:
 
 
 @dataclass(frozen=True)
-class Vector:
+class VectorType:
     """Type of a vector: a value of two to four floats."""
 
     size: int
@@ -57,7 +57,7 @@ class Vector:
 
 
 @dataclass(frozen=True)
-class Matrix:
+class MatrixType:
     """Type of a matrix: a variable of a fixed number of rows and columns, handed on by reference."""
 
     rows: int
@@ -83,20 +83,20 @@ class RecordType:
         """True if values can be added and scaled."""
         return is_space(self.record)
 
-    def field(self, name: str) -> Scalar | Vector | RecordType:
+    def field(self, name: str) -> Scalar | VectorType | RecordType:
         """Return the type of a field."""
         return field_type(self.record.fields[name].kind)
 
 
-def field_type(kind: Any) -> Scalar | Vector | RecordType:
+def field_type(kind: Any) -> Scalar | VectorType | RecordType:
     """Return the type that a field's Python type stands for."""
     if kind in (float, int, bool):
         return Scalar(kind.__name__)
-    return Vector(len(kind.names)) if issubclass(kind, vector_types.Vector) else RecordType(kind)
+    return VectorType(len(kind.names)) if issubclass(kind, vector_types.Vector) else RecordType(kind)
 
 
 @dataclass(frozen=True)
-class Bound:
+class BoundFunction:
     """Type of a function or a method of the block that is passed on to be called; in C it has no value."""
 
     function: FunctionType
@@ -110,14 +110,14 @@ class Bound:
 class Several:
     """Values of a function with several return values; it can only be assigned to as many targets."""
 
-    parts: tuple[Scalar | Vector | Matrix | RecordType, ...]
+    parts: tuple[Scalar | VectorType | MatrixType | RecordType, ...]
 
     def __str__(self) -> str:
         return f"{len(self.parts)} values ({', '.join(map(str, self.parts))})"
 
 
-Value = Scalar | Vector | Matrix | RecordType
-Type = Value | List | Bound
+Value = Scalar | VectorType | MatrixType | RecordType
+Type = Value | List | BoundFunction
 Returned = Value | Several
 
 
@@ -180,16 +180,16 @@ class KernelCall:
 
 
 @dataclass(frozen=True)
-class Interval:
+class IntegerRange:
     """Smallest and largest value that an int can have."""
 
     low: int
     high: int
 
-    def join(self, other: Interval) -> Interval:
-        return Interval(min(self.low, other.low), max(self.high, other.high))
+    def join(self, other: IntegerRange) -> IntegerRange:
+        return IntegerRange(min(self.low, other.low), max(self.high, other.high))
 
-    def within(self, other: Interval) -> bool:
+    def within(self, other: IntegerRange) -> bool:
         return other.low <= self.low and self.high <= other.high
 
 
@@ -225,8 +225,8 @@ class Function:
     blocks: dict[ast.expr, tuple[range | None, range | None]] = field(default_factory=dict)  # p[i, 3:6]: None, range
     constants: dict[ast.expr, Constant] = field(default_factory=dict)
     # of ranges.py
-    ranges: dict[str, Interval] = field(default_factory=dict)
-    parameter_ranges: dict[str, Interval] = field(default_factory=dict)
+    ranges: dict[str, IntegerRange] = field(default_factory=dict)
+    parameter_ranges: dict[str, IntegerRange] = field(default_factory=dict)
     unproven: set[ast.AST] = field(default_factory=set)
     unproven_indices: set[ast.expr] = field(default_factory=set)  # of a matrix, in subscripts that are unproven
     # of effects.py
@@ -243,7 +243,7 @@ class Function:
     def takes_block(self) -> bool:
         """True if the block is an argument: of a method, or of a function that calls one."""
         return self.is_method or any(
-            isinstance(kind, Bound) and kind.owner is not None for kind in self.parameters.values()
+            isinstance(kind, BoundFunction) and kind.owner is not None for kind in self.parameters.values()
         )
 
     @property
@@ -276,7 +276,7 @@ class Kernel:
     step: Function | None = None
     violations: list[Violation] = field(default_factory=list)
 
-    def report(self, source: Source, node: ast.AST, rule: str | Rule, **details: object) -> None:
+    def report(self, source: Source, node: ast.AST, rule: str | SubsetRule, **details: object) -> None:
         """Add a violation of a rule of the table at a place in the source, once."""
         self.report_at(source.path, getattr(node, "lineno", source.node.lineno), rule, **details)
 
@@ -285,7 +285,7 @@ class Kernel:
         line = inspect.getsourcelines(self.block_class)[1]
         self.report_at(Path(inspect.getfile(self.block_class)), line, rule, name=self.block_class.__name__, **details)
 
-    def report_at(self, path: Path, line: int, rule: str | Rule, **details: object) -> None:
+    def report_at(self, path: Path, line: int, rule: str | SubsetRule, **details: object) -> None:
         """Add a violation at a line of a file, once."""
         text = RULES[rule] if isinstance(rule, str) else rule
         violation = Violation(path, line, text.what.format(**details), text.remedy.format(**details))
@@ -295,9 +295,9 @@ class Kernel:
 
 def length_of(kind: Type | Several | None) -> int | None:
     """Return the `len` of a value of a type."""
-    if isinstance(kind, Matrix):
+    if isinstance(kind, MatrixType):
         return kind.rows
-    return kind.size if isinstance(kind, List | Vector) else None
+    return kind.size if isinstance(kind, List | VectorType) else None
 
 
 def is_self_attribute(node: ast.AST) -> bool:

@@ -7,7 +7,7 @@ from typing import Any
 
 from ...kernel import matrix_types
 from ...kernel.vector_types import VECTORS
-from .kernel import FLOAT, INT, MakeMatrix, Matrix, Several, Type, Vector
+from .kernel import FLOAT, INT, MakeMatrix, MatrixType, Several, Type, VectorType
 from .source import find_global
 from .vectors import RecordTypes, is_variable
 
@@ -26,19 +26,21 @@ class MatrixTypes(RecordTypes):
         self, node: ast.AST, operator: ast.operator, left: Type | Several, right: Type | Several
     ) -> Type | None:
         """Infer the type of ``left operator right``, where one is a matrix of floats or the operator is ``@``."""
-        if isinstance(left, Matrix) and left.element is FLOAT:
-            if isinstance(right, Matrix) and right.element is FLOAT:
+        if isinstance(left, MatrixType) and left.element is FLOAT:
+            if isinstance(right, MatrixType) and right.element is FLOAT:
                 return self._operate_on_two(node, operator, left, right)
-            if isinstance(right, Vector) and isinstance(operator, ast.MatMult):
-                return self._operate_on_two(node, operator, left, Matrix(right.size, 1))
+            if isinstance(right, VectorType) and isinstance(operator, ast.MatMult):
+                return self._operate_on_two(node, operator, left, MatrixType(right.size, 1))
             if right in (FLOAT, INT) and isinstance(operator, ast.Mult | ast.Div):
                 return left
-        elif left in (FLOAT, INT) and isinstance(right, Matrix) and isinstance(operator, ast.Mult):
+        elif left in (FLOAT, INT) and isinstance(right, MatrixType) and isinstance(operator, ast.Mult):
             return right if right.element is FLOAT else None
         self.report(node, "matrix operator", name=type(operator).__name__, left=left, right=right)
         return None
 
-    def _operate_on_two(self, node: ast.AST, operator: ast.operator, left: Matrix, right: Matrix) -> Type | None:
+    def _operate_on_two(
+        self, node: ast.AST, operator: ast.operator, left: MatrixType, right: MatrixType
+    ) -> Type | None:
         product = isinstance(operator, ast.MatMult)
         if not product and not isinstance(operator, ast.Add | ast.Sub):
             self.report(node, "matrix operator", name=type(operator).__name__, left=left, right=right)
@@ -46,20 +48,20 @@ class MatrixTypes(RecordTypes):
             self.report(node, "matrix sizes", left=left, right=right)
         elif not product:
             return left
-        elif isinstance(node, ast.BinOp) and isinstance(self.function.types[node.right], Vector):
+        elif isinstance(node, ast.BinOp) and isinstance(self.function.types[node.right], VectorType):
             return narrow(left.rows, False)
         else:
-            return Matrix(left.rows, right.columns)
+            return MatrixType(left.rows, right.columns)
         return None
 
-    def transpose(self, node: ast.Attribute, kind: Matrix) -> Type | None:
+    def transpose(self, node: ast.Attribute, kind: MatrixType) -> Type | None:
         """Infer the type of ``p.T``."""
         if node.attr != "T":
             self.report(node, "component", name=node.attr, kind=kind, names="T, copy() and p[i, j]")
             return None
-        return Matrix(kind.columns, kind.rows, kind.element)
+        return MatrixType(kind.columns, kind.rows, kind.element)
 
-    def part_of_matrix(self, node: ast.Subscript, kind: Matrix) -> Type | None:
+    def part_of_matrix(self, node: ast.Subscript, kind: MatrixType) -> Type | None:
         """Infer the type of ``p[i, j]``, ``p[POSITION, j]``, ``p[POSITION, :]``."""
         indices = node.slice.elts if isinstance(node.slice, ast.Tuple) else []
         if len(indices) != 2:
@@ -76,7 +78,7 @@ class MatrixTypes(RecordTypes):
             return None
         if first is None or second is None:
             return narrow(len(first if second is None else second), second is not None)  # type: ignore[arg-type]
-        return Matrix(len(first), len(second))
+        return MatrixType(len(first), len(second))
 
     def _index(self, node: ast.expr, size: int) -> range | str | None:
         """Return the rows or columns of a block; None for a single index."""
@@ -119,14 +121,14 @@ class MatrixTypes(RecordTypes):
             sizes = [self.static_size(argument) for argument in node.args]
             wanted = 2 if name == "zeros" else 1
             good = len(sizes) == wanted and not node.keywords and all(size is not None and size > 0 for size in sizes)
-            kind = Matrix(sizes[0], sizes[-1]) if good else None  # type: ignore[arg-type]
+            kind = MatrixType(sizes[0], sizes[-1]) if good else None  # type: ignore[arg-type]
         if kind is None:
             self.report(node, rule, name=name)
             return None
         self.function.calls[node] = MakeMatrix(name)
         return kind
 
-    def _literal(self, node: ast.Call) -> Matrix | None:
+    def _literal(self, node: ast.Call) -> MatrixType | None:
         """Infer the type of ``matrix([a, b], [c, d])``."""
         if not node.args or node.keywords or not all(isinstance(row, ast.List) for row in node.args):
             return None
@@ -134,12 +136,12 @@ class MatrixTypes(RecordTypes):
         kinds = [self.infer(element) for row in rows for element in row]
         if not rows[0] or len({len(row) for row in rows}) != 1 or not set(kinds) <= {FLOAT, None}:
             return None
-        return Matrix(len(rows), len(rows[0]))
+        return MatrixType(len(rows), len(rows[0]))
 
-    def _sum(self, node: ast.Call) -> Matrix | None:
+    def _sum(self, node: ast.Call) -> MatrixType | None:
         """Infer the type of ``add_product(q, a, b)``."""
         kinds = [self.infer(argument) for argument in node.args]
-        if len(kinds) != 3 or node.keywords or not all(isinstance(kind, Matrix) for kind in kinds):
+        if len(kinds) != 3 or node.keywords or not all(isinstance(kind, MatrixType) for kind in kinds):
             return None
         q, a, b = kinds
         fits = (q.rows, q.columns, a.columns) == (a.rows, b.columns, b.rows)  # type: ignore[union-attr]
@@ -155,14 +157,14 @@ class MatrixTypes(RecordTypes):
         if not known and not (is_variable(holder) and not isinstance(holder, ast.Name)):
             return None
         kind = self.infer(holder)
-        if isinstance(kind, Matrix):
+        if isinstance(kind, MatrixType):
             self.function.calls[node] = MakeMatrix("copy")
             return kind
         return None
 
 
-def narrow(size: int, across: bool) -> Matrix | Vector:
+def narrow(size: int, across: bool) -> MatrixType | VectorType:
     """Return the type of a slice of a row or column."""
     if size in VECTORS:
-        return Vector(size)
-    return Matrix(1, size) if across else Matrix(size, 1)
+        return VectorType(size)
+    return MatrixType(1, size) if across else MatrixType(size, 1)

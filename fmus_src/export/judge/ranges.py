@@ -13,19 +13,19 @@ from .kernel import (
     INT,
     BuiltinCall,
     Function,
-    Interval,
+    IntegerRange,
     Kernel,
     KernelCall,
-    Matrix,
+    MatrixType,
     is_self_attribute,
     length_of,
     targets_of,
 )
 from .statements import range_step
 
-INT64 = Interval(-(2**63), 2**63 - 1)
-INT32 = Interval(-(2**31), 2**31 - 1)  # FMI Integers, hence inputs and parameters
-EXACT = Interval(-(2**53), 2**53)  # ints that a double holds exactly
+INT64 = IntegerRange(-(2**63), 2**63 - 1)
+INT32 = IntegerRange(-(2**31), 2**31 - 1)  # FMI Integers, hence inputs and parameters
+EXACT = IntegerRange(-(2**53), 2**53)  # ints that a double holds exactly
 ROUNDS_BEFORE_WIDENING = 4
 
 
@@ -66,7 +66,7 @@ class _Ranges:
                         self.function.ranges[name] = after
                         changed = True
 
-    def _assign(self, node: ast.AST) -> list[tuple[str, Interval]]:
+    def _assign(self, node: ast.AST) -> list[tuple[str, IntegerRange]]:
         """Return ints that a statement assigns to variables, with their ranges."""
         if isinstance(node, ast.For) and isinstance(node.target, ast.Name) and isinstance(node.iter, ast.Call):
             return [(node.target.id, self.loop_range(node.iter))]
@@ -78,26 +78,26 @@ class _Ranges:
                 return [(names[0], self.of(node.value))]
         return []
 
-    def loop_range(self, call: ast.Call) -> Interval:
+    def loop_range(self, call: ast.Call) -> IntegerRange:
         """Return values that a loop variable takes."""
         bounds = [self.of(argument) for argument in call.args[:2]]
-        first = bounds[0] if len(bounds) == 2 else Interval(0, 0)
+        first = bounds[0] if len(bounds) == 2 else IntegerRange(0, 0)
         stop = bounds[-1]
         if range_step(call) > 0:
-            return Interval(first.low, max(first.low, stop.high - 1))
-        return Interval(min(first.high, stop.low + 1), first.high)
+            return IntegerRange(first.low, max(first.low, stop.high - 1))
+        return IntegerRange(min(first.high, stop.low + 1), first.high)
 
-    def of(self, node: ast.expr) -> Interval:
+    def of(self, node: ast.expr) -> IntegerRange:
         """Return the range of an int expression."""
         return _clamp(self.without_bounds(node))
 
-    def without_bounds(self, node: ast.expr) -> Interval:
+    def without_bounds(self, node: ast.expr) -> IntegerRange:
         """Return the range before it is cut to 64 bits."""
         if isinstance(node, ast.Constant) and isinstance(node.value, int):
-            return Interval(int(node.value), int(node.value))
+            return IntegerRange(int(node.value), int(node.value))
         if node in self.function.constants and not isinstance(self.function.constants[node].value, tuple):
             value = self.function.constants[node].value
-            return Interval(int(value), int(value))
+            return IntegerRange(int(value), int(value))
         if node in self.loops:
             return self.loop_range(self.loops[node])
         if isinstance(node, ast.Name):
@@ -107,7 +107,7 @@ class _Ranges:
             return INT32 if is_read_only(self.function, holder) else INT64
         if isinstance(node, ast.UnaryOp):
             inner = self.of(node.operand)
-            return Interval(-inner.high, -inner.low) if isinstance(node.op, ast.USub) else inner
+            return IntegerRange(-inner.high, -inner.low) if isinstance(node.op, ast.USub) else inner
         if isinstance(node, ast.BinOp):
             return _combine(node.op, self.of(node.left), self.of(node.right))
         if isinstance(node, ast.IfExp):
@@ -116,18 +116,18 @@ class _Ranges:
             return self._of_call(node)
         return INT64
 
-    def _of_call(self, node: ast.Call) -> Interval:
+    def _of_call(self, node: ast.Call) -> IntegerRange:
         call = self.function.calls.get(node)
         if isinstance(call, BuiltinCall):
             argument = self.function.types[node.args[0]]
             length = length_of(argument)
             if call.name == "len" and length is not None:
-                return Interval(length, length)
+                return IntegerRange(length, length)
             if argument is INT:
                 inner = self.of(node.args[0])
                 if call.name == "abs":
                     low = 0 if inner.low <= 0 <= inner.high else min(abs(inner.low), abs(inner.high))
-                    return Interval(low, max(abs(inner.low), abs(inner.high)))
+                    return IntegerRange(low, max(abs(inner.low), abs(inner.high)))
                 return inner
         return INT64
 
@@ -151,7 +151,7 @@ class _Ranges:
 
     def _judge_index(self, node: ast.Subscript, index: ast.expr, size: int) -> None:
         interval = self.of(index)
-        if not self.function.is_total and not interval.within(Interval(0, size - 1)):
+        if not self.function.is_total and not interval.within(IntegerRange(0, size - 1)):
             self.function.unproven.add(node)
             self.function.unproven_indices.add(index)
         if interval.high < -size or interval.low >= size:
@@ -182,7 +182,7 @@ class _Ranges:
 def indices_of(function: Function, node: ast.Subscript) -> list[tuple[ast.expr, int]]:
     """Return the indices of an element, or of a row or column, each with its number of values."""
     kind = function.types[node.value]
-    if not isinstance(kind, Matrix):
+    if not isinstance(kind, MatrixType):
         size = length_of(kind)
         assert size is not None
         return [(node.slice, size)]
@@ -206,22 +206,22 @@ def _loops_of_reads(function: Function) -> dict[ast.expr, ast.Call]:
     return by_read
 
 
-def _clamp(interval: Interval) -> Interval:
+def _clamp(interval: IntegerRange) -> IntegerRange:
     """Cut a range to 64 bits: values beyond end the call, so no variable ever holds them."""
-    return Interval(min(max(interval.low, INT64.low), INT64.high), max(min(interval.high, INT64.high), INT64.low))
+    return IntegerRange(min(max(interval.low, INT64.low), INT64.high), max(min(interval.high, INT64.high), INT64.low))
 
 
-def _combine(operator: ast.operator, left: Interval, right: Interval) -> Interval:
+def _combine(operator: ast.operator, left: IntegerRange, right: IntegerRange) -> IntegerRange:
     if isinstance(operator, ast.Add):
-        return Interval(left.low + right.low, left.high + right.high)
+        return IntegerRange(left.low + right.low, left.high + right.high)
     if isinstance(operator, ast.Sub):
-        return Interval(left.low - right.high, left.high - right.low)
+        return IntegerRange(left.low - right.high, left.high - right.low)
     if isinstance(operator, ast.Mult):
         corners = [a * b for a in (left.low, left.high) for b in (right.low, right.high)]
-        return Interval(min(corners), max(corners))
+        return IntegerRange(min(corners), max(corners))
     if isinstance(operator, ast.FloorDiv) and right.low > 0:
         corners = [a // b for a in (left.low, left.high) for b in (right.low, right.high)]
-        return Interval(min(corners), max(corners))
+        return IntegerRange(min(corners), max(corners))
     if isinstance(operator, ast.Mod) and right.low > 0:
-        return Interval(0, right.high - 1)
-    return Interval(-(2**63), 2**63)  # // and % by what may be 0, or -1: checked at run time
+        return IntegerRange(0, right.high - 1)
+    return IntegerRange(-(2**63), 2**63)  # // and % by what may be 0, or -1: checked at run time

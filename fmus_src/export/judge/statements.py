@@ -12,21 +12,21 @@ from .kernel import (
     Function,
     Kernel,
     List,
-    Matrix,
+    MatrixType,
     RecordType,
     Returned,
     Scalar,
     Several,
     Type,
     Value,
-    Vector,
+    VectorType,
     is_self_attribute,
 )
 from .vectors import is_variable
 
 UNUSED = "_"  # a target for unused ones of several values
-ANY_VECTOR = Vector(0)  # declared as Vector, its size not known yet
-ANY_MATRIX = Matrix(0, 0)  # declared as Matrix
+ANY_VECTOR = VectorType(0)  # declared as Vector, its size not known yet
+ANY_MATRIX = MatrixType(0, 0)  # declared as Matrix
 
 
 def local_names(node: ast.FunctionDef) -> set[str]:
@@ -99,12 +99,12 @@ class StatementTypes(CallTypes):
         kind = self.infer(value)
         if isinstance(kind, List):
             name = ast.unparse(target)
-            if is_self_attribute(target) and isinstance(self.infer(target), Vector):
+            if is_self_attribute(target) and isinstance(self.infer(target), VectorType):
                 self.report(node, "list stored", name=name)
                 return
             self.report(node, "list shared" if name in self.bound else "list rebound", name=name)
             return
-        if isinstance(kind, Matrix) and isinstance(target, ast.Name) and is_variable(value):
+        if isinstance(kind, MatrixType) and isinstance(target, ast.Name) and is_variable(value):
             self.report(node, "matrix shared", name=target.id, value=ast.unparse(value))
         self.store(target, kind)
 
@@ -116,7 +116,7 @@ class StatementTypes(CallTypes):
         unpacked = self.infer_several(value)
         if isinstance(unpacked, Several):
             kinds: list[Value] = list(unpacked.parts)
-        elif isinstance(unpacked, Vector):
+        elif isinstance(unpacked, VectorType):
             kinds = [FLOAT] * unpacked.size
         else:
             if unpacked is not None:
@@ -139,7 +139,7 @@ class StatementTypes(CallTypes):
             expected = self.function.parameters.get(target.id) or self.function.locals.get(target.id)
             if expected is None and kind is not None:
                 self.function.locals[target.id] = kind
-            if isinstance(expected, Matrix) and target.id in self.function.parameters:
+            if isinstance(expected, MatrixType) and target.id in self.function.parameters:
                 self.report(target, "matrix rebound", name=target.id)
         elif self._is_component(target):
             holder = target.value  # type: ignore[attr-defined]
@@ -165,16 +165,16 @@ class StatementTypes(CallTypes):
     def _is_component(self, target: ast.expr) -> bool:
         """Return True if a target is an element or a component of a vector."""
         if isinstance(target, ast.Subscript):
-            return isinstance(self.infer(target.value), Vector)
+            return isinstance(self.infer(target.value), VectorType)
         if not isinstance(target, ast.Attribute) or is_self_attribute(target):
             return False
         name = target.value.id if isinstance(target.value, ast.Name) else None
         known = name is None or name in self.bound or name in self.function.parameters
-        return known and isinstance(self.infer(target.value), Vector | RecordType)
+        return known and isinstance(self.infer(target.value), VectorType | RecordType)
 
     def bind_list(self, node: ast.stmt, target: ast.expr, value: ast.expr) -> None:
         """Check ``name = [0.0] * n`` or ``name = [a, b, c]``."""
-        if is_self_attribute(target) and isinstance(self.infer(target), Vector):
+        if is_self_attribute(target) and isinstance(self.infer(target), VectorType):
             self.report(node, "list stored", name=ast.unparse(target))
             return
         if not isinstance(target, ast.Name) or target.id in self.function.parameters:
@@ -237,7 +237,7 @@ class StatementTypes(CallTypes):
         """Report a matrix that would have a second name: an argument, a variable of the block, one that is twice."""
         results = node.value.elts if isinstance(node.value, ast.Tuple) else [node.value]
         for number, result in enumerate(results):
-            if not isinstance(result, ast.expr) or not isinstance(self.function.types.get(result), Matrix):
+            if not isinstance(result, ast.expr) or not isinstance(self.function.types.get(result), MatrixType):
                 continue
             local = isinstance(result, ast.Name) and result.id not in self.function.parameters
             before = [ast.unparse(each) for each in results[:number] if each is not None]
@@ -267,9 +267,9 @@ def with_size(declared: Returned | None, returned: Type | Several | None) -> Ret
     """Return a function's declared return type, with the inferred size of a vector or matrix."""
     if isinstance(declared, Several) and isinstance(returned, Several) and len(declared.parts) == len(returned.parts):
         return Several(tuple(with_size(*pair) for pair in zip(declared.parts, returned.parts, strict=True)))  # type: ignore[misc]
-    if declared == ANY_VECTOR and isinstance(returned, Vector):
+    if declared == ANY_VECTOR and isinstance(returned, VectorType):
         return returned
-    return returned if declared == ANY_MATRIX and isinstance(returned, Matrix) else declared
+    return returned if declared == ANY_MATRIX and isinstance(returned, MatrixType) else declared
 
 
 def is_list_binding(value: ast.expr) -> bool:

@@ -15,7 +15,7 @@ from ...kernel import functions
 
 
 @dataclass(frozen=True)
-class Rule:
+class SubsetRule:
     """Why something is refused, and what to write instead."""
 
     what: str
@@ -56,13 +56,13 @@ MATH_FUNCTIONS: dict[str, MathFunction] = {
 }
 
 
-def _read_rules(text: str) -> dict[str, Rule]:
+def _read_rules(text: str) -> dict[str, SubsetRule]:
     """Read rules by name, from two lines each: ``name: what is refused``, and indented what to write instead."""
     lines = text.strip().splitlines()
     rules = {}
     for first, remedy in zip(lines[::2], lines[1::2], strict=True):
         name, _, what = first.partition(": ")
-        rules[name] = Rule(what, remedy.strip())
+        rules[name] = SubsetRule(what, remedy.strip())
     return rules
 
 
@@ -90,7 +90,7 @@ OPERATORS: tuple[type[ast.operator], ...] = (
 COMPARISONS: tuple[type[ast.cmpop], ...] = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 
 # By the node of `ast`.
-REFUSED_SYNTAX: dict[type[ast.AST], Rule] = {
+REFUSED_SYNTAX: dict[type[ast.AST], SubsetRule] = {
     getattr(ast, node): rule
     for node, rule in _read_rules("""
 Try: try: exceptions do not exist in a kernel
@@ -194,11 +194,11 @@ REFUSED_FUNCTIONS: dict[str, str] = {
 REFUSED_MATH = "write from perilune import {name}: that of the C library has other bits on other processors"
 
 LANGUAGE_PAGE = "What a kernel may use"  # of the documentation site, derived from this file
-OTHER_SYNTAX = Rule("{name} is outside the subset", f'write what the page "{LANGUAGE_PAGE}" lists')
+OTHER_SYNTAX = SubsetRule("{name} is outside the subset", f'write what the page "{LANGUAGE_PAGE}" lists')
 OTHER_FUNCTION = f'take one of the page "{LANGUAGE_PAGE}", write one in the file, or declare python_only = True'
 
 # What a kernel may not say although each word of it is allowed.
-RULES: dict[str, Rule] = _read_rules("""
+RULES: dict[str, SubsetRule] = _read_rules("""
 no source: {name}: its source cannot be read
     define it in a .py file
 no initialize: {name}: initialize is not a method

@@ -16,7 +16,17 @@ from weakref import WeakKeyDictionary
 from ...block import Block
 from ...roles import SAMPLE_PERIOD
 from ...variables import Output, Parameter, State
-from .kernel import Bound, Function, Kernel, KernelCall, List, Matrix, body_of, is_self_attribute, targets_of
+from .kernel import (
+    BoundFunction,
+    Function,
+    Kernel,
+    KernelCall,
+    List,
+    MatrixType,
+    body_of,
+    is_self_attribute,
+    targets_of,
+)
 from .typed import typecheck
 
 SELF = "self."  # before the name of a variable of the block, among those of locals and arguments
@@ -133,7 +143,7 @@ class _Flow:
         before = -1
         while before != (before := self._size()):
             self._block(body_of(function.source.node), frozenset())
-        changeable = {name for name, kind in function.parameters.items() if isinstance(kind, List | Matrix)}
+        changeable = {name for name, kind in function.parameters.items() if isinstance(kind, List | MatrixType)}
         self.changed = {name: self.sources[name] for name in changeable & self.assigned}
         self.sources = {name: origins for name, origins in self.sources.items() if name.startswith(SELF)}
 
@@ -193,7 +203,7 @@ class _Flow:
 
     def _read(self, node: ast.AST, deciding: Names) -> Names:
         """Return what an expression follows from, and take in what its calls assign."""
-        if isinstance(node, ast.expr) and isinstance(self.function.types.get(node), Bound):
+        if isinstance(node, ast.expr) and isinstance(self.function.types.get(node), BoundFunction):
             return frozenset()
         if isinstance(node, ast.Attribute) and is_self_attribute(node):
             return frozenset({SELF + node.attr})

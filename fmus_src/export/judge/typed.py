@@ -14,18 +14,18 @@ from .kernel import (
     BOOL,
     FLOAT,
     INT,
-    Bound,
+    BoundFunction,
     Function,
     Kernel,
     List,
-    Matrix,
+    MatrixType,
     RecordType,
     Returned,
     Scalar,
     Several,
     Type,
     Value,
-    Vector,
+    VectorType,
     body_of,
 )
 from .source import Source, find_global, find_method, source_of, with_plain_arguments
@@ -35,13 +35,13 @@ LIST, FUNCTION, ANY = OTHERS = "list", "function", "any value"
 ANNOTATIONS: dict[str, Value | str] = {"float": FLOAT, "int": INT, "bool": BOOL, "Vector": ANY_VECTOR}
 ANNOTATIONS["Matrix"] = ANY_MATRIX
 ANNOTATIONS |= {"list": LIST, "tuple": LIST, "Derivatives": FUNCTION, "Any": ANY}
-ANNOTATIONS |= {kind.__name__: Vector(size) for size, kind in VECTORS.items()}
+ANNOTATIONS |= {kind.__name__: VectorType(size) for size, kind in VECTORS.items()}
 
 
 def typecheck(block_class: type[Block]) -> Kernel:
     """Infer the types of the functions that `initialize` and `step` of a block reach; violations are collected."""
     kernel = Kernel(block_class)
-    finder = _Finder(kernel)
+    finder = _FunctionMaker(kernel)
     if not block_class.variables:
         kernel.report_block("no variables")
     for name, types in (("initialize", []), ("step", [FLOAT, FLOAT])):
@@ -53,7 +53,7 @@ def typecheck(block_class: type[Block]) -> Kernel:
     return kernel
 
 
-class _Finder:
+class _FunctionMaker:
     """Makes one Function per Python function and combination of list and vector types."""
 
     def __init__(self, kernel: Kernel) -> None:
@@ -132,7 +132,7 @@ class _Finder:
                 self.kernel.report(source, argument, "signature", name=source.name, detail=detail)
                 return None
             if not _fits(given, declared):
-                mixed = {List, Vector} == {type(given), List if declared == "list" else type(declared)}
+                mixed = {List, VectorType} == {type(given), List if declared == "list" else type(declared)}
                 self.kernel.report(
                     *place,
                     "list and vector" if mixed else "argument type",
@@ -173,12 +173,12 @@ def _fits(given: Type, declared: Value | str) -> bool:
     if declared == "list":
         return isinstance(given, List)
     if declared == FUNCTION:
-        return isinstance(given, Bound)
+        return isinstance(given, BoundFunction)
     if declared == ANY:
-        return isinstance(given, Scalar | Vector | RecordType)
+        return isinstance(given, Scalar | VectorType | RecordType)
     if declared == ANY_MATRIX:
-        return isinstance(given, Matrix)
-    return given == declared or (declared == ANY_VECTOR and isinstance(given, Vector))
+        return isinstance(given, MatrixType)
+    return given == declared or (declared == ANY_VECTOR and isinstance(given, VectorType))
 
 
 def _annotation(source: Source, node: ast.expr | None) -> Value | str | None:

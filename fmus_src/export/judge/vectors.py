@@ -18,10 +18,10 @@ from .kernel import (
     RecordType,
     Several,
     Type,
-    Vector,
+    VectorType,
     is_self_attribute,
 )
-from .subset_table import Rule
+from .subset_table import SubsetRule
 
 ON_VECTORS = (ast.Add, ast.Sub, ast.Mult, ast.Div)  # of two vectors, component by component
 BY_NUMBERS = (ast.Mult, ast.Div)  # of a vector and a number
@@ -33,7 +33,7 @@ class VectorTypes(ABC):
     function: Function
 
     @abstractmethod
-    def report(self, node: ast.AST, rule: str | Rule, **details: object) -> None:
+    def report(self, node: ast.AST, rule: str | SubsetRule, **details: object) -> None:
         """Report a violation."""
 
     @abstractmethod
@@ -51,22 +51,22 @@ class VectorTypes(ABC):
         name = type(operator).__name__
         if isinstance(left, List) or isinstance(right, List):
             self.report(node, "list for vector", left=left, right=right)
-        elif isinstance(left, Vector) and isinstance(right, Vector):
+        elif isinstance(left, VectorType) and isinstance(right, VectorType):
             if left.size != right.size:
                 self.report(node, "vector sizes", left=left, right=right)
             elif isinstance(operator, ON_VECTORS):
                 return left
             else:
                 self.report(node, "vector operator", name=name, left=left, right=right)
-        elif isinstance(left, Vector) and right in (FLOAT, INT) and isinstance(operator, BY_NUMBERS):
+        elif isinstance(left, VectorType) and right in (FLOAT, INT) and isinstance(operator, BY_NUMBERS):
             return left
-        elif isinstance(right, Vector) and left in (FLOAT, INT) and isinstance(operator, ast.Mult):
+        elif isinstance(right, VectorType) and left in (FLOAT, INT) and isinstance(operator, ast.Mult):
             return right
         else:
             self.report(node, "vector operator", name=name, left=left, right=right)
         return None
 
-    def component(self, node: ast.Attribute, kind: Vector) -> Type | None:
+    def component(self, node: ast.Attribute, kind: VectorType) -> Type | None:
         """Infer the type of ``v.x``."""
         names = VECTORS[kind.size].names
         if node.attr not in names:
@@ -78,7 +78,7 @@ class VectorTypes(ABC):
     def part(self, node: ast.Subscript, container: Type | None) -> int | None:
         """Return the number of elements that ``v[1:4]`` of a vector or list has."""
         assert isinstance(node.slice, ast.Slice)
-        if not isinstance(container, Vector | List):
+        if not isinstance(container, VectorType | List):
             if container is not None:
                 self.report(node, "number", name="a part", got=container)
             return None
@@ -105,7 +105,7 @@ class VectorTypes(ABC):
         if size not in VECTORS:
             self.report(node, "part", part=ast.unparse(node), size=len(self.function.parts.pop(node)))
             return None
-        return Vector(size)
+        return VectorType(size)
 
     def make_vector(self, node: ast.Call) -> Type | None:
         """Infer the type of ``vector(x, y, z)`` or ``vector(*wrench[0:3])``."""
@@ -130,7 +130,7 @@ class VectorTypes(ABC):
             self.report(node, "vector size", got=size)
             return None
         self.function.calls[node] = MakeVector()
-        return Vector(size)
+        return VectorType(size)
 
     def _unpack_starred(self, node: ast.expr) -> int | None:
         """Return the number of elements of ``*wrench[0:3]`` or ``*row``; its range is stored."""

@@ -9,17 +9,17 @@ from ..judge.effects import own_outcome
 from ..judge.kernel import (
     FLOAT,
     INT,
-    Bound,
+    BoundFunction,
     BuiltinCall,
     Function,
     KernelCall,
     MakeRecord,
     MakeVector,
     MathCall,
-    Matrix,
+    MatrixType,
     RecordType,
     Scalar,
-    Vector,
+    VectorType,
     length_of,
 )
 from .names import C_TYPES, c_type, identifier, literal
@@ -61,12 +61,12 @@ class CallWriter(ABC):
     def elements(self, node: ast.expr) -> list[str]:
         """Return the elements of a slice, ``wrench[0:3]``, or of a whole list."""
         holder = node.value if isinstance(node, ast.Subscript) else node
-        member = ".x" if isinstance(self.function.types[holder], Vector) else ""
+        member = ".x" if isinstance(self.function.types[holder], VectorType) else ""
         return [f"{self.write(holder, ATOM)}{member}[{k}]" for k in self.function.parts[node]]
 
     def vector(self, elements: list[str]) -> str:
         """Return a vector of components; in parentheses for its commas, since isfinite and fabs are macros."""
-        return f"(({c_type(Vector(len(elements)))}){{{{{', '.join(elements)}}}}})"
+        return f"(({c_type(VectorType(len(elements)))}){{{{{', '.join(elements)}}}}})"
 
     def write_call(self, node: ast.Call) -> tuple[str, int]:
         call = self.function.calls[node]
@@ -94,13 +94,13 @@ class CallWriter(ABC):
         arguments = ["self"] if callee.takes_block else []
         if callee.can_fault:
             arguments.append("fault")
-        passed = [each for each in node.args if not isinstance(self.function.types[each], Bound)]
+        passed = [each for each in node.args if not isinstance(self.function.types[each], BoundFunction)]
         return self.call(self.names.functions[callee], *arguments, *[self._argument(argument) for argument in passed])
 
     def _argument(self, node: ast.expr) -> str:
         """Write an argument; a matrix by its address."""
         text = self.write(node)
-        if not isinstance(self.function.types[node], Matrix):
+        if not isinstance(self.function.types[node], MatrixType):
             return text
         if isinstance(self.function.calls.get(node), KernelCall) and not text.isidentifier():  # type: ignore[call-overload]
             text = self.hoist(node, text)

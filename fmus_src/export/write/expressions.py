@@ -11,10 +11,10 @@ from ..judge.kernel import (
     INT,
     KernelCall,
     List,
-    Matrix,
+    MatrixType,
     RecordType,
     Several,
-    Vector,
+    VectorType,
     is_self_attribute,
 )
 from .calls import CallWriter
@@ -92,7 +92,7 @@ class ExpressionWriter(CallWriter):
         return literal(node.value), ATOM  # type: ignore[arg-type]
 
     def write_name(self, node: ast.Name) -> tuple[str, int]:
-        if isinstance(self.function.types.get(node), Matrix) and node.id in self.function.parameters:
+        if isinstance(self.function.types.get(node), MatrixType) and node.id in self.function.parameters:
             return f"(*{identifier(node.id)})", ATOM
         constant = self.function.constants.get(node)
         return (self.names.constants[constant] if constant else identifier(node.id)), ATOM
@@ -115,7 +115,7 @@ class ExpressionWriter(CallWriter):
 
     def place(self, node: ast.Subscript, index: str = "") -> str:
         """Return the suffix of a list or vector that means one element."""
-        member = ".x" if isinstance(self.function.types[node.value], Vector) else ""
+        member = ".x" if isinstance(self.function.types[node.value], VectorType) else ""
         return f"{member}[{index or self.index(node)}]"
 
     def write_tuple(self, node: ast.Tuple) -> tuple[str, int]:
@@ -127,7 +127,7 @@ class ExpressionWriter(CallWriter):
     def index(self, node: ast.Subscript) -> str:
         """Write the index of an element; checked where it was not proven right."""
         container = self.function.types[node.value]
-        assert isinstance(container, List | Vector)
+        assert isinstance(container, List | VectorType)
         text = self.write(node.slice)
         if node in self.function.unproven:
             return self.write_checked(node, "py_index", text, str(container.size))[0]
@@ -136,7 +136,7 @@ class ExpressionWriter(CallWriter):
     def write_binop(self, node: ast.BinOp) -> tuple[str, int]:
         if self.function.types[node] is INT:
             return self._int_operation(node)
-        if isinstance(self.function.types[node], Vector):
+        if isinstance(self.function.types[node], VectorType):
             return self._vector_operation(node)
         if isinstance(self.function.types[node], RecordType):
             return self._record_operation(node)
@@ -157,16 +157,16 @@ class ExpressionWriter(CallWriter):
     def _vector_operation(self, node: ast.BinOp) -> tuple[str, int]:
         """Write an operator on vectors of one size, or on a vector and a number."""
         operands = [node.left, node.right]
-        both = all(isinstance(self.function.types[operand], Vector) for operand in operands)
+        both = all(isinstance(self.function.types[operand], VectorType) for operand in operands)
         if isinstance(node.op, ast.Mult) and not both:
-            operands.sort(key=lambda operand: isinstance(self.function.types[operand], Vector))  # the number first
+            operands.sort(key=lambda operand: isinstance(self.function.types[operand], VectorType))  # the number first
             name = "scale"
         elif isinstance(node.op, ast.Div) and both:
             name = "quotient"
         else:
             name = VECTOR_NAMES[type(node.op)]
         kind = self.function.types[node]
-        assert isinstance(kind, Vector)
+        assert isinstance(kind, VectorType)
         texts = [self.write_as_float(operand, CONDITIONAL) for operand in operands]
         if own_outcome(self.function, node):
             return self.write_checked(node, f"py_{name}{kind.size}", *texts)
@@ -205,7 +205,7 @@ class ExpressionWriter(CallWriter):
         if node in self.function.unproven:
             return self.write_checked(node, "py_negative", self.write(node.operand))
         kind = self.function.types[node]
-        if isinstance(kind, Vector):
+        if isinstance(kind, VectorType):
             return self.call(f"negative{kind.size}", self.write(node.operand)), ATOM
         if isinstance(kind, RecordType):
             return self.call(f"negative_{c_type(kind)}", self.write(node.operand)), ATOM

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from ..judge.kernel import Bound, Function, Matrix, RecordType, Several, Vector, body_of
+from ..judge.kernel import BoundFunction, Function, MatrixType, RecordType, Several, VectorType, body_of
 from ..judge.source import label
 from .names import Names, c_type, declaration, identifier
 from .statements import StatementWriter
@@ -18,13 +18,13 @@ def signature(function: Function, name: str, block_type: str) -> str:
     if function.can_fault:
         arguments.append("Fault *fault")
     for parameter, kind in function.parameters.items():
-        if isinstance(kind, Bound):
+        if isinstance(kind, BoundFunction):
             continue
         arguments.append(declaration(kind, identifier(parameter), parameter not in function.changed_lists))
     returned = c_type(function.returns) if function.returns else "void"
     passed = [*function.parameters.values(), function.returns]
     # vectors that are not inlined go through memory
-    hint = "inline " if any(isinstance(kind, Vector | Matrix | RecordType | Several) for kind in passed) else ""
+    hint = "inline " if any(isinstance(kind, VectorType | MatrixType | RecordType | Several) for kind in passed) else ""
     return f"static {hint}{returned} {name}({', '.join(arguments) or 'void'})"
 
 
@@ -48,7 +48,7 @@ def write_function(function: Function, names: Names, block_type: str) -> list[st
 def _find_unused(function: Function) -> list[str]:
     """Return C names of the arguments that the function does not use."""
     read = {part.id for part in ast.walk(function.source.node) if isinstance(part, ast.Name)}
-    valued = [name for name, kind in function.parameters.items() if not isinstance(kind, Bound)]
+    valued = [name for name, kind in function.parameters.items() if not isinstance(kind, BoundFunction)]
     unused = [identifier(name) for name in valued if name not in read]
     calls_methods = any(callee.takes_block for callee in function.callees())
     if function.takes_block and "self" not in read and not calls_methods:

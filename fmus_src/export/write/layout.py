@@ -17,7 +17,7 @@ TYPE_AND_NAME = re.compile(
 )  # stay on one line with what follows
 
 
-class Lines:
+class CodeLines:
     """Lines of C at the current depth of indentation."""
 
     def __init__(self, depth: int = 0) -> None:

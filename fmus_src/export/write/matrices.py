@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 
-from ..judge.kernel import MakeMatrix, Matrix, Vector
+from ..judge.kernel import MakeMatrix, MatrixType, VectorType
 from .matrix_entries import Index, MatrixEntries, entry_of, times
 from .names import c_type, identifier
 from .operators import ATOM
@@ -20,7 +20,7 @@ class MatrixWriter(MatrixEntries):
     def write(self, node: ast.expr) -> tuple[str, int]:
         """Write a matrix that is no variable, or a vector computed by one: C text after the statements it needs."""
         kind = self.function.types[node]
-        if isinstance(kind, Vector):
+        if isinstance(kind, VectorType):
             entry = self.prepare(node)
             return self.expressions.vector([entry(i, 0)[0] for i in range(kind.size)]), ATOM
         return self.materialise(node), ATOM
@@ -51,7 +51,7 @@ class MatrixWriter(MatrixEntries):
 
     def _assign_block(self, target: ast.Subscript, expression: ast.expr) -> None:
         kind = self.function.types[target]
-        if isinstance(kind, Vector):
+        if isinstance(kind, VectorType):
             text = self.expressions.write(expression)
             text = text if text.isidentifier() else self.out.keep(expression, text, "part")
             rows, _ = self.function.blocks[target]
@@ -59,7 +59,7 @@ class MatrixWriter(MatrixEntries):
             for k in range(kind.size):
                 self.out.add(f"{entry(*((k, 0) if rows else (0, k)))[0]} = {text}.x[{k}];")
             return
-        assert isinstance(kind, Matrix)
+        assert isinstance(kind, MatrixType)
         if self.plan.is_disturbed(expression, ast.unparse(target), ast.unparse(target.value)):
             entry = entry_of(f"{self.materialise(expression)}.x", kind.columns)
         else:
@@ -71,14 +71,14 @@ class MatrixWriter(MatrixEntries):
         """Return the name of a new matrix that holds an expression."""
         name = self.out.fresh("part")
         kind = self.function.types[node]
-        assert isinstance(kind, Matrix)
+        assert isinstance(kind, MatrixType)
         self._fill(node, f"{c_type(kind)} {name}", name, True)
         return name
 
     def _fill(self, node: ast.expr, left: str, name: str, declares: bool) -> None:
         """Compute a matrix that nothing else reads meanwhile."""
         kind = self.function.types[node]
-        assert isinstance(kind, Matrix)
+        assert isinstance(kind, MatrixType)
         call = self.function.calls.get(node) if isinstance(node, ast.Call) else None
         if self.plan.is_small(node):
             if isinstance(call, MakeMatrix) and call.name == "matrix":
@@ -118,7 +118,7 @@ class MatrixWriter(MatrixEntries):
             self.out.add(f"{left};")
         self._each(kind, False, write)
 
-    def _each(self, kind: Matrix, small: bool, write: Callable[[Index, Index], list[str]]) -> None:
+    def _each(self, kind: MatrixType, small: bool, write: Callable[[Index, Index], list[str]]) -> None:
         """Write statements for each element: written out, or in loops."""
         if small:
             for i in range(kind.rows):

@@ -9,7 +9,7 @@ import ast
 from collections.abc import Callable
 
 from ..judge.effects import own_outcome
-from ..judge.kernel import KernelCall, MakeMatrix, Matrix, Vector
+from ..judge.kernel import KernelCall, MakeMatrix, MatrixType, VectorType
 from ..judge.ranges import indices_of
 from ..judge.vectors import is_variable
 from .expressions import ExpressionWriter
@@ -37,12 +37,12 @@ class MatrixEntries:
     def prepare(self, node: ast.expr) -> Entry:
         """Return the elements of a matrix, or of a vector as its column, after the statements that they need."""
         kind = self.function.types[node]
-        if isinstance(kind, Vector) and not is_matmul(node):
+        if isinstance(kind, VectorType) and not is_matmul(node):
             text = self.expressions.write(node)
             text = text if text.isidentifier() else self.out.keep(node, text, "part")
             return lambda i, j: (f"{text}.x[{i}]", ATOM)
         if is_variable(node):
-            assert isinstance(kind, Matrix)
+            assert isinstance(kind, MatrixType)
             return entry_of(self.holder(node), kind.columns)
         if isinstance(node, ast.Attribute):
             inner = self.prepare(node.value)
@@ -65,7 +65,7 @@ class MatrixEntries:
     def place(self, node: ast.Subscript) -> str:
         """Return the index of ``p[i, j]`` in row order."""
         kind = self.function.types[node.value]
-        assert isinstance(kind, Matrix)
+        assert isinstance(kind, MatrixType)
         row, column = (self._index(node, *each) for each in indices_of(self.function, node))
         return str(row_order_index(row, column, kind.columns))
 
@@ -94,7 +94,7 @@ class MatrixEntries:
 
     def _call(self, node: ast.Call) -> Entry:
         kind, call = self.function.types[node], self.function.calls[node]
-        assert isinstance(kind, Matrix)
+        assert isinstance(kind, MatrixType)
         write = self.expressions.write
         if isinstance(call, KernelCall):
             text = write(node)
@@ -126,7 +126,7 @@ class MatrixEntries:
             left, divisor = self.prepare(node.left), self._scalar(node.right, node)
             return lambda i, j: (f"{parenthesise(left(i, j), PRODUCT)} / {divisor}", PRODUCT)
         number, holder = node.left, node.right
-        if isinstance(self.function.types[number], Matrix):
+        if isinstance(self.function.types[number], MatrixType):
             holder, number = number, holder
             entry, factor = self.prepare(holder), self._scalar(number)
         else:
@@ -150,7 +150,7 @@ class MatrixEntries:
         """Write ``a @ b``, whose sums run from the first product on, or ``add_product(q, a, b)``."""
         if self.plan.is_long(node):
             kind = self.function.types[node]
-            assert isinstance(kind, Matrix)
+            assert isinstance(kind, MatrixType)
             return entry_of(f"{self.materialise(node)}.x", kind.columns)
         start, row, column = self.factors(node)
         inner = self.plan.inner(node)
@@ -169,13 +169,13 @@ class MatrixEntries:
         """
         *addend, first, second = terms_of(node)
         kind, right = self.function.types[first], self.function.types[second]
-        assert isinstance(kind, Matrix)
+        assert isinstance(kind, MatrixType)
         start = self.prepare(addend[0]) if addend else None
-        is_column = isinstance(right, Vector) or right.columns == 1  # type: ignore[union-attr]
+        is_column = isinstance(right, VectorType) or right.columns == 1  # type: ignore[union-attr]
         entries = []
         for factor, single in ((first, is_column), (second, kind.rows == 1)):
             kind = self.function.types[factor]
-            if single or self.plan.is_cheap(factor) or not isinstance(kind, Matrix):
+            if single or self.plan.is_cheap(factor) or not isinstance(kind, MatrixType):
                 entries.append(self.prepare(factor))
             else:
                 entries.append(entry_of(f"{self.materialise(factor)}.x", kind.columns))

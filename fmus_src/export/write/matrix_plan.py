@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from ..judge.kernel import Function, KernelCall, MakeMatrix, Matrix
+from ..judge.kernel import Function, KernelCall, MakeMatrix, MatrixType
 from ..judge.vectors import is_variable
 
 FEW = 16  # elements that are written out,
@@ -21,7 +21,7 @@ class MatrixPlan:
     def inner(self, node: ast.expr) -> int:
         """Return the number of products in a sum of a product."""
         left = self.function.types[terms_of(node)[-2]]
-        assert isinstance(left, Matrix)
+        assert isinstance(left, MatrixType)
         return left.columns
 
     def _is_product(self, node: ast.AST) -> bool:
@@ -42,7 +42,7 @@ class MatrixPlan:
     def is_small(self, node: ast.expr) -> bool:
         """Return True if a matrix is written out."""
         kind = self.function.types[node]
-        assert isinstance(kind, Matrix)
+        assert isinstance(kind, MatrixType)
         if isinstance(node, ast.Call) and any(isinstance(row, ast.List) for row in node.args):
             return True
         if self.is_long(node):
@@ -59,7 +59,7 @@ class MatrixPlan:
         if ast.unparse(node) == target or (self._is_argument(node) and target == variable):
             return False
         if isinstance(node, ast.BinOp) and not is_matmul(node):
-            matrices = [each for each in (node.left, node.right) if isinstance(self.function.types[each], Matrix)]
+            matrices = [each for each in (node.left, node.right) if isinstance(self.function.types[each], MatrixType)]
             return any(self.is_disturbed(each, target, variable) for each in matrices)
         if isinstance(node, ast.UnaryOp):
             return self.is_disturbed(node.operand, target, variable)
@@ -70,7 +70,7 @@ class MatrixPlan:
     def _is_argument(self, node: ast.expr) -> bool:
         """Return True if an expression is a matrix argument of the function."""
         name = node.id if isinstance(node, ast.Name) else ""
-        return isinstance(self.function.parameters.get(name), Matrix)
+        return isinstance(self.function.parameters.get(name), MatrixType)
 
 
 def is_matmul(node: ast.AST) -> bool:

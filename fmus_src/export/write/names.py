@@ -15,17 +15,17 @@ from ..judge.kernel import (
     BOOL,
     FLOAT,
     INT,
-    Bound,
+    BoundFunction,
     Constant,
     Function,
     Kernel,
     List,
-    Matrix,
+    MatrixType,
     RecordType,
     Several,
     Type,
     Value,
-    Vector,
+    VectorType,
 )
 
 C_TYPES = {FLOAT: "double", INT: "int64_t", BOOL: "bool"}
@@ -118,13 +118,13 @@ def _function_names(functions: list[Function]) -> dict[Function, str]:
 
 def _distinction(kind: Type) -> str:
     """Return the suffix that distinguishes a function of these arguments from others of its name."""
-    if isinstance(kind, Bound):
+    if isinstance(kind, BoundFunction):
         return kind.function.__name__
     if isinstance(kind, RecordType):
         return kind.record.__name__
-    if isinstance(kind, Matrix):
+    if isinstance(kind, MatrixType):
         return f"{kind.rows}x{kind.columns}"
-    return str(kind.size) if isinstance(kind, List | Vector) else ""
+    return str(kind.size) if isinstance(kind, List | VectorType) else ""
 
 
 def block_type_name(name: str) -> str:
@@ -165,11 +165,11 @@ def c_type(kind: Value | Several) -> str:
     """Return the C type: ``double``, ``Vector3``, ``Motion``; ``DoubleVector3`` for a float and a vector."""
     if isinstance(kind, RecordType):
         return f"{kind.record.__name__}Record"
-    if isinstance(kind, Matrix):
+    if isinstance(kind, MatrixType):
         return f"{'' if kind.element is FLOAT else kind.element.name.title()}Matrix{kind.rows}x{kind.columns}"
     if isinstance(kind, Several):
         return "".join(name[0].upper() + name[1:] for name in (c_type(part).removesuffix("_t") for part in kind.parts))
-    return VECTORS[kind.size].__name__ if isinstance(kind, Vector) else C_TYPES[kind]
+    return VECTORS[kind.size].__name__ if isinstance(kind, VectorType) else C_TYPES[kind]
 
 
 def declaration(kind: Type, name: str, constant: bool = False) -> str:
@@ -177,8 +177,8 @@ def declaration(kind: Type, name: str, constant: bool = False) -> str:
     if isinstance(kind, List):
         qualifier = "const " if constant else ""
         return f"{qualifier}{C_TYPES[kind.element]} *{name}"
-    assert not isinstance(kind, Bound)  # which has no value
-    if isinstance(kind, Matrix):
+    assert not isinstance(kind, BoundFunction)  # which has no value
+    if isinstance(kind, MatrixType):
         return f"{'const ' if constant else ''}{c_type(kind)} *{name}"
     return f"{c_type(kind)} {name}"
 

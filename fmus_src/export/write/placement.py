@@ -10,7 +10,7 @@ from ..judge.statements import UNUSED
 Path = tuple[tuple[int, int], ...]  # (block, position in it) from the function's body inwards
 
 
-class Placement:
+class LocalDeclarations:
     """Declarations of local variables, and the loops whose variable C can declare in the for itself.
 
     ``with_value`` maps an assignment to the names it declares; ``before`` maps a statement to the

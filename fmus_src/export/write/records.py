@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..judge.kernel import FLOAT, Kernel, RecordType, Vector
+from ..judge.kernel import FLOAT, Kernel, RecordType, VectorType
 from ..judge.subset import records_of
-from .layout import Lines
+from .layout import CodeLines
 from .names import c_type, declaration, identifier
 
 # name: arguments, expression of a float, and of a vector of a size
@@ -25,7 +25,7 @@ def write_records(kernel: Kernel) -> list[str]:
 
 
 def _definition(kind: RecordType) -> str:
-    lines = Lines()
+    lines = CodeLines()
     lines.open(f"typedef struct {c_type(kind)} {{")
     for name, field in kind.record.fields.items():
         unit = f"{field.unit}: " if field.unit and field.unit != "1" else ""
@@ -49,20 +49,20 @@ def _field_writer(kind: RecordType, of_float: str, of_vector: str) -> Callable[[
         inner = kind.field(name)
         if inner is FLOAT:
             return of_float.format(identifier(name))
-        size = inner.size if isinstance(inner, Vector) else f"_{c_type(inner)}"
+        size = inner.size if isinstance(inner, VectorType) else f"_{c_type(inner)}"
         return of_vector.format(identifier(name), size)
 
     return write
 
 
-def _write_operation(lines: Lines, kind: RecordType, head: str, write: Callable[[str], str]) -> None:
+def _write_operation(lines: CodeLines, kind: RecordType, head: str, write: Callable[[str], str]) -> None:
     lines.open(f"static inline {c_type(kind)} {head}\n{{")
     lines.add(f"return ({c_type(kind)}){{{', '.join(map(write, kind.record.fields))}}};")
     lines.close("}")
     lines.text.append("")
 
 
-def _write_checked_division(lines: Lines, kind: RecordType) -> None:
+def _write_checked_division(lines: CodeLines, kind: RecordType) -> None:
     """Write the division by a number that may be zero."""
     name = c_type(kind)
     lines.open(

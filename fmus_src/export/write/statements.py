@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from ..judge.effects import makes_matrix
-from ..judge.kernel import Function, KernelCall, List, Matrix, Several
+from ..judge.kernel import Function, KernelCall, List, MatrixType, Several
 from ..judge.statements import is_list_binding, range_step
 from .expressions import ExpressionWriter
 from .matrices import MatrixWriter
@@ -94,7 +94,7 @@ class StatementWriter(FunctionWriter):
             self.bind_list(node, target.id, value)
             return
         makes = makes_matrix(self.function, value) and not isinstance(self.function.calls.get(value), KernelCall)  # type: ignore[call-overload]
-        whole = makes and isinstance(self.function.types[value], Matrix)
+        whole = makes and isinstance(self.function.types[value], MatrixType)
         if whole or self.function.blocks.get(target, (None, None)) != (None, None):
             self.matrices.assign(node, target, value)
             return

@@ -13,7 +13,7 @@ from ...start_values import LARGEST, start_range
 from ...variables import Input, Parameter
 from ..description.variables import list_variables
 from ..judge.tunable import tunable_parameters
-from .layout import Lines
+from .layout import CodeLines
 from .names import identifier, literal, member
 
 KINDS = {float: "KIND_REAL", int: "KIND_INTEGER", bool: "KIND_BOOLEAN"}
@@ -23,9 +23,9 @@ ROLES = {"parameter": "ROLE_PARAMETER", "input": "ROLE_INPUT", "output": "ROLE_O
 
 def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) -> str:
     """Write the tables of the wrapper: GUID, declared starts, and variables by value reference."""
-    starts = Lines()
+    starts = CodeLines()
     starts.open("static const Block STARTS = {")
-    elements = Lines()
+    elements = CodeLines()
     elements.open("static const Element ELEMENTS[] = {")
     described: list[tuple[str, str]] = []
     tunable = tunable_parameters(block_class)
@@ -85,7 +85,7 @@ def _ranges(block_class: type[Block]) -> list[str]:
 
 def write_ranges(rows: Iterable[tuple[int, int, float, float]]) -> list[str]:
     """Return the table of ranges: first element, number of elements, least and largest value."""
-    lines = Lines()
+    lines = CodeLines()
     lines.comment("Of parameters and inputs where a simulation starts.")
     lines.open("static const Range RANGES[] = {")
     for first, count, low, high in rows:
@@ -98,7 +98,7 @@ def write_ranges(rows: Iterable[tuple[int, int, float, float]]) -> list[str]:
 def _references(block_class: type[Block], fmi: int) -> list[str]:
     """Return names by value reference: of elements in FMI 2.0, of whole variables in FMI 3.0,
     which has a table of these."""
-    lines = Lines()
+    lines = CodeLines()
     if fmi == 3:
         lines.comment("In order of value references.")
         lines.open("static const Variable VARIABLES[] = {")

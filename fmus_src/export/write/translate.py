@@ -13,11 +13,11 @@ from ...roles import SAMPLE_PERIOD, START_TIME
 from ...runtime import integration_step
 from ...variables import Variable
 from ..judge.expressions import SCALARS, type_of_variable
-from ..judge.kernel import FLOAT, INT, Function, Kernel, List, Matrix, Several, Vector
+from ..judge.kernel import FLOAT, INT, Function, Kernel, List, MatrixType, Several, VectorType
 from ..judge.source import label
 from ..judge.subset import analyse_kernel
 from .functions import write_function
-from .layout import Lines
+from .layout import CodeLines
 from .names import C_TYPES, Names, block_type_name, c_type, comment, declaration, identifier, literal, names_of
 from .records import write_records
 from .tables import write_tables
@@ -97,8 +97,8 @@ def _matrices(kernel: Kernel) -> list[str]:
     kinds = {type_of_variable(variable) for variable in kernel.block_class.variables.values()}
     for function in kernel.functions:
         kinds |= {*function.parameters.values(), *function.locals.values(), *function.types.values()}  # type: ignore[arg-type]
-    lines = Lines()
-    for kind in sorted({kind for kind in kinds if isinstance(kind, Matrix)}, key=c_type):
+    lines = CodeLines()
+    for kind in sorted({kind for kind in kinds if isinstance(kind, MatrixType)}, key=c_type):
         size = kind.rows * kind.columns
         lines.open(f"typedef struct {c_type(kind)} {{")
         lines.add(f"{C_TYPES[kind.element]} x[{size}];")
@@ -109,14 +109,14 @@ def _matrices(kernel: Kernel) -> list[str]:
 
 def _struct(block_class: type[Block], type_name: str) -> str:
     """Write a struct of one member per variable, with causality, unit, frame and description."""
-    lines = Lines()
+    lines = CodeLines()
     lines.comment("Variables in order of declaration.")
     lines.open(f"typedef struct {type_name} {{")
     for name, variable in block_class.variables.items():
         kind = type_of_variable(variable)
         if isinstance(kind, List):
             text = f"{C_TYPES[kind.element]} {identifier(name)}[{kind.size}]"
-        elif isinstance(kind, Matrix):
+        elif isinstance(kind, MatrixType):
             text = f"{c_type(kind)} {identifier(name)}"
         else:
             text = declaration(kind, identifier(name))
@@ -134,13 +134,13 @@ def _about(variable: Variable) -> str:
 
 def _constants(names: Names) -> list[str]:
     """Return module constants that the kernel uses; those of math are in kernel_math.h."""
-    lines = Lines()
+    lines = CodeLines()
     for constant, name in sorted(names.constants.items(), key=lambda item: item[1]):
         if constant.module == "math":
             continue
         if isinstance(constant.value, vector_types.Vector):
             parts = ", ".join(map(literal, constant.value))
-            lines.add(f"static const {c_type(Vector(len(constant.value)))} {name} = {{{{{parts}}}}};")
+            lines.add(f"static const {c_type(VectorType(len(constant.value)))} {name} = {{{{{parts}}}}};")
             continue
         elements = constant.value if isinstance(constant.value, tuple) else (constant.value,)
         kind = C_TYPES[SCALARS[type(elements[0])]]
@@ -155,7 +155,7 @@ def _several(kernel: Kernel) -> list[str]:
     """Return a struct for each combination of types that functions return together."""
     kinds = {function.returns for function in kernel.functions if isinstance(function.returns, Several)}
     kinds.discard(FREXP)  # in kernel_math.h
-    lines = Lines()
+    lines = CodeLines()
     for kind in sorted(kinds, key=c_type):
         lines.open(f"typedef struct {c_type(kind)} {{")
         for number, part in enumerate(kind.parts):
@@ -204,7 +204,7 @@ def _by_file(functions: list[Function]) -> list[Function]:
 def _entry_points(kernel: Kernel, names: Names) -> str:
     assert kernel.initialize is not None
     assert kernel.step is not None
-    lines = Lines()
+    lines = CodeLines()
     for function, c_name, extra in ((kernel.initialize, "model_initialize", ""), (kernel.step, "model_step", "t, h")):
         arguments = ", double t, double h" if extra else ""
         lines.open(f"static void {c_name}(Block *self, Fault *fault{arguments})\n{{")

@@ -5,11 +5,11 @@ from __future__ import annotations
 import ast
 
 from ..judge.effects import own_outcome
-from ..judge.kernel import BOOL, FLOAT, INT, Function, List, Matrix, Scalar, Several, Value, Vector
+from ..judge.kernel import BOOL, FLOAT, INT, Function, List, MatrixType, Scalar, Several, Value, VectorType
 from ..judge.source import comments_of
-from .layout import Lines
+from .layout import CodeLines
 from .names import C_TYPES, Names, c_type, identifier
-from .placement import Placement
+from .placement import LocalDeclarations
 
 ZERO = {FLOAT: "0.0", INT: "0", BOOL: "false"}
 
@@ -20,8 +20,8 @@ class FunctionWriter:
     def __init__(self, function: Function, names: Names) -> None:
         self.function = function
         self.names = names
-        self.placement = Placement(function)
-        self.lines = Lines()
+        self.placement = LocalDeclarations(function)
+        self.lines = CodeLines()
         self.comments = comments_of(function.source.path)
         self.last_line = function.source.node.lineno
         self.used = {identifier(name) for name in [*function.parameters, *function.locals]}
@@ -48,7 +48,7 @@ class FunctionWriter:
         if isinstance(returns, Scalar):
             value = f" {ZERO[returns]}"
         elif returns is not None:
-            value = f" ({c_type(returns)}){'{{0.0}}' if isinstance(returns, Vector | Matrix) else '{0}'}"
+            value = f" ({c_type(returns)}){'{{0.0}}' if isinstance(returns, VectorType | MatrixType) else '{0}'}"
         self.lines.add(f"if (fault->what) return{value};")
 
     def keep(self, node: ast.expr, text: str, name: str) -> str:

@@ -17,7 +17,7 @@ from perilune.fmus_src.actuators.gyro_steering_explicit import GyroSteeringExpli
 from perilune.fmus_src.actuators.gyro_steering_robust import GyroSteeringRobust
 from perilune.fmus_src.mathlib.actuators.gyros import ISOTROPIC_ANGLES, ISOTROPIC_RHO, distribute_angles
 from perilune.fmus_src.mathlib.vectors import vector
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.lengths import either
 
 BLOCKS = [GyroSteeringExplicit, GyroSteeringRobust]
@@ -52,7 +52,7 @@ def answer(block_class, angles, wanted, time=0.25, **settings_):
 def turned(block_class, **settings_):
     """Return angles, rates and demanded torques J phi'' of every sample of the turn, and the angles at its end."""
     acceleration = PROFILE.deriv(2)
-    component = Component(block_class)
+    component = BlockInstance(block_class)
     block = component.block
     for name, value in settings_.items():
         setattr(block, name, value)
@@ -172,7 +172,7 @@ def test_singular_states_are_safe_and_reported(block_class, angles, law_only):
 
 def flown(block_class, wanted, seconds, angles=ISOTROPIC_ANGLES, **settings_):
     """Return angles at every sample under a constant torque demand, and the statuses."""
-    component = Component(block_class)
+    component = BlockInstance(block_class)
     block = component.block
     for name, value in settings_.items():
         setattr(block, name, value)
@@ -246,7 +246,7 @@ def test_command_that_is_no_number_stops_the_gimbals(block_class, bad, name):
 
 @pytest.mark.parametrize("block_class", BLOCKS)
 def test_rates_are_held_between_samples(block_class):
-    component = Component(block_class)
+    component = BlockInstance(block_class)
     component.start()
     component.block.torque_command = [0.5, 0.0, 0.0]
     component.do_step(0.0, 0.125)

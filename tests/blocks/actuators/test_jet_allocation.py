@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from perilune.fmus_src.actuators.jet_allocation_least_propellant import JetAllocationLeastPropellant
 from perilune.fmus_src.actuators.jet_allocation_pseudo_inverse import JetAllocationPseudoInverse
 from perilune.fmus_src.actuators.jet_allocation_quantised import JetAllocationQuantised
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.lengths import either
 
 BLOCKS = [JetAllocationPseudoInverse, JetAllocationLeastPropellant, JetAllocationQuantised]
@@ -33,7 +33,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def started(block_class, force=(0.0, 0.0, 0.0), **settings_):
-    component = Component(block_class)
+    component = BlockInstance(block_class)
     for name, value in {"force_command": list(force), **settings_}.items():
         setattr(component.block, name, value)
     component.start()
@@ -117,7 +117,7 @@ def test_command_that_comes_while_another_waits_takes_its_place(block_class):
 
 @pytest.mark.parametrize("block_class", BLOCKS)
 def test_time_counts_from_the_start_of_the_flight(block_class):
-    component = Component(block_class)
+    component = BlockInstance(block_class)
     component.start_time = 100.0
     component.block.force_command = CELL
     component.start()

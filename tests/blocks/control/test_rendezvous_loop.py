@@ -18,7 +18,7 @@ from perilune.fmus_src.navigation.rendezvous_monitor import RendezvousMonitor
 from perilune.fmus_src.navigation.translation_filter import TranslationFilter
 from perilune.fmus_src.plants.drifting_target import DriftingTarget
 from perilune.fmus_src.plants.free_flying_robot import FreeFlyingRobot
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from perilune.fmus_src.sensors.laser_ranger import LaserRanger
 from perilune.fmus_src.sensors.star_inertial import StarInertial
 
@@ -99,7 +99,7 @@ class Loop:
     """All blocks with their connections, stepped as the co-simulation does."""
 
     def __init__(self, **parameters):
-        self.components = {name: Component(block) for name, block in (SOURCES | FOLLOWERS).items()}
+        self.components = {name: BlockInstance(block) for name, block in (SOURCES | FOLLOWERS).items()}
         self.blocks = {name: component.block for name, component in self.components.items()}
         given = {"target.initial_position": TARGET.tolist(), "target.constant_velocity": DRIFT.tolist()}
         given |= {"guidance.target_position": TARGET.tolist(), "guidance.target_velocity": DRIFT.tolist()}

@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 
 from perilune.fmus_src.guidance.hover_guidance import HoverGuidance
 from perilune.fmus_src.interfaces.ports.landing import HoverMode
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.flights.hover_flight import EXHAUST, GRAVITY, MASS, TARGET, H, begun, fly
 
 small = st.floats(-5.0, 5.0)
@@ -171,7 +171,7 @@ def test_starts_of_plans():
 
 
 def test_samples_at_its_period():
-    component = Component(HoverGuidance)
+    component = BlockInstance(HoverGuidance)
     names = [name for name, _ in component.elements]
     for name, value in (("mode", HoverMode.HOLD), ("mass", MASS), ("uniform_gravity", GRAVITY)):
         component.set([names.index(name)], [value])

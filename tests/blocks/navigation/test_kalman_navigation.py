@@ -15,7 +15,7 @@ from scipy import stats
 from scipy.linalg import solve_discrete_are
 
 from perilune.fmus_src.navigation.kalman import KalmanNavigation
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.flights.braking_flight import (
     ATTITUDE,
     BIAS,
@@ -309,7 +309,7 @@ def test_between_inertial_samples_the_estimate_goes_on():
 
 
 def test_initialisation_can_be_repeated_and_a_state_restored():
-    flown = Component(KalmanNavigation)
+    flown = BlockInstance(KalmanNavigation)
     names = [name for variable in KalmanNavigation.variables.values() for name in variable.element_names()]
     number = {name: k for k, name in enumerate(names)}
     outputs = [number[name] for name in ("estimated_position[1]", "estimated_velocity[3]", "covariance[100]")]

@@ -14,7 +14,7 @@ from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.navigation.kalman import KalmanNavigation
 from perilune.fmus_src.navigation.kalman_filterpy import KalmanNavigationFilterpy
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.flights.braking_flight import STEP, measurements
 from tests.support.flights.navigation_runs import plain, state_of
 
@@ -61,7 +61,7 @@ class Driven:
     """A Component or an FMU's slave, by names of variables."""
 
     def __init__(self, block_class, slave=None):
-        self.component = Component(block_class)
+        self.component = BlockInstance(block_class)
         self.slave = slave
         self.kinds = {}
         for variable in block_class.variables.values():

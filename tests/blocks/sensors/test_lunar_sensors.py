@@ -12,7 +12,7 @@ import pytest
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from perilune.fmus_src.sensors.doppler_velocimeter import DopplerVelocimeter
 from perilune.fmus_src.sensors.inertial_sensor import InertialSensor
 from perilune.fmus_src.sensors.radar_altimeter import RadarAltimeter
@@ -185,7 +185,7 @@ def test_samples_come_at_the_declared_rate_whatever_the_steps(block_class, perio
     """A sample at the start (the inertial sensor: none) and one per period; the same numbers for all steps."""
     runs = []
     for step in (period / 4.0, period / 2.0, period):
-        component = Component(block_class)
+        component = BlockInstance(block_class)
         component.start_time = 3.0
         block = component.block
         component.settle()

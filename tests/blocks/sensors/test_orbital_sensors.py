@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from perilune.fmus_src.sensors.infrared_vertical import InfraredVertical
 from perilune.fmus_src.sensors.rate_gyros import RateGyros
 
@@ -80,7 +80,7 @@ def test_a_stream_repeats_itself():
 
 @pytest.mark.parametrize("kind", [InfraredVertical, RateGyros])
 def test_samples_are_counted_and_held(kind):
-    component = Component(kind)
+    component = BlockInstance(kind)
     component.block.sample_period, component.block.sigma = 0.4, 1e-3
     component.start()
     counts, values = [], []

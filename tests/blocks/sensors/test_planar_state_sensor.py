@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from perilune.fmus_src.sensors.planar_state_sensor import PlanarStateSensor
 
 SAMPLES = 4000
@@ -62,7 +62,7 @@ def test_without_noise_the_measurement_is_the_truth():
 
 @pytest.mark.parametrize(("period", "every"), [(0.01, 1), (0.03, 3), (0.0, 1)])
 def test_measurements_are_held_between_samples(period, every):
-    component = Component(PlanarStateSensor)
+    component = BlockInstance(PlanarStateSensor)
     component.block.sample_period, component.block.altitude_noise = period, 0.1
     component.block.altitude = ALTITUDE
     component.start()

@@ -1,7 +1,7 @@
 """Star-inertial attitude and laser ranger: their errors have the distributions that they declare.
 
 Truth: rotation vectors by scipy; chi-square and Kolmogorov-Smirnov tests of scipy with fixed seeds, at 1e-3, on 20 000
-samples (10 000 in `make test`); the sensors' timing through `Component`, the FMI life cycle.
+samples (10 000 in `make test`); the sensors' timing through `BlockInstance`, the FMI life cycle.
 """
 
 import numpy as np
@@ -9,7 +9,7 @@ import pytest
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from perilune.fmus_src.sensors.laser_ranger import LaserRanger
 from perilune.fmus_src.sensors.star_inertial import StarInertial
 from tests.support.lengths import either
@@ -100,7 +100,7 @@ def test_without_errors_they_tell_the_truth():
 
 @pytest.mark.parametrize(("block", "period"), [(StarInertial, 0.125), (LaserRanger, 1.0)], ids=str)
 def test_samples_come_at_their_period_and_are_held(block, period):
-    component = Component(block)
+    component = BlockInstance(block)
     component.start()
     counts = []
     for k in range(64):

@@ -17,7 +17,7 @@ import sympy as sp
 from perilune import modal
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.export.judge.subset import check
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.kernels.native_instance import NativeInstance
 
 K, D, M, ANGLE = sp.symbols("k d m angle", positive=True)
@@ -70,7 +70,7 @@ def test_the_translator_accepts_it(block: type[Block]) -> None:
 def test_python_and_c_have_the_formula_s_values(block: type[Block]) -> None:
     formula, random = pendulum(), np.random.default_rng(64)
     assert formula.names == ["angle", "d", "k", "m"]
-    python, native = Component(block), NativeInstance(block)
+    python, native = BlockInstance(block), NativeInstance(block)
     native.enter()
     python.start()
     native.start()

@@ -17,7 +17,7 @@ from docs.reference.usage import usages
 from perilune.common.paths import ROOT, shipped_fmu
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 
 # Blocks that count, compare or pass on, without a model of anything that could be left out.
 WITHOUT_MODEL = {
@@ -100,7 +100,7 @@ def test_what_a_block_never_reads_another_one_does(name, monkeypatch):
             assert f"[{reader}]({reader}.md)" in page.partition("It never reads")[2]
     if not unread or block.python_only:
         return
-    component = Component(block)
+    component = BlockInstance(block)
     component.start()
     accessed = set()
 

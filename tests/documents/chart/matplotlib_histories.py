@@ -15,7 +15,7 @@ from perilune.analysis.documents.figures.declared import BandFigure, CurveFigure
 from perilune.analysis.documents.interactive.charts import Chart
 from perilune.analysis.documents.of.simulation.figures import band_figure, history_figures
 from perilune.analysis.documents.of.simulation.figures.section import HEIGHT, select_rows
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 from tests.support.figures.lines import plot_quantity
 from tests.support.figures.read_figure import read_charts
 
@@ -33,7 +33,7 @@ def _read(unit: str, time: np.ndarray, draw: Callable[[Axes], None], width: floa
     return chart
 
 
-def error_charts(error: ErrorFigure, run: Result) -> list[Chart]:
+def error_charts(error: ErrorFigure, run: FlightResult) -> list[Chart]:
     """Return the panels of an error, as `history_figures` orders them."""
     chosen, rows = select_rows(error.rows, run)
     time = run.time[rows]
@@ -61,7 +61,7 @@ def error_charts(error: ErrorFigure, run: Result) -> list[Chart]:
     return charts
 
 
-def curve_charts(curve: CurveFigure, run: Result) -> list[Chart]:
+def curve_charts(curve: CurveFigure, run: FlightResult) -> list[Chart]:
     """Return the plot of curves as wide as the page, or their panels."""
     chosen, rows = select_rows(curve.rows, run)
     time = run.time[rows]
@@ -84,7 +84,7 @@ def curve_charts(curve: CurveFigure, run: Result) -> list[Chart]:
     ]
 
 
-def band_charts(band: BandFigure, run: Result) -> list[Chart]:
+def band_charts(band: BandFigure, run: FlightResult) -> list[Chart]:
     """Return the whole history of a band and its zoom."""
     time, name = run.time, band.signal.unit_name
     factor = display_factor(name)

@@ -14,7 +14,7 @@ from perilune.analysis.documents.common.style import house_style, new_figure, pl
 from perilune.analysis.documents.figures.declared import BandFigure, PathFigure, Signal
 from perilune.analysis.documents.interactive.charts import Chart
 from perilune.analysis.documents.of.simulation.figures.section import select_rows
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 from tests.support.figures.lines import plot_path, plot_quantity
 from tests.support.figures.read_figure import read_charts
 
@@ -27,7 +27,7 @@ def _read(draw: Callable[[Axes], None], height: float, width: float) -> Chart:
     return chart
 
 
-def path_chart(path: PathFigure, run: Result, height: float, width: float, intervals: int) -> Chart:
+def path_chart(path: PathFigure, run: FlightResult, height: float, width: float, intervals: int) -> Chart:
     """Return a path of scalars in m whose axes have separate scales."""
     chosen, rows = select_rows(path.rows, run)
 
@@ -56,7 +56,7 @@ def path_chart(path: PathFigure, run: Result, height: float, width: float, inter
     return _read(draw, height, width)
 
 
-def against_chart(band: BandFigure, run: Result, other: Signal, height: float, width: float) -> Chart:
+def against_chart(band: BandFigure, run: FlightResult, other: Signal, height: float, width: float) -> Chart:
     """Return a band over another signal that spans no decades."""
 
     def draw(axes: Axes) -> None:

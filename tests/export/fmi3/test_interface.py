@@ -22,7 +22,7 @@ from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
 from perilune.fmus_src.kernel.enumerations import Enumeration, member
 from perilune.fmus_src.kernel.vector_types import vector
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 
 pytestmark = pytest.mark.skipif(local_platform(3) is None, reason="FMI 3.0 libraries are not compiled for this system")
 
@@ -135,7 +135,7 @@ def test_reads_during_initialisation_settle_each_time(walk: Walk) -> None:
 
 
 def test_it_steps_as_the_block_in_python(walk: Walk) -> None:
-    plain = Component(VectorWalk)
+    plain = BlockInstance(VectorWalk)
     plain.block.sample_period = 0.3
     walk.set(sample_period=0.3)
     plain.start()

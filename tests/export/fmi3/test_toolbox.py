@@ -20,7 +20,7 @@ from fmpy.fmi3 import FMU3Slave
 
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import local_platform
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.lengths import generator
 from tests.support.native.building import COMPILED, fmi3_fmu
 from tests.support.native.toolbox import find_semantic_errors
@@ -61,7 +61,7 @@ class Jacobi:
     """The two blocks in Python; inputs and outputs by the names that the container gives them."""
 
     def __init__(self) -> None:
-        self.guidance, self.switch = Component(GUIDANCE), Component(SWITCH)
+        self.guidance, self.switch = BlockInstance(GUIDANCE), BlockInstance(SWITCH)
 
     def set(self, name: str, given: Any) -> None:
         for component in (self.guidance, self.switch):

@@ -22,7 +22,7 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.evidence.check import elements_of, read_check
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.native_fmu import build_native_fmu
-from perilune.fmus_src.runtime import Component, StepError
+from perilune.fmus_src.runtime import BlockInstance, StepError
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance
 from tests.support.lengths import either
 from tests.support.native.building import fmi3_fmu
@@ -102,9 +102,9 @@ class Counted(Block):
 
 
 @pytest.fixture
-def counted(tmp_path: Path) -> tuple[Component, NativeInstance]:
+def counted(tmp_path: Path) -> tuple[BlockInstance, NativeInstance]:
     """Return the block in Python and in C, started at 100 s."""
-    component = Component(Counted)
+    component = BlockInstance(Counted)
     component.start_time = 100.0
     component.start()
     native = NativeInstance(Counted)
@@ -138,7 +138,7 @@ def test_one_instant_has_the_importers_step_and_several_have_the_periods(counted
 
 def test_instants_that_rounding_puts_past_the_end_are_of_the_step(tmp_path: Path) -> None:
     """A step of 3 x 0.1 s ends at 0.30000000000000004 s, one of 0.3 s before the third instant."""
-    component = Component(Counted)
+    component = BlockInstance(Counted)
     component.set([0], [0.1])
     component.start()
     for k, end in enumerate((0.3, 0.6, 0.8999999999999999, 1.2), 1):
@@ -186,7 +186,7 @@ def test_a_sample_that_fails_is_named_with_its_step(tmp_path: Path) -> None:
     assert native.do_step(0.0, 60.0) == ERROR
     assert "ZeroDivisionError" in native.log[0]
     assert native.log[0].endswith(", in the step from t = 1.0 s over h = 0.5 s")
-    component = Component(Divides)
+    component = BlockInstance(Divides)
     component.start()
     with pytest.raises(ZeroDivisionError):
         component.do_step(0.0, 60.0)

@@ -13,7 +13,7 @@ import pytest
 from perilune.fmus_src.block import Block, Output, State
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.judge.subset import SubsetError, analyse_kernel, check
-from perilune.fmus_src.export.judge.subset_table import REFUSED_FUNCTIONS, REFUSED_SYNTAX, RULES, Rule
+from perilune.fmus_src.export.judge.subset_table import REFUSED_FUNCTIONS, REFUSED_SYNTAX, RULES, SubsetRule
 from perilune.fmus_src.kernel.records import Field, Record
 from tests.support.kernels import bad_kernels, record_blocks
 
@@ -114,7 +114,7 @@ def block_of(folder: Path, step: str, functions: str = "") -> tuple[type[Block],
     return module.Bad, file
 
 
-def refusal(folder: Path, rule: Rule, step: str, functions: str = "") -> None:
+def refusal(folder: Path, rule: SubsetRule, step: str, functions: str = "") -> None:
     """Assert that a kernel is refused by a rule, at the marked line, with the rule's remedy."""
     block, file = block_of(folder, step, functions)
     line = next(n for n, text in enumerate(file.read_text().splitlines(), 1) if "# here" in text)
@@ -159,7 +159,7 @@ def test_syntax_is_refused(name: str, tmp_path: Path) -> None:
 def test_function_is_refused_with_its_remedy(name: str, tmp_path: Path) -> None:
     in_math = name in ("hypot", "dist", "fsum", "degrees", "radians")
     step = f"self.y = {'math.' if in_math else ''}{name}(self.x)  # here"
-    refusal(tmp_path, Rule("", REFUSED_FUNCTIONS[name]), step)
+    refusal(tmp_path, SubsetRule("", REFUSED_FUNCTIONS[name]), step)
 
 
 def test_every_rule_has_a_bad_kernel() -> None:

@@ -19,7 +19,7 @@ from perilune.fmus_src.kernel.integrators import runge_kutta_4
 from perilune.fmus_src.kernel.matrices import Matrix, identity, zeros
 from perilune.fmus_src.kernel.records import Field, Record
 from perilune.fmus_src.kernel.vector_types import Vector3
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from tests.support.kernels.comparison import another
 from tests.support.lengths import either
 
@@ -235,7 +235,7 @@ KERNELS = [block for block in catalogue().values() if not block.python_only]
 
 @pytest.mark.parametrize("block", KERNELS[:: either(1, 4)], ids=lambda block: block.fmu_name)
 def test_nothing_that_steps_leave_alone_follows_from_a_tunable_parameter(block: type[Block]) -> None:
-    flown = Component(block)
+    flown = BlockInstance(block)
     flown.start()
     before, changed = flown.values(), set()
     for n in range(4):
@@ -244,7 +244,7 @@ def test_nothing_that_steps_leave_alone_follows_from_a_tunable_parameter(block: 
     first = 0
     for name, variable in block.variables.items():
         if name in tunable_parameters(block):
-            other = Component(block)
+            other = BlockInstance(block)
             new = [another(value, variable.minimum, variable.maximum) for value in variable.elements]
             references = list(range(first, first + variable.size))
             other.set(references, new)

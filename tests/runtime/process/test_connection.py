@@ -14,7 +14,7 @@ import pytest
 
 from perilune.analysis.runtime.process import channel, messages
 from perilune.analysis.runtime.process import connection as module
-from perilune.analysis.runtime.process.connection import ChildEndedError, Connection, Watchdog
+from perilune.analysis.runtime.process.connection import ChildConnection, ChildEndedError, Watchdog
 
 ANSWERS = {
     "no kind": b"x" + bytes(8),
@@ -38,7 +38,7 @@ def pair(monkeypatch):
 
     lines = []
     child = SimpleNamespace(channel=ours, end=end, is_over=False)
-    yield Connection(child, lines.append, Watchdog(lambda: None, 0.5)), theirs, lines
+    yield ChildConnection(child, lines.append, Watchdog(lambda: None, 0.5)), theirs, lines
     theirs.close()
 
 

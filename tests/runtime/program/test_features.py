@@ -4,7 +4,7 @@ import pytest
 
 from perilune.analysis.options.fault import parse_fault
 from perilune.analysis.runtime.ssp.conversions import Transformation
-from perilune.analysis.runtime.system.network import Link
+from perilune.analysis.runtime.system.network import NodeLink
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.analysis.runtime.system.series import read_series
@@ -57,8 +57,8 @@ def test_connections_of_several_terms(packed, algorithm):
     prepared = prepare_system(path, SystemOptions(algorithm=algorithm))
     link = prepared.network.driver["gain.u"]
     link.added += [
-        Link(prepared.network.nodes["delay.y"], link.target, Transformation(0.1, 0.7), 0),
-        Link(link.source, link.target, Transformation(-3.3, 0.0), 0),
+        NodeLink(prepared.network.nodes["delay.y"], link.target, Transformation(0.1, 0.7), 0),
+        NodeLink(link.source, link.target, Transformation(-3.3, 0.0), 0),
     ]
     assert assert_same(prepared, [parse_fault("gain.u=freeze@0.5..1")]) == "stop_time"
 

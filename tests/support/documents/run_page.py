@@ -7,11 +7,11 @@ from perilune.analysis.documents.diagram.diagram import BlockDiagram
 from perilune.analysis.documents.figures.declared import FigureDeclaration
 from perilune.analysis.documents.of.simulation.run import RunContext, run_document
 from perilune.analysis.documents.render.html import write_document
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 
 
 def write_run_report(
-    result: Result,
+    result: FlightResult,
     path: Path,
     title: str,
     figures: Sequence[FigureDeclaration] = (),

@@ -14,7 +14,7 @@ from perilune.analysis.documents.of.simulation.figures import groups as figure_g
 from perilune.analysis.documents.pictures import Figures
 from perilune.analysis.documents.render.cell_markup import cell_markup, legend_swatch, rich_markup
 from perilune.analysis.documents.render.html import panel_of
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 
 
 @dataclass
@@ -59,21 +59,21 @@ def read_subsection(subsection: Group) -> ReadSubsection:
     return read
 
 
-def figure_sections(figures: Sequence[FigureDeclaration], result: Result) -> list[ReadSubsection]:
+def figure_sections(figures: Sequence[FigureDeclaration], result: FlightResult) -> list[ReadSubsection]:
     """Return the figures that a system declares as a page shows them."""
     return [read_subsection(each) for each in figure_groups.figure_sections(figures, result)]
 
 
-def joint_findings(figures: Sequence[FigureDeclaration], result: Result) -> list[Markup]:
+def joint_findings(figures: Sequence[FigureDeclaration], result: FlightResult) -> list[Markup]:
     """Return the sentences on several bands."""
     return [rich_markup(each, is_sentence=True) for each in figure_groups.joint_findings(figures, result)]
 
 
-def trajectory_panels(result: Result) -> list[FigurePanel]:
+def trajectory_panels(result: FlightResult) -> list[FigurePanel]:
     """Return the views of trajectories."""
     return [panel_of(figure) for figure in trajectory.trajectory_figures(result)]
 
 
-def first_histories(result: Result) -> list[ReadSubsection]:
+def first_histories(result: FlightResult) -> list[ReadSubsection]:
     """Return the states and commands of each component."""
     return [read_subsection(each.subsection()) for each in histories.time_histories(result).first]

@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 
 TICK = 0.2
 OBSERVERS = [
@@ -32,7 +32,7 @@ class Run:
     """One observer, with (roll, pitch, rates) as inputs at each tick and the pulses before it."""
 
     def __init__(self, name, sample, pulses=(0.0, 0.0, 0.0), **parameters):
-        self.component = Component(block_class(name.removesuffix(SPLIT)))
+        self.component = BlockInstance(block_class(name.removesuffix(SPLIT)))
         self.block = self.component.block
         self.tick = 0
         if name.endswith(SPLIT):

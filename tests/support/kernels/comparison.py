@@ -13,7 +13,7 @@ from perilune.fmus_src.block import Block
 from perilune.fmus_src.export.judge.source import label
 from perilune.fmus_src.kernel import functions, matrix_types, operations
 from perilune.fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
-from perilune.fmus_src.runtime import Component, StepError
+from perilune.fmus_src.runtime import BlockInstance, StepError
 from perilune.fmus_src.start_values import StartError
 from perilune.fmus_src.variables import Input, Parameter, Variable
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance
@@ -180,7 +180,7 @@ class Pair:
     def begin(self, h: float, start_time: float) -> bool:
         """Restart with drawn parameters and inputs, read twice during initialisation."""
         self.native.reset()
-        self.plain = Component(self.block)
+        self.plain = BlockInstance(self.block)
         self.plain.start_time = start_time
         self.set(Parameter, h)
         self.set(Input, h)

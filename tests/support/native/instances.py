@@ -19,7 +19,7 @@ from fmpy.fmi3 import FMU3Slave
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.export.description.variables import list_variables
 from perilune.fmus_src.export.judge.tunable import tunable_parameters
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 
 HEADER = 6  # words before those of elements
 Settings = dict[int, float | int | bool]
@@ -30,7 +30,7 @@ class PlainBlock:
     """The Python object."""
 
     def __init__(self, block: type[Block]) -> None:
-        self.component = Component(block, tunable_parameters(block))
+        self.component = BlockInstance(block, tunable_parameters(block))
 
     def set(self, settings: Settings) -> None:
         self.component.set(list(settings), list(settings.values()))

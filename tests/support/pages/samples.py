@@ -14,7 +14,7 @@ from perilune.analysis.campaigns.folder.files import with_draws
 from perilune.analysis.campaigns.trials import TrialTable
 from perilune.analysis.documents.of.batch.batch import batch_document
 from perilune.analysis.documents.render.html import write_document
-from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.results import FlightResult
 from perilune.analysis.runtime.system.options import SystemOptions
 from tests.support.pages.comparison_samples import facts as metadata_of
 
@@ -47,7 +47,7 @@ expression = "miss <= 1"
 """
 
 
-def run_result(rows: int = 200, status: str = "finished", message: str = "") -> Result:
+def run_result(rows: int = 200, status: str = "finished", message: str = "") -> FlightResult:
     """Return a flight of a `ship` that turns, with a nested `crew.cook` and a system connector; rows may be 0."""
     time = 0.5 * np.arange(rows)
     spike = np.where(np.arange(rows) == 3, 1e6, np.sin(time))
@@ -81,7 +81,7 @@ def run_result(rows: int = 200, status: str = "finished", message: str = "") -> 
         "algorithm": "sequential",
         "perilune": "0.0.1",
     }
-    return Result(
+    return FlightResult(
         time=time,
         signals=signals,
         units=units,

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from .....fmus_src.roles import STATUS
-from ....runtime.flight.results import Result
+from ....runtime.flight.results import FlightResult
 from ....runtime.ssp.types import WHOLE
-from ...cell import Cell, Faint, Phrase, Quantity, Vector
+from ...cell import Cell, Faint, Phrase, Quantity, QuantityVector
 from ...common.quantities import display_unit
 from ...common.signals import axes_of, distinct, signal_groups
 from ...model import Missing, Node, Table
@@ -27,7 +27,7 @@ class KeyValue(NamedTuple):
     unit: str | None
 
 
-def key_values(result: Result) -> list[KeyValue]:
+def key_values(result: FlightResult) -> list[KeyValue]:
     """Return the final values of the most important signals.
 
     These are the system's connectors, positions and velocities with their magnitudes (without inputs that repeat them),
@@ -56,10 +56,11 @@ def key_values(result: Result) -> list[KeyValue]:
     return rows
 
 
-def final_values(result: Result) -> Node:
+def final_values(result: FlightResult) -> Node:
     """Return the table of key values, or the reason why there is none."""
     rows = [
-        (row.label, Faint(row.note), Vector(row.values, row.unit), display_unit(row.unit)) for row in key_values(result)
+        (row.label, Faint(row.note), QuantityVector(row.values, row.unit), display_unit(row.unit))
+        for row in key_values(result)
     ]
     if rows:
         return Table(("signal", "", "value", "unit"), rows, style="")
@@ -68,14 +69,14 @@ def final_values(result: Result) -> Node:
     return Missing("the run ended before its first sample; there are no values")
 
 
-def signal_table(result: Result) -> Table:
+def signal_table(result: FlightResult) -> Table:
     """Return the initial, minimum, maximum and final value of every signal."""
     heads = ("signal", "unit", "initial", "minimum", "maximum", "final")
     rows = [_signal_row(name, result) for name in result.signals] if result.time.size else []
     return Table(heads, rows, style="signals")
 
 
-def _signal_row(name: str, result: Result) -> list[Cell]:
+def _signal_row(name: str, result: FlightResult) -> list[Cell]:
     convert = {"Integer": int, "Enumeration": int, "Boolean": bool}
     values, type_name, unit = result.signals[name], result.types[name], result.units[name]
     kind = convert.get(type_name, float)

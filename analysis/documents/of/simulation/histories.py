@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ....campaigns.verdicts.order_statistics import quantiles
-from ....runtime.flight.results import Result
+from ....runtime.flight.results import FlightResult
 from ....runtime.ssp.names import elements
 from ...cell import Inline, LegendEntry, Quantity, Rich
 from ...chart.axes import bare_axis, linear_axis, named_axis
@@ -101,7 +101,7 @@ class Histories:
         return sum(len(history.figures) for history in self.rest)
 
 
-def time_histories(result: Result) -> Histories:
+def time_histories(result: FlightResult) -> Histories:
     """Return the sections of all components in the order of the record; none for a run without rows."""
     if not result.time.size:
         return Histories([], [], False)
@@ -128,7 +128,7 @@ def _fold_history(
     component: str,
     groups: list[SignalGroup],
     originals: dict[SignalGroup, SignalGroup],
-    result: Result,
+    result: FlightResult,
     position: int,
 ) -> ComponentHistory:
     """Return the folded section of a component's other signals: with a panel, constant, or copies of others."""
@@ -145,12 +145,12 @@ def _fold_history(
     )
 
 
-def _is_constant(group: SignalGroup, result: Result) -> bool:
+def _is_constant(group: SignalGroup, result: FlightResult) -> bool:
     values = group.values(result)
     return bool(np.all(values == values[:, :1]))
 
 
-def _figures(groups: list[SignalGroup], result: Result, name: str, *, is_reduced: bool) -> list[Figure]:
+def _figures(groups: list[SignalGroup], result: FlightResult, name: str, *, is_reduced: bool) -> list[Figure]:
     """Return a figure for each group: Real signals first, sorted by unit in order of first occurrence."""
     kinds = [(not group.is_real, group.unit) for group in groups]
     first = {kind: index for index, kind in reversed(list(enumerate(kinds)))}
@@ -178,7 +178,7 @@ def _legend(groups: list[SignalGroup]) -> list[LegendEntry]:
     return [LegendEntry(look(position), [label]) for position, label in entries]
 
 
-def history_chart(group: SignalGroup, result: Result, *, intervals: tuple[int, int] = (5, 4)) -> Chart:
+def history_chart(group: SignalGroup, result: FlightResult, *, intervals: tuple[int, int] = (5, 4)) -> Chart:
     """Return the chart of a scalar or a vector over time; Integers and Booleans as steps.
 
     ``intervals`` are the maximum numbers of intervals between ticks of abscissa and ordinate.
@@ -224,7 +224,7 @@ def _annotation(text: str, at: tuple[float, float], align: tuple[str, str], size
     return ChartNote(text, at, (True, True), (0.0, 0.0), align, FAINT, size)
 
 
-def signal_plot(result: Result, names: Sequence[str]) -> Drawing:
+def signal_plot(result: FlightResult, names: Sequence[str]) -> Drawing:
     """Return a panel for each signal or vector, below each other over a common time.
 
     Raises KeyError for an unknown name.
@@ -243,7 +243,7 @@ def signal_plot(result: Result, names: Sequence[str]) -> Drawing:
     return plot_charts([*panels, replace(charts[-1], x=time)], PLOT_HEIGHT, PLOT_WIDTH, titles=titles, legends=legends)
 
 
-def _group_of(name: str, run: Result) -> SignalGroup:
+def _group_of(name: str, run: FlightResult) -> SignalGroup:
     """Return the signal of this name, or the elements of the vector."""
     run[name]  # raises KeyError
     names, axes = elements(name, run.signals), axes_of(run)

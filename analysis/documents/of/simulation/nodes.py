@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ....runtime.flight.results import Result
+from ....runtime.flight.results import FlightResult
 from ...figures.declared import FigureDeclaration
 from ...model import Fold, Group, Node, Note, Text
 from ...pictures import Figures
@@ -13,7 +13,7 @@ from .histories import time_histories
 from .trajectory import trajectory_figures, trajectory_legend, trajectory_reading
 
 
-def simulation_nodes(simulation: Result, figures: Sequence[FigureDeclaration]) -> list[Node]:
+def simulation_nodes(simulation: FlightResult, figures: Sequence[FigureDeclaration]) -> list[Node]:
     """Return the declared ``figures``, trajectories, states and commands, and other signals folded."""
     histories = time_histories(simulation)
     others = f"Other signals: {histories.folded} plots, constant and duplicate signals"
@@ -27,7 +27,7 @@ def simulation_nodes(simulation: Result, figures: Sequence[FigureDeclaration]) -
     ]
 
 
-def trajectory_nodes(simulation: Result) -> list[Node]:
+def trajectory_nodes(simulation: FlightResult) -> list[Node]:
     """Return the views of trajectories with their caption; none without a position."""
     views = trajectory_figures(simulation)
     if not views:

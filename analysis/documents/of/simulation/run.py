@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from ....runtime.flight.results import Result
+from ....runtime.flight.results import FlightResult
 from ...cell import Code, Quantity
 from ...figures.declared import FigureDeclaration
 from ...figures.scene.declared import SceneFigure
@@ -71,7 +71,7 @@ class RunContext:
     lines: Sequence[str] = ()
 
 
-def run_document(result: Result, context: RunContext, json: object = None) -> Document:
+def run_document(result: FlightResult, context: RunContext, json: object = None) -> Document:
     """Return the document of a run; its page is composed only when it is written."""
 
     @cache
@@ -92,7 +92,7 @@ def run_document(result: Result, context: RunContext, json: object = None) -> Do
     )
 
 
-def _header(result: Result, context: RunContext, limits: Sequence[Group]) -> list[Node]:
+def _header(result: FlightResult, context: RunContext, limits: Sequence[Group]) -> list[Node]:
     provenance = result.provenance
     end = float(result.time[-1]) if result.time.size else None
     return [
@@ -113,7 +113,7 @@ def _header(result: Result, context: RunContext, limits: Sequence[Group]) -> lis
     ]
 
 
-def _verdict(result: Result, figures: Sequence[FigureDeclaration]) -> Verdict:
+def _verdict(result: FlightResult, figures: Sequence[FigureDeclaration]) -> Verdict:
     limits = limit_document(figures, result)
     texts = []
     for verdict in (LimitVerdict.VIOLATED, LimitVerdict.NOT_EVALUATED, LimitVerdict.MET):
@@ -133,7 +133,7 @@ def _verdict(result: Result, figures: Sequence[FigureDeclaration]) -> Verdict:
     )
 
 
-def _sections(result: Result, context: RunContext, groups: Sequence[FigureGroup]) -> list[Section]:
+def _sections(result: FlightResult, context: RunContext, groups: Sequence[FigureGroup]) -> list[Section]:
     scene = _scene(context.figures, result)
     histories = time_histories(result)
     trajectory = trajectory_nodes(result)
@@ -166,7 +166,7 @@ def _sections(result: Result, context: RunContext, groups: Sequence[FigureGroup]
     ]
 
 
-def _scene(figures: Sequence[FigureDeclaration], result: Result) -> Section | None:
+def _scene(figures: Sequence[FigureDeclaration], result: FlightResult) -> Section | None:
     """Return the section of the declared scene; None without one, and for a run without samples."""
     declared = next((figure for figure in figures if isinstance(figure, SceneFigure)), None)
     view = None if declared is None else scene_view(declared, result)

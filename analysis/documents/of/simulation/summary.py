@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ....runtime.flight.results import Result
-from ...cell import Cell, Vector
+from ....runtime.flight.results import FlightResult
+from ...cell import Cell, QuantityVector
 from ...figures.declared import BandFigure, FigureDeclaration, LimitsFigure
 from ...model import Node, Table, Text
 from ...pictures import Plot
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 MOST_PLOTTED = 3  # signals of a run without a path
 
 
-def notebook_nodes(result: Result, figures: Sequence[FigureDeclaration]) -> list[Node]:
+def notebook_nodes(result: FlightResult, figures: Sequence[FigureDeclaration]) -> list[Node]:
     """Return the nodes of a run for a notebook."""
     tables = [
         Table((figure.title, "value", "limit", "unit", ""), limit_rows(figure, result))
@@ -30,7 +30,7 @@ def notebook_nodes(result: Result, figures: Sequence[FigureDeclaration]) -> list
     ]
     if not tables:
         rows: list[list[Cell]] = [
-            [row.label, row.note, Vector(row.values, row.unit, 4, is_bare=False)] for row in key_values(result)
+            [row.label, row.note, QuantityVector(row.values, row.unit, 4, is_bare=False)] for row in key_values(result)
         ]
         tables = [Table(("", "", "at the end"), rows)]
     return [
@@ -41,7 +41,7 @@ def notebook_nodes(result: Result, figures: Sequence[FigureDeclaration]) -> list
     ]
 
 
-def main_plot(result: Result, figures: Sequence[FigureDeclaration]) -> Drawing | None:
+def main_plot(result: FlightResult, figures: Sequence[FigureDeclaration]) -> Drawing | None:
     """Return the trajectory, else signals with a tolerance band, else vectors, else the first signals."""
     if not result.time.size:
         return None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....runtime.flight.results import Result
+from ....runtime.flight.results import FlightResult
 from ...cell import LegendEntry
 from ...chart.panel import POINTS
 from ...common.colours import FAINT
@@ -31,7 +31,7 @@ INDICES = ("position[1]", "position[2]", "position[3]")
 FAR = 0.35  # rad along the ground, beyond which the ground track replaces the plan view on the tangent plane
 
 
-def trajectory_figures(result: Result) -> list[Figure]:
+def trajectory_figures(result: FlightResult) -> list[Figure]:
     """Return the views for a page; none without a position."""
     components = ", ".join(group.component for group in position_groups(result))
     figures = []
@@ -44,7 +44,7 @@ def trajectory_figures(result: Result) -> list[Figure]:
     return figures
 
 
-def trajectory_plot(result: Result) -> Drawing | None:
+def trajectory_plot(result: FlightResult) -> Drawing | None:
     """Return all views in one figure, below each other; None without a position."""
     views = _views(result)
     if not views:
@@ -60,12 +60,12 @@ def trajectory_plot(result: Result) -> Drawing | None:
     return plot_charts(charts, HEIGHT, PLOT_WIDTH, titles=titles, legends=[legend] * len(views))
 
 
-def trajectory_legend(result: Result) -> list[LegendEntry]:
+def trajectory_legend(result: FlightResult) -> list[LegendEntry]:
     """Return the components' lines with their names; empty for a single component."""
     return legend_of(tuple(group.label for group in position_groups(result)))
 
 
-def trajectory_reading(result: Result) -> str:
+def trajectory_reading(result: FlightResult) -> str:
     """Return the caption that explains the panels."""
     caption = "Dots: elapsed time; circle: end of the flight."
     groups = position_groups(result)
@@ -81,7 +81,7 @@ def trajectory_reading(result: Result) -> str:
     )
 
 
-def _views(result: Result) -> list[View]:
+def _views(result: FlightResult) -> list[View]:
     """Return the horizontal and the vertical view; none without a position.
 
     Over a round body the vertical view is altitude over downrange; otherwise both are elements of the position.
@@ -103,7 +103,7 @@ def _views(result: Result) -> list[View]:
     return [*_flat_views(paths, groups, result.time)[:-1], side]
 
 
-def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: Result) -> float | None:
+def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: FlightResult) -> float | None:
     """Return the radius (m) of the body from the first component with position and altitude; None without one."""
     for group, path in zip(groups, paths, strict=True):
         altitude = f"{group.component}.altitude"

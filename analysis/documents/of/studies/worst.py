@@ -13,7 +13,7 @@ from ....campaigns.definition.plan import BatchPlan
 from ....campaigns.draws.declared import input_names
 from ....campaigns.draws.given import GivenDraws, part_streams, stream_component
 from ....campaigns.execute.flyer import Flyer
-from ....runtime.flight.results import Result
+from ....runtime.flight.results import FlightResult
 from ....studies.worst.outcome import WorstOutcome
 from ...cell import Cell, Code, Quantity, Rich
 from ...common.quantities import label_with_unit
@@ -29,7 +29,7 @@ from .worst_points import box_lanes, objective_of
 DIGITS = 6
 DECIMALS = 3  # of fractions of the search box
 
-Simulate = Callable[[], tuple[Result, Sequence[FigureDeclaration]]]
+Simulate = Callable[[], tuple[FlightResult, Sequence[FigureDeclaration]]]
 
 
 def worst_document(study: WorstOutcome, folder: Path | None = None, simulate: Simulate | None = None) -> Document:
@@ -215,7 +215,7 @@ def _simulation(study: WorstOutcome, simulate: Simulate) -> list[Node]:
     return [Text(["status ", Code(simulation.status), *end, chosen]), *simulation_nodes(simulation, figures)]
 
 
-def simulate_worst(study: WorstOutcome, plan: BatchPlan) -> tuple[Result, list[FigureDeclaration]]:
+def simulate_worst(study: WorstOutcome, plan: BatchPlan) -> tuple[FlightResult, list[FigureDeclaration]]:
     """Simulate the worst case of a study's ``plan``, equal to the search to the last bit. Raises InputError."""
     plotted = study.flown.draws
     names = [*input_names(plan.campaign), *(name for name in plotted if stream_component(name) is not None)]

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...loop import codes
 from ...ssp.conversions import IDENTITY
-from ...system.network import Link, Network
+from ...system.network import Network, NodeLink
 from ...system.passing.parameters import numbers
 from ...system.schedule import origin
 from .exchanged import Exchanged
@@ -38,7 +38,7 @@ class Connections:
         self._passed_parameters = exchanged.passed_parameters
         self._slots = slots.numbers
         self._components = {name: number for number, name in enumerate(network.fmus)}
-        groups: dict[str | None, dict[str, Link]] = {name: {} for name in (*network.fmus, None)}
+        groups: dict[str | None, dict[str, NodeLink]] = {name: {} for name in (*network.fmus, None)}
         for name in self._slots:
             link = network.driver.get(name)
             if link is not None and link.target.component is not None and not link.is_parameter:
@@ -48,7 +48,7 @@ class Connections:
                 self._chain(node.name, groups[None])
         self._groups = [list(group.values()) for group in groups.values()]
 
-    def _chain(self, name: str, group: dict[str, Link]) -> None:
+    def _chain(self, name: str, group: dict[str, NodeLink]) -> None:
         """Add the links that lead to a node to ``group``, upstream ones first and each only once."""
         link = self._network.driver.get(name)
         if link is None or name in group or name in self._passed_parameters:
@@ -78,18 +78,18 @@ class Connections:
             "table_to": np.array([entry[1] for entry in flat], dtype=np.float64),
         }
 
-    def _terms(self, link: Link) -> Sequence[Term]:
+    def _terms(self, link: NodeLink) -> Sequence[Term]:
         origins = tuple(self._number(term) for term in (link, *link.added))
         slots, target = self._slots, self._slots[link.target.name]
         first = Term(self._code(link), origins, slots[link.source.name], target)
         return [first, *(Term(codes.ADD, origins, slots[term.source.name], target) for term in link.added)]
 
-    def _number(self, link: Link) -> int:
+    def _number(self, link: NodeLink) -> int:
         """Return the number of the component at which a link's value originates, -1 for an input of the system."""
         component = origin(self._network, link).component
         return -1 if component is None else self._components[component]
 
-    def _code(self, link: Link) -> int:
+    def _code(self, link: NodeLink) -> int:
         """Return the code of the instruction that transfers a connection's value."""
         if link.transformation.table:
             return codes.MAP
@@ -101,6 +101,6 @@ class Connections:
         return codes.COPY_EXACT if is_wide else codes.COPY
 
 
-def _remainder(link: Link) -> list[tuple[float, float]]:
+def _remainder(link: NodeLink) -> list[tuple[float, float]]:
     """Return the NaN entry that ends a partial table; it tells the loop to pass unlisted values unchanged."""
     return [(math.nan, math.nan)] if link.transformation.is_partial else []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from ...fmi.variable import Variable
+from ...fmi.variable import ScalarVariable
 from ...ssp.kinds import PARAMETERS
 from ...ssp.names import split_name
 from ...system.network import Network
@@ -37,7 +37,7 @@ class Exchanged:
         self.other_sources = {node.name for node in signals if node.component is not None and node.kind != "output"}
         self.passed_parameters = {node.name for node in signals if node.component is None and node.kind in PARAMETERS}
 
-    def is_tuned(self, component: str, variable: Variable) -> bool:
+    def is_tuned(self, component: str, variable: ScalarVariable) -> bool:
         """Return True if a tunable parameter changes during simulation."""
         return f"{component}.{variable.name}" in self.tuned
 

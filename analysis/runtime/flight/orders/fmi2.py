@@ -8,8 +8,8 @@ import numpy as np
 
 from ...instances.library import FUNCTION_NAMES
 from ...loop import codes
-from .in_memory import Run, runs_in_memory, with_moves
-from .rows import Callee, Rows, Stretch
+from .in_memory import SlotRun, runs_in_memory, with_moves
+from .rows import Callee, InstructionRows, Stretch
 
 TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES) if name.startswith("fmi2")}
@@ -35,7 +35,7 @@ class Fmi2Orders:
 
     def __init__(
         self,
-        rows: Rows,
+        rows: InstructionRows,
         component: int,
         instance: Callee,
         references: np.ndarray,
@@ -162,11 +162,11 @@ class Fmi2Orders:
             if kind == "Integer":
                 self._call(call, name, (run.first, run.size))
 
-    def _exchange(self, code: int, runs: Sequence[Run]) -> None:
+    def _exchange(self, code: int, runs: Sequence[SlotRun]) -> None:
         instance = self._instance.address
         self._rows.rows += [[code, run.address, instance, run.first, run.size, self._component, 0] for run in runs]
 
-    def _runs(self, stretch: Stretch, kind: str, *, to_set: bool = False) -> list[Run]:
+    def _runs(self, stretch: Stretch, kind: str, *, to_set: bool = False) -> list[SlotRun]:
         """Return where a range of slots is in the FMU's memory; an empty list during the initialisation."""
         if not self._rows.between_steps:
             return []

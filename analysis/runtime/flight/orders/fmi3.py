@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from ...instances.library import FUNCTION_NAMES
 from ...loop import codes
-from .rows import Rows
+from .rows import InstructionRows
 from .transfers import ComponentTransfers, TransferTable
 
 
@@ -17,7 +17,9 @@ def _mode(name: str) -> int:
 class Fmi3Orders:
     """Writer of the calls of one component."""
 
-    def __init__(self, rows: Rows, component: int, transfers: ComponentTransfers, table: TransferTable) -> None:
+    def __init__(
+        self, rows: InstructionRows, component: int, transfers: ComponentTransfers, table: TransferTable
+    ) -> None:
         self._rows = rows
         self._component = component
         self._transfers = transfers

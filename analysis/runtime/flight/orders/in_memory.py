@@ -14,7 +14,7 @@ from .rows import Callee
 REAL_SIZE = 8  # bytes
 
 
-class Run(NamedTuple):
+class SlotRun(NamedTuple):
     """Consecutive slots whose values are contiguous in an FMU's memory, from ``address`` on."""
 
     address: int
@@ -24,7 +24,7 @@ class Run(NamedTuple):
 
 def runs_in_memory(
     instance: Callee, references: np.ndarray, first: int, kind: str, *, to_set: bool = False
-) -> list[Run]:
+) -> list[SlotRun]:
     """Return the contiguous runs of values with these value references (uint32); their slots count from ``first``.
 
     Returns an empty list if the FMU does not disclose the address of each.
@@ -35,11 +35,11 @@ def runs_in_memory(
         address = instance.locate(references[start:end], kind, to_set=to_set)
         if not address:
             return []
-        runs.append(Run(address, first + start, end - start))
+        runs.append(SlotRun(address, first + start, end - start))
     return runs
 
 
-def with_moves(rows: Sequence[list[int]], runs: Sequence[Run], component: int, instance: int) -> list[list[int]]:
+def with_moves(rows: Sequence[list[int]], runs: Sequence[SlotRun], component: int, instance: int) -> list[list[int]]:
     """Return instructions that write connected values to the slots of these runs and to the FMU's memory.
 
     Returns an empty list if ``rows`` contain more than plain copies, or do not cover all slots.

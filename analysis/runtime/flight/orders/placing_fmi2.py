@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...fmi.variable import Variable
+from ...fmi.variable import ScalarVariable
 from ...instances.library import FUNCTION_NAMES
 from ...system.network import Network
 from ..parameters import TYPE_KIND
@@ -51,9 +51,9 @@ def place_component(network: Network, component: str, exchanged: Exchanged, slot
     return ComponentSlots(ranges, _place_recorded(network, component, exchanged, slots), tuned)
 
 
-def _by_function(network: Network, component: str, exchanged: Exchanged) -> list[list[Variable]]:
+def _by_function(network: Network, component: str, exchanged: Exchanged) -> list[list[ScalarVariable]]:
     """Return the variables grouped by the function of EXCHANGES that sets or gets them."""
-    variables: list[list[Variable]] = [[] for _ in EXCHANGES]
+    variables: list[list[ScalarVariable]] = [[] for _ in EXCHANGES]
     for variable in network.fmus[component].variables.values():
         kind = TYPE_KIND.get(variable.type, len(EXCHANGES))
         causality = variable.causality

@@ -8,7 +8,7 @@ import numpy as np
 
 from .....common.errors import InputError
 from ...fmi.representations import TEXTS
-from ...fmi.variable import Variable
+from ...fmi.variable import ScalarVariable
 from ...system.network import Network
 from .exchanged import Exchanged
 from .slots import Slots
@@ -25,7 +25,10 @@ class TransferPlacing:
         self._table = table
 
     def place(
-        self, component: str, transfers: ComponentTransfers, texts: Sequence[Sequence[tuple[Sequence[Variable], int]]]
+        self,
+        component: str,
+        transfers: ComponentTransfers,
+        texts: Sequence[Sequence[tuple[Sequence[ScalarVariable], int]]],
     ) -> None:
         """Complete the transfers of a component whose parameters have been placed.
 
@@ -63,13 +66,13 @@ class TransferPlacing:
         )
         self._slots.unfed |= {names[each] for each in unfed}
 
-    def _select_tuned(self, component: str, variables: Sequence[Variable]) -> set[str]:
+    def _select_tuned(self, component: str, variables: Sequence[ScalarVariable]) -> set[str]:
         return {each.name for each in variables if self._exchanged.is_tuned(component, each)}
 
-    def _add_texts(self, texts: Sequence[tuple[Sequence[Variable], int]]) -> list[int]:
+    def _add_texts(self, texts: Sequence[tuple[Sequence[ScalarVariable], int]]) -> list[int]:
         return [self._table.add(group, first) for group, first in texts if group]
 
-    def _add(self, component: str, group: Sequence[Variable], *, is_given: bool = False) -> int:
+    def _add(self, component: str, group: Sequence[ScalarVariable], *, is_given: bool = False) -> int:
         slots, first = self._slots, len(self._slots.references)
         for number, variable in enumerate(group, first):
             name = f"{component}.{variable.name}"

@@ -46,7 +46,7 @@ class Unloaded:
         return 0
 
 
-class Rows:
+class InstructionRows:
     """Collector of instructions. ``fault_slots`` are numbered as in the program's arrays."""
 
     def __init__(self, instances: Sequence[Callee], fault_slots: Sequence[int]) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from ...fmi.variable import Variable
-from ...system.passing.settings import Settings
+from ...fmi.variable import ScalarVariable
+from ...system.passing.settings import SystemSettings
 
 BASE = " as set"  # behind the name of a parameter that changes in flight
 
@@ -20,7 +20,7 @@ class Slots:
     simulation, by (component, variable).
     """
 
-    settings: Settings
+    settings: SystemSettings
     numbers: dict[str, int] = field(default_factory=dict)
     types: dict[str, str] = field(default_factory=dict)
     units: dict[str, str | None] = field(default_factory=dict)
@@ -38,7 +38,7 @@ class Slots:
         self.references.append(reference)
         self.initial.append(initial)
 
-    def add_bases(self, component: str, variables: Sequence[Variable]) -> int:
+    def add_bases(self, component: str, variables: Sequence[ScalarVariable]) -> int:
         """Add contiguous slots for the parameters' unchanged values, and return the first. They are not recorded."""
         first = len(self.references)
         for variable in variables:
@@ -48,7 +48,7 @@ class Slots:
             self.add(name, variable.reference, self.start(component, variable), variable.type, variable.unit)
         return first
 
-    def start(self, component: str, variable: Variable) -> float:
+    def start(self, component: str, variable: ScalarVariable) -> float:
         """Return an input's value until its source is known: the value set for it, else its FMU's start."""
         start = self.settings.variables.get((component, variable.name), variable.start or 0.0)
         return float({"true": 1, "false": 0}.get(str(start).lower(), start))

@@ -8,17 +8,17 @@ from __future__ import annotations
 import numpy as np
 
 from .....common.errors import InputError
-from ...fmi.variable import Variable
+from ...fmi.variable import ScalarVariable
 from ...loop import arrays
 from ...system.network import Network
-from ...system.passing.settings import Settings
+from ...system.passing.settings import SystemSettings
 from ...system.schedule import origin
 from .transfers import whole
 
 LONGEST = {"String": 4096, "Binary": 65536}  # bytes of one, of a String with its end
 
 
-class Texts:
+class TextSlots:
     """Positions of the connected texts of one type, by name; those of one component and direction are contiguous.
 
     ``ranges`` [component, 0 input or 1 output] are first position and count, ``variables`` [component] [direction] the
@@ -26,10 +26,10 @@ class Texts:
     system) and both positions.
     """
 
-    def __init__(self, network: Network, settings: Settings, type_name: str = "String") -> None:
+    def __init__(self, network: Network, settings: SystemSettings, type_name: str = "String") -> None:
         self.slots: dict[str, int] = {}
         self.longest = LONGEST[type_name]
-        self.variables: list[list[list[Variable]]] = []
+        self.variables: list[list[list[ScalarVariable]]] = []
         self._references: list[int] = []
         self._initial: list[bytes] = []
         self._file = network.file

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...fmi.representations import REPRESENTATIONS
-from ...fmi.variable import Variable
+from ...fmi.variable import ScalarVariable
 from ...instances.library import FUNCTION_NAMES
 from ...loop import codes
 from ...system.network import Network
@@ -54,7 +54,7 @@ class TransferTable:
         self.rows: list[tuple[int, int, int, int, int]] = []
         self.references: list[int] = []
 
-    def add(self, variables: Sequence[Variable], first: int) -> int:
+    def add(self, variables: Sequence[ScalarVariable], first: int) -> int:
         """Add a transfer of variables of one representation, with elements from ``first`` on; return its number."""
         references = [
             reference for _, reference in dict.fromkeys((each.array or each.name, each.reference) for each in variables)
@@ -94,21 +94,21 @@ def needs_events(network: Network, component: str) -> bool:
     )
 
 
-def whole(variables: Iterable[Variable], selected: Collection[str]) -> list[Variable]:
+def whole(variables: Iterable[ScalarVariable], selected: Collection[str]) -> list[ScalarVariable]:
     """Return all elements of the variables that are selected by name, entirely or by one element."""
     variables = list(variables)
     arrays = {each.array or each.name for each in variables if each.name in selected}
     return [each for each in variables if (each.array or each.name) in arrays]
 
 
-def groups(variables: Iterable[Variable]) -> list[list[Variable]]:
+def groups(variables: Iterable[ScalarVariable]) -> list[list[ScalarVariable]]:
     """Return the variables grouped by representation."""
-    parted: dict[str, list[Variable]] = {}
+    parted: dict[str, list[ScalarVariable]] = {}
     for each in variables:
         parted.setdefault(each.representation.name, []).append(each)
     return list(parted.values())
 
 
-def _is_given(network: Network, component: str, variable: Variable) -> bool:
+def _is_given(network: Network, component: str, variable: ScalarVariable) -> bool:
     name = f"{component}.{variable.name}"
     return name in network.driver or name in network.driven

@@ -1,6 +1,6 @@
 /* Runs one after another, without a return to the interpreter between them. */
 
-static void set_inputs(const Run *run, const Group *group, int64_t number)
+static void set_inputs(const Run *run, const RunGroup *group, int64_t number)
 {
     const int64_t reals = group->real_position_rows, wholes = group->whole_position_rows;
     const int64_t faults = group->fault_value_columns;
@@ -18,7 +18,7 @@ static void set_inputs(const Run *run, const Group *group, int64_t number)
 
 /* Simulate the runs of a group from their start; returns how many have been simulated. The record has room for all.
  * Ends early after a run that did not come to its end. */
-EXPORT int64_t perilune_fly_group(const Run *first, const Group *group)
+EXPORT int64_t perilune_fly_group(const Run *first, const RunGroup *group)
 {
     Run run = *first;
     for (int64_t number = 0; number < group->ends_rows; number++) {

@@ -18,7 +18,7 @@
 #define COLD __attribute__((cold, noinline))
 
 /* The sizes of the structures that Python fills: it compares them with its own. */
-EXPORT const uint64_t perilune_sizes[] = {sizeof(Run), sizeof(Group)};
+EXPORT const uint64_t perilune_sizes[] = {sizeof(Run), sizeof(RunGroup)};
 
 /* For Python, after a call of an FMU's function outside the loop. */
 EXPORT void perilune_restore_floats(void)

@@ -178,6 +178,6 @@ typedef struct {
     int64_t *ends;                /* [n], the rows in the record after each run */
     int64_t ends_rows;
     int64_t *endings;             /* [n], ENDING of each run */
-} Group;
+} RunGroup;
 
 #endif

@@ -26,7 +26,7 @@ class FunctionError(Exception):
 
 
 @dataclass
-class Function:
+class TransformedSum:
     """Transformed sum of inputs. Each signal has ``dimension`` variables; an input is None until it is connected."""
 
     name: str
@@ -58,7 +58,7 @@ class Function:
         return points
 
 
-def read_function(element: etree._Element) -> Function:
+def read_function(element: etree._Element) -> TransformedSum:
     """Return a function of a kind that libcosim supports: LinearTransformation, Sum or VectorSum.
 
     Raises FunctionError.
@@ -66,11 +66,11 @@ def read_function(element: etree._Element) -> Function:
     name, kind = element.get("name", ""), tag(element)
     if kind == "LinearTransformation":
         gain = Transformation(_number(element, "factor", "1"), _number(element, "offset", "0"))
-        return Function(name, 1, gain, {IN: None})
+        return TransformedSum(name, 1, gain, {IN: None})
     if kind not in ("Sum", "VectorSum"):
         raise FunctionError("functions of this kind are not supported", "use an FMU that does it")
     inputs = {f"{IN}[{index}]": None for index in range(_count(element, "inputCount"))}
-    return Function(name, _count(element, "dimension") if kind == "VectorSum" else 1, IDENTITY, {**inputs})
+    return TransformedSum(name, _count(element, "dimension") if kind == "VectorSum" else 1, IDENTITY, {**inputs})
 
 
 def _number(element: etree._Element, attribute: str, default: str) -> float:

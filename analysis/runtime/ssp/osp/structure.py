@@ -1,4 +1,4 @@
-"""OspSystemStructure.xml, the system format of the Open Simulation Platform, read as a `Description`.
+"""OspSystemStructure.xml, the system format of the Open Simulation Platform, read as a `SystemDescription`.
 
 The ECCO algorithm is rejected by name. Kinds and types of variables are taken from the FMUs, since the file does not
 repeat them. Sources: libcosim's schemas OspSystemStructure 0.1 and OspModelDescription 1.0.
@@ -14,10 +14,19 @@ from .....common.errors import InputError
 from .....common.paths import names_fmu
 from ..archive import SystemArchive
 from ..conversions import IDENTITY, Transformation
-from ..description import Binding, Component, Connection, Connector, Description, System, is_elsewhere, source_file
+from ..description import (
+    Binding,
+    Component,
+    Connection,
+    Connector,
+    SystemDescription,
+    SystemElement,
+    is_elsewhere,
+    source_file,
+)
 from ..documents import NAMESPACES, parse_xml, tag
 from ..experiment import positive_seconds, step_hint
-from .functions import OUT, Function, FunctionError, Point, read_function
+from .functions import OUT, FunctionError, Point, TransformedSum, read_function
 from .groups import read_groups
 
 NAMESPACE = "http://opensimulationplatform.com/MSMI/OSPSystemStructure"
@@ -26,24 +35,24 @@ ELEMENTS = ("StartTime", "EndTime", "BaseStepSize", "Algorithm", "Simulators", "
 VARIABLES, SIGNALS = ("Variable", "VariableGroup"), ("Signal", "SignalGroup")
 
 
-def read_osp(data: bytes, file: str, archive: SystemArchive) -> Description:
+def read_osp(data: bytes, file: str, archive: SystemArchive) -> SystemDescription:
     """Return the description in the document, one of an archive's files. Raises InputError."""
-    return _Reader(file, archive).read(parse_xml(data, file))
+    return _StructureReader(file, archive).read(parse_xml(data, file))
 
 
-class _Reader:
+class _StructureReader:
     def __init__(self, file: str, archive: SystemArchive) -> None:
         self.file = file
         self.archive = archive
-        self.system = System("root", {}, [], 0)
-        self.functions: dict[str, Function] = {}
+        self.system = SystemElement("root", {}, [], 0)
+        self.functions: dict[str, TransformedSum] = {}
         self.groups: dict[str, dict[str, list[str]]] = {}  # by simulator, then by name of the group
         self.notes: list[str] = []
 
     def refuse(self, element: etree._Element, problem: str, remedy: str) -> InputError:
         return InputError(self.file, f"{tag(element)} (line {element.sourceline})", problem, remedy)
 
-    def read(self, root: etree._Element) -> Description:
+    def read(self, root: etree._Element) -> SystemDescription:
         if root.tag != f"{{{NAMESPACE}}}OspSystemStructure":
             problem = f"{root.tag} is not an OspSystemStructure of {NAMESPACE}"
             raise InputError(self.file, f"line {root.sourceline}", problem, "give an OspSystemStructure.xml")
@@ -61,7 +70,7 @@ class _Reader:
             self.function(function)
         self.connections(root.findall("{*}Connections/*"))
         start, end, step = (root.find(f"{{*}}{name}") for name in ("StartTime", "EndTime", "BaseStepSize"))
-        return Description(
+        return SystemDescription(
             file=self.file,
             name=PurePosixPath(self.file).parent.name,
             system=self.system,
@@ -128,7 +137,7 @@ class _Reader:
         self.functions[function.name] = function
 
     def connections(self, elements: list[etree._Element]) -> None:
-        outputs: list[tuple[Function, list[Point], etree._Element]] = []
+        outputs: list[tuple[TransformedSum, list[Point], etree._Element]] = []
         for element in elements:
             if bond := element.get("powerBond"):  # libcosim, too, joins the variables and no more
                 self.notes.append(f"powerBond {bond} (line {element.sourceline}): without effect in fixedStep")
@@ -152,13 +161,13 @@ class _Reader:
         for function, points, element in outputs:
             self.connect_output(function, points, element)
 
-    def connect_input(self, function: Function, signal: etree._Element, points: list[Point]) -> None:
+    def connect_input(self, function: TransformedSum, signal: etree._Element, points: list[Point]) -> None:
         try:
             function.connect_input(signal.get("name", ""), points)
         except FunctionError as error:
             raise self.refuse(signal, error.problem, error.remedy) from error
 
-    def connect_output(self, function: Function, points: list[Point], element: etree._Element) -> None:
+    def connect_output(self, function: TransformedSum, points: list[Point], element: etree._Element) -> None:
         try:
             sums = function.connect_output(points)
         except FunctionError as error:

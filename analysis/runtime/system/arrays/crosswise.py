@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from ..network import Link, Network
+from ..network import Network, NodeLink
 
 ELEMENT = re.compile(r"(.+)\[([\d, ]+)\]")
 Index = tuple[int, ...]
@@ -18,7 +18,7 @@ def crosswise_notes(network: Network) -> list[str]:
     Elements connected in increasing order (x[1] -> y[1], x[3] -> y[2]) and one element connected to all of y are
     considered intended.
     """
-    by_vectors: dict[tuple[str, str], list[tuple[Index, Index, Link]]] = {}
+    by_vectors: dict[tuple[str, str], list[tuple[Index, Index, NodeLink]]] = {}
     for link in network.driver.values():
         source, target = (ELEMENT.fullmatch(node.name) for node in (link.source, link.target))
         if source and target:
@@ -27,7 +27,7 @@ def crosswise_notes(network: Network) -> list[str]:
     return [f"{network.file}: {note}" for pairs in by_vectors.values() for note in _notes(sorted(pairs, key=_key))]
 
 
-def _notes(pairs: list[tuple[Index, Index, Link]]) -> Iterator[str]:
+def _notes(pairs: list[tuple[Index, Index, NodeLink]]) -> Iterator[str]:
     straight = next((link for target, source, link in pairs if target == source), None)
     sources = [source for _, source, _ in pairs]
     is_in_order = all(one < other for one, other in pairwise(sources)) or len(set(sources)) == 1
@@ -41,5 +41,5 @@ def _index(text: str) -> Index:
     return tuple(int(part) for part in text.split(","))
 
 
-def _key(pair: tuple[Index, Index, Link]) -> Index:
+def _key(pair: tuple[Index, Index, NodeLink]) -> Index:
     return pair[0]

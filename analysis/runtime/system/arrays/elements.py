@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from .....common.errors import InputError
-from ...ssp.description import Connection, Connector, Description, Element, Point, System
+from ...ssp.description import Connection, Connector, Element, Point, SystemDescription, SystemElement
 from ...ssp.dimensions import Shape, element_name, element_names, indices, text_of
 from .shapes import Shapes
 from .sizes import Sizes, walk
 
 
-def expand_arrays(description: Description, sizes: Sizes) -> Description:
+def expand_arrays(description: SystemDescription, sizes: Sizes) -> SystemDescription:
     """Return the description with scalar connectors ``x[1]`` or ``x[2,1]`` for an array x, and their connections.
 
     ``sizes`` are those determined by structural parameters. A description without arrays is returned unchanged. Raises
@@ -24,7 +24,7 @@ def expand_arrays(description: Description, sizes: Sizes) -> Description:
     return replace(description, system=_expand(description, shapes, "", description.system))
 
 
-def _has_arrays(system: System) -> bool:
+def _has_arrays(system: SystemElement) -> bool:
     """Return True if a system, without inner ones, has an array or a connection to an array's element."""
     return (
         any(each.dimensions for owner in (system, *system.elements.values()) for each in owner.connectors.values())
@@ -33,11 +33,11 @@ def _has_arrays(system: System) -> bool:
     )
 
 
-def _expand(description: Description, shapes: Shapes, path: str, system: System) -> System:
+def _expand(description: SystemDescription, shapes: Shapes, path: str, system: SystemElement) -> SystemElement:
     elements: dict[str, Element] = {}
     for name, element in system.elements.items():
         inner = f"{path}{name}."
-        if isinstance(element, System):
+        if isinstance(element, SystemElement):
             elements[name] = _expand(description, shapes, inner, element)
         else:
             elements[name] = replace(element, connectors=_connectors(shapes, inner, element.connectors))
@@ -67,7 +67,7 @@ def _connectors(shapes: Shapes, path: str, connectors: Mapping[str, Connector]) 
     return expanded
 
 
-def _connections(description: Description, shapes: Shapes, path: str, connection: Connection) -> list[Connection]:
+def _connections(description: SystemDescription, shapes: Shapes, path: str, connection: Connection) -> list[Connection]:
     """Return the connections of the elements that a connection joins, both ends in the order of their indices."""
     starts, part = _part(description, shapes, path, connection, connection.start, connection.start_indices)
     ends, other = _part(description, shapes, path, connection, connection.end, connection.end_indices)
@@ -84,7 +84,7 @@ def _connections(description: Description, shapes: Shapes, path: str, connection
 
 
 def _part(
-    description: Description, shapes: Shapes, path: str, connection: Connection, point: Point, chosen: Shape
+    description: SystemDescription, shapes: Shapes, path: str, connection: Connection, point: Point, chosen: Shape
 ) -> tuple[list[Point], Shape]:
     """Return the elements at one end of a connection, and the shape that they form."""
     element, connector = point

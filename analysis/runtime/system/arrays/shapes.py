@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from .....common.bounds import ARRAY_ELEMENTS
 from .....common.errors import InputError
-from ...ssp.description import Component, Connection, Connector, Description, Element, Point, System
+from ...ssp.description import Component, Connection, Connector, Element, Point, SystemDescription, SystemElement
 from ...ssp.dimensions import Shape, array_shapes, text_of
 from .sizes import Sizes, walk
 
@@ -17,7 +17,7 @@ Open = tuple[int | None, ...]  # a shape of which sizes may not be known
 class Shapes:
     """Shapes of all array connectors by hierarchical name. Raises InputError if one cannot be determined."""
 
-    def __init__(self, description: Description, sizes: Sizes) -> None:
+    def __init__(self, description: SystemDescription, sizes: Sizes) -> None:
         self.description = description
         self.load = sizes.load
         self.of_fmus: dict[str, dict[str, Shape]] = {}
@@ -113,16 +113,16 @@ def name_of(path: str, point: Point) -> str:
     return path + connector if element is None else f"{path}{element}.{connector}"
 
 
-def _elements(system: System, path: str = "") -> Iterator[tuple[str, Element]]:
+def _elements(system: SystemElement, path: str = "") -> Iterator[tuple[str, Element]]:
     """Yield all elements, after the prefix of their connectors' names."""
     for outer, inner in walk(system, path):
         yield outer, inner
         for element in inner.elements.values():
-            if not isinstance(element, System):
+            if not isinstance(element, SystemElement):
                 yield f"{outer}{element.name}.", element
 
 
-def _connections(description: Description) -> Iterator[tuple[str, Connection]]:
+def _connections(description: SystemDescription) -> Iterator[tuple[str, Connection]]:
     for path, system in walk(description.system):
         for connection in system.connections:
             yield path, connection

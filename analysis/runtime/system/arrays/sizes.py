@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 from .....common.errors import InputError
 from ...ssp.archive import SystemArchive
-from ...ssp.description import Component, Description, Element, System
+from ...ssp.description import Component, Element, SystemDescription, SystemElement
 from ...ssp.dimensions import Dimension
 from ...ssp.given_values import ParameterValue
 from ...ssp.parameter_sets import Assignment, read_binding
@@ -16,16 +16,16 @@ SIZES = ("structuralParameter", "constant")  # kinds of connectors that give a s
 Load = Callable[[str, Component], Fmu]
 
 
-def walk(system: System, path: str = "") -> Iterator[tuple[str, System]]:
+def walk(system: SystemElement, path: str = "") -> Iterator[tuple[str, SystemElement]]:
     """Yield a system and its inner systems, after their paths: "" for the outermost, else with a trailing dot."""
     yield path, system
     for element in system.elements.values():
-        if isinstance(element, System):
+        if isinstance(element, SystemElement):
             yield from walk(element, f"{path}{element.name}.")
 
 
 def given_values(
-    description: Description, archive: SystemArchive, assignments: Sequence[Assignment]
+    description: SystemDescription, archive: SystemArchive, assignments: Sequence[Assignment]
 ) -> dict[str, ParameterValue]:
     """Return values of parameter sets and options by hierarchical name; later override earlier, outer inner ones.
 
@@ -47,7 +47,9 @@ def given_values(
 class Sizes:
     """Sizes of dimensions. ``given`` returns the assigned values; it is called when they are first needed."""
 
-    def __init__(self, description: Description, given: Callable[[], Mapping[str, ParameterValue]], load: Load) -> None:
+    def __init__(
+        self, description: SystemDescription, given: Callable[[], Mapping[str, ParameterValue]], load: Load
+    ) -> None:
         self.description = description
         self.given = given
         self.load = load
@@ -128,7 +130,7 @@ class Sizes:
         return size
 
 
-def _structural_sources(description: Description) -> dict[str, str]:
+def _structural_sources(description: SystemDescription) -> dict[str, str]:
     """Return the sources of structural parameters, by hierarchical name."""
     sources: dict[str, str] = {}
     for path, system in walk(description.system):

@@ -6,11 +6,11 @@ from .....common.errors import InputError, suggestion
 from ...ssp.conversions import VALUE_TYPES
 from ...ssp.given_values import ParameterValue
 from ...ssp.kinds import PARAMETERS
-from ..network import Link, Network, Node
-from .settings import Settings
+from ..network import Network, Node, NodeLink
+from .settings import SystemSettings
 
 
-def pass_parameters(network: Network, settings: Settings) -> None:
+def pass_parameters(network: Network, settings: SystemSettings) -> None:
     """Pass the values of system parameters and constants along their connections."""
     for node in network.nodes.values():
         if node.kind in PARAMETERS and node.component is not None and node.name in network.driver:
@@ -37,7 +37,7 @@ def pass_parameters(network: Network, settings: Settings) -> None:
                 raise network.refuse(link.where, f"{source.name} has no value", remedy)
 
 
-def _find_passed_value(network: Network, settings: Settings, node: Node) -> tuple[str, float | str] | None:
+def _find_passed_value(network: Network, settings: SystemSettings, node: Node) -> tuple[str, float | str] | None:
     """Return the outermost value that connections pass to a parameter, with its source, or None."""
     chain = [network.driver[node.name]] if node.name in network.driver else []
     while chain and chain[-1].source.name in network.driver:
@@ -56,11 +56,11 @@ def _find_passed_value(network: Network, settings: Settings, node: Node) -> tupl
 
 
 def _number(text: str, node: Node) -> float | str:
-    """Return a constant's value in the form of `Settings.nodes`."""
+    """Return a constant's value in the form of `SystemSettings.nodes`."""
     return text if node.type_name == "String" else float({"true": "1", "false": "0"}.get(text.lower(), text))
 
 
-def _pass_on(network: Network, link: Link, value: float | str) -> float | str:
+def _pass_on(network: Network, link: NodeLink, value: float | str) -> float | str:
     """Return a parameter's value after a connection."""
     if isinstance(value, str):
         return value
@@ -74,7 +74,7 @@ def _pass_on(network: Network, link: Link, value: float | str) -> float | str:
     return table[value]
 
 
-def numbers(network: Network, link: Link) -> list[tuple[float, float]]:
+def numbers(network: Network, link: NodeLink) -> list[tuple[float, float]]:
     """Return a connection's mapping as numbers: Booleans as 0 and 1, enumeration items as their values.
 
     Returns an empty list without a mapping.

@@ -9,7 +9,7 @@ from ...ssp.parameter_sets import Assignment
 
 
 @dataclass
-class Settings:
+class SystemSettings:
     """Values by (component, variable), those of system connectors by name, and the ``origins`` of both.
 
     ``left_out`` is the origin of each value that a mapping omits, by the name to which it would apply without the

@@ -13,7 +13,7 @@ from scipy.optimize import minimize_scalar
 from perilune.common.paths import ROOT
 from perilune.fmus_src.guidance.convex import PATIENCE, ConvexGuidance
 from perilune.fmus_src.guidance.zem_zev import ZemZevGuidance
-from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.runtime import BlockInstance
 from perilune.fmus_src.variables import Input, Parameter
 from tests.support.flights.convex_descent import A1, C1, C2, MAXIMUM, approach, settle
 from tests.support.flights.native_block import STEP, begin, fly
@@ -203,7 +203,7 @@ def test_a_frozen_time_to_go_is_flown_by_zem_zev():
 def test_plans_have_equal_bits_in_python_and_in_c():
     """A first plan with glide slope and tilt, and a second one."""
     native = begin(ConvexGuidance, A1)
-    plain = Component(ConvexGuidance)
+    plain = BlockInstance(ConvexGuidance)
     for name, references in native.references.items():
         if isinstance(ConvexGuidance.variables[name], Input | Parameter):
             plain.set(references, np.atleast_1d(native[name]).tolist())

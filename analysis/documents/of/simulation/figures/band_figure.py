@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .....runtime.flight.results import Result
+from .....runtime.flight.results import FlightResult
 from ....cell import Inline, Quantity
 from ....chart.axes import linear_axis, logarithmic_axis
 from ....chart.marks import across, during, instant, level
@@ -27,7 +27,7 @@ MOST_DECADES = 6  # ticks of a logarithmic abscissa
 WIDE = 4.0  # range of the signal over the width of the band from which a zoom is plotted
 
 
-def inside(band: BandFigure, result: Result) -> np.ndarray:
+def inside(band: BandFigure, result: FlightResult) -> np.ndarray:
     """Return True for each sample of each element within the band, limits included; NaN is outside."""
     values = band.values(result)
     low, high = (-np.inf if band.low is None else band.low), (np.inf if band.high is None else band.high)
@@ -52,7 +52,7 @@ def settling_text(name: str, time: np.ndarray, condition: np.ndarray) -> list[In
     return text if name == SETTLED else [*text, f" ({name})"]
 
 
-def band_section(band: BandFigure, result: Result, name: str) -> Group:
+def band_section(band: BandFigure, result: FlightResult, name: str) -> Group:
     """Return the section of a band; ``name`` must be unique among the figures of a page."""
     within, values, time = inside(band, result), band.plot_values(result), result.time
     row = settling_row(np.logical_and.reduce(within))
@@ -102,7 +102,7 @@ def _ends(values: np.ndarray, limits: list[float]) -> tuple[float, float]:
     return ends
 
 
-def _spans(band: BandFigure, result: Result) -> list[tuple[float, float]]:
+def _spans(band: BandFigure, result: FlightResult) -> list[tuple[float, float]]:
     """Return begin and end (s) of the shaded intervals."""
     if band.shade is None:
         return []
@@ -113,7 +113,7 @@ def _spans(band: BandFigure, result: Result) -> list[tuple[float, float]]:
     return [(float(time[begin]), float(time[end])) for begin, end in zip(begins, ends, strict=True)]
 
 
-def against_chart(band: BandFigure, result: Result, other: Signal) -> Chart:
+def against_chart(band: BandFigure, result: FlightResult, other: Signal) -> Chart:
     """Return a band's signal over another one, on a logarithmic scale if that spans decades."""
     abscissa, unit = other.plot_values(result)[0], display_unit(other.unit_name)
     label = f"{other.label}, {unit}" if unit else other.label

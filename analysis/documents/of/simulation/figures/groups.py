@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .....runtime.flight.results import Result
+from .....runtime.flight.results import FlightResult
 from ....cell import Inline, Rich
 from ....figures.declared import (
     BandFigure,
@@ -43,7 +43,7 @@ class FigureGroup(NamedTuple):
 
 
 def figure_groups(
-    figures: Sequence[FigureDeclaration], result: Result, system: str
+    figures: Sequence[FigureDeclaration], result: FlightResult, system: str
 ) -> tuple[list[Group], list[FigureGroup]]:
     """Return the tables of limits, which a header summarises, and other figures by group.
 
@@ -60,13 +60,13 @@ def figure_groups(
     return limits, [FigureGroup(group.title, group.is_folded, members) for group, members in by_group.items()]
 
 
-def figure_sections(figures: Sequence[FigureDeclaration], result: Result) -> list[Group]:
+def figure_sections(figures: Sequence[FigureDeclaration], result: FlightResult) -> list[Group]:
     """Return a section for each figure except scenes, in the order of the SSD; none for a run without samples."""
     return [subsection for _, subsection in _subsections(figures, result, is_counted=True)]
 
 
 def _subsections(
-    figures: Sequence[FigureDeclaration], result: Result, *, is_counted: bool
+    figures: Sequence[FigureDeclaration], result: FlightResult, *, is_counted: bool
 ) -> list[tuple[FigureDeclaration, Group]]:
     if not result.time.size:
         return []
@@ -74,7 +74,7 @@ def _subsections(
     return [(figure, _subsection(figure, result, f"figure{index}", is_counted)) for index, figure in enumerate(plotted)]
 
 
-def _subsection(figure: FigureDeclaration, result: Result, name: str, is_counted: bool) -> Group:
+def _subsection(figure: FigureDeclaration, result: FlightResult, name: str, is_counted: bool) -> Group:
     if (
         isinstance(figure, ErrorFigure | CurveFigure | PathFigure)
         and figure.rows is not None
@@ -101,7 +101,7 @@ def _subsection(figure: FigureDeclaration, result: Result, name: str, is_counted
     return figure_group(figure.title, notes=[f"Not plotted: {note}." for note in figure.notes])
 
 
-def joint_findings(figures: Sequence[FigureDeclaration], result: Result) -> list[Rich]:
+def joint_findings(figures: Sequence[FigureDeclaration], result: FlightResult) -> list[Rich]:
     """Return the time from which all bands with a common name hold."""
     conditions: dict[str, list[np.ndarray]] = {}
     for band in figures:
@@ -116,7 +116,7 @@ def joint_findings(figures: Sequence[FigureDeclaration], result: Result) -> list
     return findings
 
 
-def limit_section(limits: LimitsFigure, result: Result, is_counted: bool) -> Group:
+def limit_section(limits: LimitsFigure, result: FlightResult, is_counted: bool) -> Group:
     """Return the table of limits, or why none is evaluated; ``is_counted`` adds how many are met, and which are not."""
     violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is LimitVerdict.VIOLATED]
     obstacle = limits.obstacle(result)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from ......common.percent import short_percent
-from .....runtime.flight.results import Result
+from .....runtime.flight.results import FlightResult
 from ....cell import Displayed, Inline, Quantity, Rich
 from ....chart.marks import band_areas, level
 from ....chart.quantity import quantity_curve
@@ -28,7 +28,7 @@ ROUNDING = 1e-12  # of times, which are start + n h
 WIDE = 4.0  # range of the errors over that of the last quarter from which a zoom is plotted
 
 
-def error_section(error: ErrorFigure, result: Result, name: str) -> Group:
+def error_section(error: ErrorFigure, result: FlightResult, name: str) -> Group:
     """Return the section of an error; ``name`` must be unique among the figures of a page."""
     chosen, rows = select_rows(error.rows, result)
     time = result.time[rows]
@@ -142,7 +142,7 @@ def _caption(error: ErrorFigure, sigma: np.ndarray) -> list[Inline]:
     return sentence(text)
 
 
-def curve_section(curve: CurveFigure, result: Result, name: str) -> Group:
+def curve_section(curve: CurveFigure, result: FlightResult, name: str) -> Group:
     """Return the section of curves; ``name`` must be unique among the figures of a page."""
     chosen, rows = select_rows(curve.rows, result)
     time = result.time[rows]

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from .....runtime.flight.results import Result
+from .....runtime.flight.results import FlightResult
 from ....cell import Inline, LegendEntry
 from ....chart.axes import linear_axis
 from ....chart.equal import Ends, to_scale
@@ -34,7 +34,7 @@ WIDE_INTERVALS, Y_INTERVALS = 10, 6  # between ticks, at most
 WHITE = "#ffffff"
 
 
-def path_section(path: PathFigure, result: Result, name: str) -> Group:
+def path_section(path: PathFigure, result: FlightResult, name: str) -> Group:
     """Return the section of a path; ``name`` must be unique among the figures of a page."""
     chosen, rows = select_rows(path.rows, result)
 

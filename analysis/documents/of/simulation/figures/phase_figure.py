@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .....runtime.flight.results import Flight, Result
+from .....runtime.flight.results import Flight, FlightResult
 from ....cell import Cell, Inline, Quantity, Rich
 from ....chart.axes import lane_axis, linear_axis
 from ....chart.marks import SQUARE, instant
@@ -94,7 +94,7 @@ NEAR_THE_EDGE = 0.88  # of a window, from which the duration is written on the l
 Window = tuple[float, float]
 
 
-def phase_section(phases: PhasesFigure, result: Result, name: str) -> Group:
+def phase_section(phases: PhasesFigure, result: FlightResult, name: str) -> Group:
     """Return the section of the phases; ``name`` must be unique among the figures of a page."""
     spans, statuses = spans_of(phases, result), statuses_of(phases, result)
     windows = _windows(spans, statuses or [])
@@ -226,7 +226,7 @@ def _findings(phases: PhasesFigure, statuses: Sequence[tuple[int, float]]) -> li
     ]
 
 
-def consumption_by_phase(budget: BudgetFigure, result: Result) -> dict[str, float]:
+def consumption_by_phase(budget: BudgetFigure, result: FlightResult) -> dict[str, float]:
     """Return the consumption of each phase that occurred, summed over its occurrences."""
     spent: dict[str, float] = {}
     for span in spans_of(budget.of, result):
@@ -244,7 +244,7 @@ def amount(item: BudgetItem, spent: Mapping[str, float], bound: BoundValues | No
     return math.fsum((*used, *(values[name] for name in item.plus), *(-values[name] for name in item.minus)))
 
 
-def budget_section(budget: BudgetFigure, result: Result) -> Group:
+def budget_section(budget: BudgetFigure, result: FlightResult) -> Group:
     """Return the table of a budget."""
     spent = consumption_by_phase(budget, result)
     unit = budget.of.spent.unit_name if budget.of.spent is not None else None

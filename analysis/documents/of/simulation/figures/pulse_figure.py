@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .....runtime.flight.results import Result
+from .....runtime.flight.results import FlightResult
 from ....cell import Inline, Quantity
 from ....chart.marks import level
 from ....chart.quantity import quantity_curve
@@ -23,7 +23,7 @@ BAR = 1.1  # pt; the duration of a pulse would not be visible
 THIN = 0.6  # pt, the line at 0 and that of the remainder
 
 
-def pulse_lengths(pulses: PulsesFigure, result: Result) -> np.ndarray:
+def pulse_lengths(pulses: PulsesFigure, result: FlightResult) -> np.ndarray:
     """Return the signed lengths (s) of the pulses that start at each sample, [axes, samples]; 0 without a pulse.
 
     Pulses of the last sample are omitted, since a command acts during the step after its sample.
@@ -36,7 +36,7 @@ def pulse_lengths(pulses: PulsesFigure, result: Result) -> np.ndarray:
     return lengths
 
 
-def pulse_section(pulses: PulsesFigure, result: Result, name: str) -> Group:
+def pulse_section(pulses: PulsesFigure, result: FlightResult, name: str) -> Group:
     """Return the section of pulses; ``name`` must be unique among the figures of a page."""
     lengths = pulse_lengths(pulses, result)
     if not np.any(lengths):
@@ -54,7 +54,7 @@ def pulse_section(pulses: PulsesFigure, result: Result, name: str) -> Group:
     )
 
 
-def pulse_charts(pulses: PulsesFigure, result: Result, lengths: np.ndarray) -> list[tuple[str, Chart]]:
+def pulse_charts(pulses: PulsesFigure, result: FlightResult, lengths: np.ndarray) -> list[tuple[str, Chart]]:
     """Return a chart for each axis with its heading, and one of the thruster on-time, if declared.
 
     A bar from 0 to its length (s) represents a pulse; all ordinates have the same ends. ``lengths`` are as returned by
@@ -107,7 +107,7 @@ def _amount(lengths: np.ndarray) -> list[Inline]:
     return [f"{number(count)} {'pulse' if count == 1 else 'pulses'}, ", duration]
 
 
-def _caption(pulses: PulsesFigure, result: Result) -> list[Inline]:
+def _caption(pulses: PulsesFigure, result: FlightResult) -> list[Inline]:
     text = f"bars: {pulses.lengths.label}, at the start of each pulse, height: its duration"
     if pulses.remainder is not None:
         is_zero = not np.any(pulses.remainder.values(result))

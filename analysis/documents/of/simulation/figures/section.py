@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .....runtime.flight.results import Result
+from .....runtime.flight.results import FlightResult
 from ....cell import LegendEntry, Quantity, Rich
 from ....chart.axes import linear_axis
 from ....common.colours import look
@@ -73,7 +73,7 @@ def history_figure(
     return Figure(label, name, description, replace(chart, title=unit), HEIGHT, is_wide=is_wide)
 
 
-def select_rows(rows: SampleRange | None, result: Result) -> tuple[np.ndarray, slice]:
+def select_rows(rows: SampleRange | None, result: FlightResult) -> tuple[np.ndarray, slice]:
     """Return True for each sample of a figure, and the slice from the first to the last; at least one is selected."""
     chosen = np.ones(result.time.size, dtype=bool) if rows is None else rows.select(result)
     selected = np.flatnonzero(chosen)
