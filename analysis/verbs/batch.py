@@ -120,7 +120,7 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
     check_folder("`output`", folder, overwrite=is_kept, otherwise="`resume` or `overwrite`")
     plan = read_campaign(system, campaign, options)
     requirements = campaign_requirements(plan, options["require"])
-    select_metrics(options["metrics"], [metric.name for metric in plan.campaign.metrics], ())  # refused before flights
+    select_metrics(options["metrics"], [metric.name for metric in plan.campaign.metrics], ())  # before any simulation
     workers, engine = options["workers"], options["engine"]
     with (
         chdir(Path.cwd()),  # an FMU may change the folder

@@ -147,5 +147,5 @@ def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> Stabilit
         draws=None if draws is None else Path(draws),
     )
     done = study(request, study_command, options["workers"])
-    texts = {name: value for name, value in {**options, "at": times}.items() if name != "workers"}  # changes no number
+    texts = {name: value for name, value in {**options, "at": times}.items() if name != "workers"}  # affects no number
     return StabilityReport(**vars(done), command=write_command(STABILITY, {"system": system}, texts))

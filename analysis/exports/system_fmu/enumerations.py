@@ -47,7 +47,7 @@ class Enumerations:
         node = network.nodes.get(name)
         if node is None or not node.enumeration:
             return [] if node is None else [None]
-        for other in network.nodes.values():  # a connector without a type has the very members of what it is linked to
+        for other in network.nodes.values():  # a connector without a type shares the members of its link
             if other.component is not None and other.enumeration is node.enumeration:
                 return [self.in_fmu(network.fmus[other.component])[other.variable]]
         declared = network.description.enumerations

@@ -35,7 +35,7 @@ def stability_problems(report: StabilityStudy) -> list[str]:
     lines = [
         _failure_line(subject, requirement)
         for subject, requirement in failures
-        if not requirement.unstable or isinstance(subject, JointReport)  # else that it is unstable has a line already
+        if not requirement.unstable or isinstance(subject, JointReport)  # else another line reports the instability
     ]
     withheld = [item for item in judged if item.requirement.verdict is MarginVerdict.WITHHELD]
     lines += [withheld_line(report, subject, requirement) for subject, requirement in withheld]
