@@ -26,7 +26,7 @@ USAGE = "perilune [--help] [--version] VERB ..."
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Execute one command and return its exit status, which does not depend on whether its output can be written."""
+    """Execute one command and return its exit status, which is unaffected by a reader that closes the pipe early."""
     with steady_streams() as output:
         status = _carry_out(sys.argv[1:] if arguments is None else list(arguments))
         output.flush()
