@@ -76,7 +76,7 @@ FORM = "COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]"
         ("a.b=melt@2", "unknown kind melt"),
         ("a.b=bias@2", "bias lacks its value; write bias:VALUE"),
         ("a.b=override@2", "override lacks its value; write override:VALUE"),
-        ("a.b=freeze:0@2", "a freeze has no value; leave it out"),
+        ("a.b=freeze:0@2", "a freeze has no value; omit it"),
         ("a.b=bias:x@2", f"not a number: 'x'; write {FORM}, times in s"),
         ("a.b=bias:1@x", "not a number: 'x'"),
         ("a.b=bias:1@1..x", "not a number: 'x'"),
