@@ -1,6 +1,6 @@
-"""The space that a campaign draws from: its draws as independent standard normal variables, and as a box.
+"""Space of a campaign's draws, as independent standard normal variables and as a box.
 
-Each distribution gives its own coordinates (``distributions/``).
+Each distribution defines its own coordinates (``distributions.py``).
 """
 
 from __future__ import annotations
@@ -16,14 +16,13 @@ from ..campaigns.draws.declared import Columns, Continuous, Draw
 
 
 class DrawSpace:
-    """A campaign's draws as points of a space: the random ones span it, the ``held`` ones have one value everywhere.
+    """Space of a campaign's draws: random ones span it, ``held`` ones have one value everywhere.
 
-    Choices and grids have no such coordinates and must be held. Latin hypercubes and Sobol sequences are taken for the
-    uniform draws that they are designs of. Raises InputError for what is not held and must be, for a held value that
-    is not drawn or cannot be, and where nothing varies, unless ``may_be_empty``.
-
-    ``size`` is the number of coordinates, in the order of the file; jointly normal values have as many as their
-    covariance has eigenvalues above 0, along its axes.
+    Choices and grids have no coordinates and must be held. Latin hypercubes and Sobol sequences are treated as the
+    uniform draws that they sample. Raises InputError for a draw that must be held but is not, for a held value that is
+    not drawn or cannot be, and if nothing varies, unless ``may_be_empty``. ``size`` is the number of coordinates, in
+    the order of the file; jointly normal values have one along each axis of their covariance with an eigenvalue above
+    0.
     """
 
     def __init__(
@@ -41,13 +40,13 @@ class DrawSpace:
             self.check_varies()
 
     def check_varies(self) -> None:
-        """Refuse a space in which no draw varies. Raises InputError."""
+        """Reject a space in which no draw varies. Raises InputError."""
         if not self.size:
             raise InputError(self.campaign.file, "draw", "no draw varies", "declare a [draw.NAME], or hold fewer")
 
     @property
     def independent(self) -> bool:
-        """True if each coordinate is a draw by itself."""
+        """True if each coordinate is a single draw."""
         return all(len(names) == 1 for names, _ in self._varied)
 
     @property
@@ -55,20 +54,19 @@ class DrawSpace:
         return [name for names, _ in self._varied for name in names]
 
     def from_normals(self, u: np.ndarray) -> Columns:
-        """Return draws (a column by name) of independent standard normal values ``u`` (points, size)."""
+        """Return draws (columns by name) for independent standard normal values ``u`` (points, size)."""
         return self._columns(len(u), [distribution.from_normals(block) for distribution, block in self._blocks(u)])
 
     def to_normals(self, columns: Mapping[str, np.ndarray]) -> np.ndarray:
-        """Return the inverse of `from_normals`; infinite at an interval's ends."""
+        """Return the inverse of `from_normals`, infinite at an interval's ends."""
         return np.column_stack(
             [distribution.to_normals([columns[name] for name in names]) for names, distribution in self._varied]
         )
 
     def from_box(self, points: np.ndarray, sigmas: float) -> Columns:
-        """Return draws at ``points`` (points, size) in the unit cube, which spans intervals and normals within
-        ``sigmas``.
+        """Return draws for ``points`` (points, size) of the unit cube, the box of intervals and ``sigmas``.
 
-        For jointly normal values these are standard deviations along the axes of their covariance.
+        Normal draws are within ``sigmas`` standard deviations, jointly normal ones along the axes of their covariance.
         """
         blocks = self._blocks(points)
         return self._columns(len(points), [distribution.from_box(block, sigmas) for distribution, block in blocks])
@@ -80,9 +78,9 @@ class DrawSpace:
         )
 
     def ranges(self, sigmas: float) -> dict[str, tuple[float, float]]:
-        """Return minimum and maximum of each draw that varies in the box of `from_box`.
+        """Return minimum and maximum in the box of `from_box` of each draw that varies.
 
-        Jointly normal values reach them one at a time: the box is along the axes of their covariance.
+        Jointly normal values do not reach them together: the box is along the axes of their covariance.
         """
         return {
             name: ends
@@ -91,20 +89,20 @@ class DrawSpace:
         }
 
     def _blocks(self, points: np.ndarray) -> list[tuple[Continuous, np.ndarray]]:
-        """Return the coordinates of each draw that varies."""
+        """Return the distribution of each draw that varies, with its coordinates."""
         distributions = [distribution for _, distribution in self._varied]
         ends = np.cumsum([distribution.size for distribution in distributions])
         return list(zip(distributions, np.split(points, ends, axis=1)[:-1], strict=True))
 
     def _columns(self, points: int, varied: list[list[np.ndarray]]) -> Columns:
-        """Return the columns of all draws, the held ones too, in the order of the file."""
+        """Return the columns of all draws, including held ones, in the order of the file."""
         columns = {name: np.full(points, value) for name, value in self.held.items()}
         for (names, _), values in zip(self._varied, varied, strict=True):
             columns |= dict(zip(names, values, strict=True))
         return {name: np.ascontiguousarray(columns[name]) for draw in self.campaign.draws for name in draw.names}
 
     def _coordinates(self, draw: Draw) -> tuple[tuple[str, ...], Continuous] | None:
-        """Return the names and the distribution of a draw; None where it is held. Raises InputError."""
+        """Return the names and the distribution of a draw, or None if it is held. Raises InputError."""
         distribution = draw.distribution
         values = distribution.values if isinstance(distribution, Discrete) else ()
         given = [name for name in draw.names if name in self.held]

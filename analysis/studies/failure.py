@@ -1,7 +1,7 @@
-"""A failure as a number: how far a trial is from it, of an expression that says when it is one.
+"""Failure as a number: the signed distance of a trial from it, derived from an expression that is true for failures.
 
 ``a > b`` becomes the margin a - b, ``and`` the least of two margins, ``or`` the largest, ``not`` the margin of the
-opposite. A trial has failed where its margin is 0 or more; the larger, the worse.
+opposite. A trial has failed if its margin is 0 or more; larger is worse.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ OPPOSITE: dict[type[ast.cmpop], type[ast.cmpop]] = {
 
 
 class Failure:
-    """When a trial is a failure, and by how much.
+    """Condition for a trial to fail, with a margin.
 
-    ``names`` are metrics, drawn and derived values. A trial in which one of them is not finite is a failure of the
-    margin inf, as one is whose success expression has such a metric.
+    ``names`` are metrics, drawn and derived values. A trial in which one of them is not finite is a failure with the
+    margin inf; so is one with a non-finite metric in its success expression.
     """
 
     def __init__(self, expression: Expression) -> None:
@@ -41,10 +41,10 @@ class Failure:
         self._margin = _margin(ast.parse(expression.text, mode="eval").body, False, expression.where)
 
     def margins(self, values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
-        """Return the margin of every trial (trials,): 0 or more exactly where the expression is true.
+        """Return the margin of every trial (trials,): 0 or more exactly if the expression is true.
 
-        ``values`` has an array (trials,) for every name; ``flown`` (trials,) says which flights reached their end: one
-        that did not is a failure.
+        ``values`` has an array (trials,) for every name. A trial whose simulation did not complete, False in ``flown``
+        (trials,), is a failure.
         """
         given = {name: np.asarray(values[name], dtype=float) for name in self.names}
         finite = np.array(flown, dtype=bool)
@@ -55,7 +55,7 @@ class Failure:
 
 
 def failure_of(campaign: Campaign, text: str | None) -> Failure:
-    """Return the failure of an expression over metrics and draws, or without one that of the campaign's success.
+    """Return the failure of an expression over metrics and draws, by default that the campaign's success is missed.
 
     Raises InputError.
     """
@@ -69,7 +69,7 @@ def failure_of(campaign: Campaign, text: str | None) -> Failure:
 
 
 def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
-    """Return the margin of a sub-expression, or of its opposite."""
+    """Return the margin of a subexpression, or of its opposite."""
     match node:
         case ast.UnaryOp(op=ast.Not(), operand=operand):
             return _margin(operand, not negated, where)
@@ -88,13 +88,13 @@ def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
 
 
 def _join_limit_states(margins: list[Margin], either: bool) -> Margin:
-    """Return the margin of one of several (``either``), or of all of them."""
+    """Return the margin that one of several conditions is true (``either``), or all of them."""
     join = np.maximum if either else np.minimum
     return lambda values: join.reduce(np.broadcast_arrays(*(margin(values) for margin in margins)))
 
 
 def _difference(left: ast.expr, operator: type[ast.cmpop], right: ast.expr, where: Where) -> Margin:
-    """Return the margin of one comparison, from its sides' difference; nan where that is not known."""
+    """Return the margin of one comparison, from the difference of its sides; nan if it is unknown."""
     above = Expression(f"({ast.unparse(left)}) - ({ast.unparse(right)})", where)
 
     def margin(values: Mapping[str, np.ndarray]) -> np.ndarray:

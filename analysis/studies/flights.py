@@ -1,4 +1,4 @@
-"""Simulations of samples, for as many calls as a study needs, by workers that stay."""
+"""Simulation of samples by persistent workers, for any number of calls of a study."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ from .noise import make_samples, noise_of
 
 
 class SampleFlights:
-    """Simulates chosen samples of one variant of a campaign. Use it as a context manager: it holds workers.
+    """Simulator of chosen samples of one variant of a campaign. A context manager, since it holds workers.
 
-    ``first`` are samples with which everything is checked before any simulation; ``noise_trial`` is the trial of the
-    campaign whose random streams all simulations use, None where `fly` receives them. ``workers`` (default: one per
+    ``first`` are samples with which everything is checked before any simulation; ``noise_trial`` is the campaign's
+    trial whose random streams all simulations use, None if they are passed to `fly`. ``workers`` (default: one per
     processor) does not change results. Raises InputError, also for a campaign that compares FMUs.
     """
 
@@ -53,9 +53,9 @@ class SampleFlights:
         self._progress = progress_bar(unit="flight")
 
     def fly(self, columns: Columns, streams: Streams) -> tuple[TrialTable, Mapping[str, np.ndarray]]:
-        """Return the trials of samples and random streams, in their order, with the drawn and derived values.
+        """Return the trials of samples with these random streams, in order, and the drawn and derived values.
 
-        ``streams`` are those of all sources of the noise, by component. Raises InputError.
+        ``streams`` are those of all sources of noise, by component. Raises InputError.
         """
         plan = self.plan.of_samples(make_samples(columns, streams, self.noise))
         check_draws(plan, [self.prepared])
@@ -87,13 +87,13 @@ def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> TrialTable | None:  # o
 
 
 def plan_of_samples(plan: BatchPlan, first: Columns) -> BatchPlan:
-    """Return a plan of draws ``first``, without the campaign's records, groups and scatters."""
+    """Return a plan with the draws ``first``, without the campaign's records, groups and scatter plots."""
     campaign = replace(plan.campaign, record=TrialRecord(), group=None, scatters=())
     return replace(plan, campaign=campaign).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
 
 
 class StudyProvenance(CampaignProvenance, total=False):
-    """Inputs of the numbers of a study; ``loop``, ``point`` and ``time`` (s) are those of a margin."""
+    """Inputs that determine the numbers of a study; ``loop``, ``point`` and ``time`` (s) are those of a margin."""
 
     loop: str
     point: str
@@ -101,7 +101,7 @@ class StudyProvenance(CampaignProvenance, total=False):
 
 
 def study_provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> StudyProvenance:
-    """Return the provenance of a batch without entries that a study of samples lacks."""
+    """Return a batch's provenance without the entries that do not apply to a study of samples."""
     entries: StudyProvenance = {**provenance(plan, systems)}
     del entries["trials"], entries["record"]
     entries.pop("group", None)

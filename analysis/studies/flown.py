@@ -1,4 +1,4 @@
-"""Simulations of a study, a row each, and the base of the results of all studies."""
+"""Simulations of a study, a row each, and the base class of all studies' results."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Columns = Mapping[str, np.ndarray]
 
 
 def strict(value: float) -> float | None:
-    """Return a number as strict JSON can hold it."""
+    """Return a number for strict JSON: None if it is not finite."""
     return float(value) if np.isfinite(value) else None
 
 
@@ -33,16 +33,16 @@ def _is_stream(name: str) -> bool:
 
 
 class FlightDocument(TypedDict):
-    """Draws and metrics of one flight as strict JSON."""
+    """Draws and metrics of one simulation as strict JSON."""
 
     draws: dict[str, float]
     metrics: dict[str, float | str | None]
 
 
 class Flown:
-    """Flights as they come: ``points`` (flights, dimensions) with what they are worth, ``values`` (flights,).
+    """Simulations in order: ``points`` (flights, dimensions) with their objective ``values`` (flights,).
 
-    ``draws`` and ``metrics`` are columns (flights,) by name. Drawn values come before derived ones.
+    ``draws`` and ``metrics`` are columns (flights,) by name. Drawn values precede derived ones.
     """
 
     def __init__(self) -> None:
@@ -63,37 +63,34 @@ class Flown:
         return self
 
     def fact(self, row: int, number: Callable[[float], float | str | None] = strict) -> FlightDocument:
-        """Return draws and metrics of one flight as strict JSON: values that are not finite are
-        null, unless by ``number``."""
+        """Return draws and metrics of one simulation as strict JSON; ``number`` converts the metrics."""
         return {
             "draws": {name: float(column[row]) for name, column in self.draws.items() if not _is_stream(name)},
             "metrics": {name: number(column[row]) for name, column in self.metrics.items()},
         }
 
     def draw_table(self, names: list[str], rows: np.ndarray) -> pyarrow.Table:
-        """Return the draws of some flights, as `perilune batch --draws` takes them; ``names`` are the campaign's.
+        """Return the draws of some simulations as input for `perilune batch --draws`; ``names`` are the campaign's.
 
-        Their random streams are columns of the table, too.
+        The table includes columns for their random streams.
         """
         streams = filter(_is_stream, self.draws)
         return pyarrow.table({name: self.draws[name][rows] for name in (*names, *streams)})
 
     def streams(self, row: int) -> dict[str, int]:
-        """Return the trials whose random streams components had in one flight, by component;
-        `ALL` stands for the others."""
+        """Return, by component, the trials whose random streams one simulation used; `ALL` stands for the others."""
         columns = ((stream_component(name), column) for name, column in self.draws.items())
         return {component: int(column[row]) for component, column in columns if component is not None}
 
     def table(self, value_name: str) -> pyarrow.Table:
-        """Return a row per flight: draws, metrics and, under the name ``value_name``, the value."""
+        """Return a row per simulation: draws, metrics and, in the column ``value_name``, the objective value."""
         columns = {f"draw.{name}": column for name, column in self.draws.items()}
         columns |= {f"metric.{name}": column for name, column in self.metrics.items()}
         return pyarrow.table(columns | {value_name: self.values})
 
 
 class StudyCommands(NamedTuple):
-    """Commands: ``replay`` repeats a trial of a file of draws, ``monte_carlo`` simulates a
-    number of trials of the campaign."""
+    """Command lines of a study: ``replay`` repeats a trial of a file of draws, ``monte_carlo`` simulates trials."""
 
     replay: Callable[[Path, int], str]
     monte_carlo: Callable[[int], str] | None = None
@@ -101,11 +98,11 @@ class StudyCommands(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StudyResult:
-    """Base of results of studies: the draws as a ``space``, and every simulation in ``flown``.
+    """Base class of studies' results: the ``space`` of draws, and all simulations in ``flown``.
 
-    ``facts`` are the inputs of the numbers, ``noise`` the random numbers that components draw themselves, ``units``
-    those of draws and metrics by name. ``commands`` write the command lines that repeat simulations, where known.
-    ``lost`` counts simulations that crashed, hung or ran out of memory: they are failures, and no successes.
+    ``facts`` are the inputs that determine the numbers, ``noise`` the random numbers that components generate,
+    ``units`` those of draws and metrics by name. ``commands`` return the command lines that repeat simulations, if
+    known. ``lost`` counts simulations that crashed, hung or ran out of memory: they are failures.
     """
 
     DRAWS: ClassVar[str]  # the file of draws with which flights are flown again
@@ -124,17 +121,17 @@ class StudyResult:
 
     @property
     def conditions(self) -> str:
-        """Conditions of the numbers, as the end of a line; empty where there are none."""
+        """Conditions of the numbers, to end a line with; "" if there are none."""
         words = lost_words(self.lost)
         lost = f", {words} of {self.flights} simulations counted as failures" if words else ""
         return f"{conditions(self.noise, self.space.held)}{lost}"
 
     def replay(self, folder: Path | None, trial: int) -> str:
-        """Return the command that repeats a row of the file of draws; empty where it is not written to a folder."""
+        """Return the command that repeats a row of the file of draws; "" if there is no such file in a folder."""
         return "" if folder is None or self.commands is None else self.commands.replay(folder / self.DRAWS, trial)
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """Return the machine-readable result; ``folder`` is where it has been written, if it has."""
+        """Return the result as JSON; ``folder`` is where it has been written, or None."""
         raise NotImplementedError
 
     def _condition_document(self) -> dict[str, object]:
@@ -147,7 +144,7 @@ class StudyResult:
         }
 
     def _write(self, folder: Path, name: str, value_name: str, rows: np.ndarray) -> None:
-        """Write the draws of some flights for `--draws`, all flights, and the document."""
+        """Write the draws of some simulations for `--draws`, all simulations, and the document."""
         if rows.size:
             write_parquet(self.flown.draw_table(input_names(self.space.campaign), rows), folder / self.DRAWS)
         write_parquet(self.flown.table(value_name), folder / "flights.parquet")

@@ -1,4 +1,4 @@
-"""The random numbers that components draw themselves: random in a study, or those of one trial in all flights."""
+"""Random numbers that components generate: random in a study, or those of one trial in all simulations."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..runtime.system.prepared import PreparedSystem
 
 @dataclass(frozen=True)
 class Noise:
-    """The noise of ``components``, random where ``trial`` is None, else that of one trial of the campaign."""
+    """Noise of ``components``: random if ``trial`` is None, else that of one trial of the campaign."""
 
     components: tuple[str, ...]
     trial: int | None
@@ -24,24 +24,24 @@ class Noise:
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """The components whose noise is random in the study."""
+        """Components whose noise is random in the study."""
         return self.components if self.trial is None else ()
 
     @property
     def is_held(self) -> bool:
-        """True if all flights have the noise of one trial, and there is any."""
+        """True if there is noise, and all simulations have that of one trial."""
         return self.trial is not None and bool(self.components)
 
     def of(self, streams: np.ndarray) -> Streams:
-        """Return random streams by component, of numbers of trials (flights, sources)."""
+        """Return random streams by component from trial numbers (flights, sources)."""
         return dict(zip(self.sources, streams.T, strict=True))
 
     def same(self, streams: np.ndarray) -> Streams:
-        """Return random streams where all sources have the noise of the same trial (flights,)."""
+        """Return random streams by component if all sources have the noise of the same ``trials`` (flights,)."""
         return dict.fromkeys(self.sources, streams)
 
     def document(self) -> dict[str, object]:
-        """Return its entry in JSON results; ``noise_trial`` is None where the noise is random, or there is none."""
+        """Return the entry in JSON results; ``noise_trial`` is None for random noise, or none."""
         return {
             "noise_trial": self.trial if self.components else None,
             "noise": {"components": list(self.components), "random": bool(self.sources)},
@@ -49,21 +49,21 @@ class Noise:
 
 
 def noise_of(prepared: PreparedSystem, trial: int | None, seed: int) -> Noise:
-    """Return the noise of a system in a study. Raises InputError where there is no such trial."""
+    """Return the noise of a system in a study. Raises InputError for a missing trial."""
     if trial is not None and trial < 0:
         raise InputError("`noise_trial`", str(trial), "no such trial", "give 0 or more")
     return Noise(tuple(with_streams(prepared)), trial, seed)
 
 
 def make_samples(columns: Columns, streams: Streams, noise: Noise) -> GivenDraws:
-    """Return draws with the random streams of all sources, or those of the one trial where the noise is not random."""
+    """Return draws with the random streams of all sources, or with those of one trial if the noise is not random."""
     if noise.sources:
         return GivenDraws(columns, streams)
     return GivenDraws(columns, {ALL: np.full(len(next(iter(columns.values()))), noise.trial or 0)})
 
 
 def conditions(noise: Noise, held: Mapping[str, float]) -> str:
-    """Return the conditions of a result, as the end of a line; empty where there are none."""
+    """Return the conditions of a result, to end a line with; "" if there are none."""
     given = [f"{name} = {value:g}" for name, value in held.items()]
     given += [f"the noise realisation of trial {noise.trial}"] if noise.is_held else []
     return f", conditional on {' and '.join(given)}" if given else ""

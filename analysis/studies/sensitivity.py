@@ -1,4 +1,4 @@
-"""Sensitivity of a campaign's metrics to its draws: Sobol' indices by a separate plan, and their result."""
+"""Sensitivity of a campaign's metrics to its draws: Sobol' indices from a dedicated plan, and their result."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ def sensitivity(
     workers: int | None = None,
     tell: Callable[[str], object] = lambda price: None,
 ) -> SensitivityOutcome:
-    """Compute first-order and total Sobol' indices of every metric and of success, by ``base`` * (draws + 3) flights.
+    """Compute first-order and total Sobol' indices of every metric and of success.
 
-    The noise of all components is one input in addition to the draws, unless ``noise_trial`` fixes it for all flights:
-    then, and where no component has any, it is ``base`` * (draws + 2) flights. ``base`` is a power of two, 32 or more;
-    draws that are jointly normal are refused, as their shares cannot be separated: hold them. ``hold`` and
-    ``noise_trial`` are as in `rare_failure`. ``tell`` receives the price before any simulation. The campaign's seed is
-    that of the points; ``workers`` does not change the result. Raises InputError.
+    This takes ``base`` * (draws + 3) simulations, since the noise of all components is one input in addition to the
+    draws, or ``base`` * (draws + 2) if ``noise_trial`` fixes it for all simulations, or no component has noise.
+    ``base`` is a power of two, at least 32. Jointly normal draws are rejected, as their shares cannot be separated:
+    hold them. ``hold`` and ``noise_trial`` are as in `rare_failure`. ``tell`` receives the cost before any simulation.
+    The points are drawn with the campaign's seed; ``workers`` does not change the result. Raises InputError.
     """
     if base < 32 or base & (base - 1):
         raise InputError("`base`", str(base), "not a power of two from 32 on", "give 64, 128, 256, ...")
@@ -84,7 +84,7 @@ def sensitivity(
 
 
 def _reasons(metrics: Mapping[str, np.ndarray], with_indices: list[str]) -> dict[str, str]:
-    """Return the reasons of numbers without indices."""
+    """Return the reasons for numbers without indices."""
     reasons = {}
     for name, values in metrics.items():
         if name not in with_indices:
@@ -94,8 +94,7 @@ def _reasons(metrics: Mapping[str, np.ndarray], with_indices: list[str]) -> dict
 
 
 class InputIndices(TypedDict, total=False):
-    """Indices of an input with their intervals, and its rank correlation; noise has none: its realisations have no
-    order."""
+    """Indices of an input with their intervals, and its rank correlation, which noise lacks since it has no order."""
 
     rank: float | None
     first: float
@@ -106,11 +105,10 @@ class InputIndices(TypedDict, total=False):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SensitivityOutcome(StudyResult):
-    """Sobol' ``indices`` of metrics and success, in the order of ``with_indices``; None where no number has any.
+    """Sobol' ``indices`` of metrics and success, in the order of ``with_indices``; None if no number has any.
 
-    ``without_indices`` has the reason of each number without them.
-
-    ``ranks`` are rank correlations by number and draw; the noise, one input more where it is random, has none.
+    ``without_indices`` has the reason for each number without indices. ``ranks`` are rank correlations by number and
+    draw; random noise, an additional input, has none.
     """
 
     DRAWS = "draws.parquet"
@@ -123,7 +121,7 @@ class SensitivityOutcome(StudyResult):
 
     @property
     def inputs(self) -> list[str]:
-        """Varied inputs: the draws, and the noise as one input where it is random."""
+        """Varied inputs: the draws and, if it is random, the noise as one input."""
         return [*self.space.names, *([NOISE] if self.noise.sources else [])]
 
     def of(self, number: str) -> dict[str, InputIndices]:
@@ -141,7 +139,7 @@ class SensitivityOutcome(StudyResult):
         return rows
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """Return the machine-readable result; ``folder`` is where it has been written, if it has."""
+        """Return the result as JSON; ``folder`` is where it has been written, or None."""
         replay = self.replay(folder, 0)
         return {
             **self.facts,
@@ -157,5 +155,5 @@ class SensitivityOutcome(StudyResult):
         }
 
     def write(self, folder: Path) -> None:
-        """Write sensitivity.json, flights.parquet, and draws.parquet of all flights for `--draws`."""
+        """Write sensitivity.json, flights.parquet, and draws.parquet of all simulations for `--draws`."""
         self._write(folder, "sensitivity", "success", np.arange(self.flights))

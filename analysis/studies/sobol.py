@@ -1,4 +1,4 @@
-"""Sobol' indices: the share of a number's variance that each draw makes, alone and with others.
+"""Sobol' indices: the share of a number's variance that each draw causes, alone and with others.
 
 Saltelli et al. (2010): two independent tables of draws, A and B, and for each draw A with that column of B.
 """
@@ -19,8 +19,8 @@ RESAMPLES = 999
 class Indices:
     """First-order and total indices (numbers, inputs) with their 95 % intervals (2, numbers, inputs), low and high.
 
-    The first-order index is the share of the variance that an input makes by itself; the total one is the share that is
-    left when all other inputs are known.
+    The first-order index is the share of the variance that an input causes by itself; the total index is the share that
+    remains if all other inputs are known.
     """
 
     first: np.ndarray
@@ -30,9 +30,9 @@ class Indices:
 
 
 def saltelli_points(base: int, dimensions: int, random: np.random.Generator) -> np.ndarray:
-    """Return points of the unit cube (base * (dimensions + 2), dimensions): A, B, and A with each column of B in turn.
+    """Return points of the unit cube (base * (dimensions + 2), dimensions): A, B, and A with each column of B.
 
-    ``base`` is a power of two, that of the scrambled Sobol' sequence in twice as many dimensions.
+    ``base`` is a power of two. A and B are halves of a scrambled Sobol' sequence with twice as many dimensions.
     """
     both = scipy.stats.qmc.Sobol(2 * dimensions, scramble=True, bits=64, rng=random).random(base)
     first, second = both[:, :dimensions], both[:, dimensions:]
@@ -43,10 +43,10 @@ def saltelli_points(base: int, dimensions: int, random: np.random.Generator) -> 
 
 
 def with_noise(points: np.ndarray, base: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return points and streams where the noise is one input more: `saltelli_points`, and A with the streams of B.
+    """Return points and streams with noise as an additional input: `saltelli_points`, and A with the streams of B.
 
     Points are (base * (dimensions + 3), dimensions), streams (base * (dimensions + 3),) a number for each noise
-    realisation: row i of A has i, row i of B base + i, and every mix has those of A but for the last, which has B's.
+    realisation: row i of A has i, row i of B has base + i, and every mix has those of A except the last, which has B's.
     """
     first = np.arange(base)
     mixes = len(points) // base - 2
@@ -56,9 +56,9 @@ def with_noise(points: np.ndarray, base: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def indices(values: np.ndarray, base: int, random: np.random.Generator) -> Indices:
-    """Compute indices of numbers (numbers, base * (inputs + 2)) at the points of `saltelli_points`, or of `with_noise`.
+    """Compute indices of numbers (numbers, base * (inputs + 2)) at points of `saltelli_points` or `with_noise`.
 
-    They are finite, and none is the same everywhere. The intervals are percentiles of a bootstrap over the rows.
+    Numbers must be finite and not constant. The intervals are percentiles of a bootstrap over the rows.
     """
     pages = values.reshape(len(values), -1, base)  # numbers, A B AB..., rows
 
@@ -93,8 +93,8 @@ def rank_correlations(
 ) -> dict[str, dict[str, float | None]]:
     """Return Spearman's rho of every metric with every draw, by metric and draw; all columns are (trials,).
 
-    Over the trials in which the metric is not nan: infinite values are the largest ranks. None where either has one
-    value only, or fewer than `FEWEST` trials have one. Chance alone gives about 1 / sqrt(trials).
+    Trials count if the metric is not nan: infinite values have the largest ranks. None if either has a single value, or
+    fewer than `FEWEST` trials count. Random deviations are about 1 / sqrt(trials).
     """
     return {metric: {name: _rho(draw, values) for name, draw in draws.items()} for metric, values in metrics.items()}
 

@@ -1,4 +1,4 @@
-"""Units of what a study prints: draws that are parameters, metrics, expressions that have the unit of one metric."""
+"""Units of the numbers in a study: draws that are parameters, metrics, and expressions with the unit of one metric."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SUMS = (ast.Add, ast.Sub)
 
 
 def units_of(space: DrawSpace, prepared: PreparedSystem, facts: StudyProvenance) -> dict[str, str]:
-    """Return the units of draws and metrics by name, of those that have one."""
+    """Return the units of draws and metrics by name, for those that have one."""
     units: dict[str, str | None] = {name: fact["unit"] for name, fact in facts["metrics"].items()}
     for draw in space.campaign.draws:
         for name in draw.names:
@@ -28,8 +28,7 @@ def units_of(space: DrawSpace, prepared: PreparedSystem, facts: StudyProvenance)
 
 
 def unit_of_expression(expression: Expression, units: Mapping[str, str]) -> str:
-    """Return the unit of a sum or comparison of one metric or draw with numbers, or of several
-    of one unit; else nothing."""
+    """Return the unit of a sum or comparison of numbers and values of one unit, else ""."""
     candidates = {units.get(name, "") for name in expression.names}
     return candidates.pop() if len(candidates) == 1 and _is_linear(ast.parse(expression.text, mode="eval").body) else ""
 

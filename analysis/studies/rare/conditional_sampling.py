@@ -1,10 +1,10 @@
-"""Samples of draws and noise on condition that a margin is above a threshold: chains from those that are known.
+"""Samples of draws and noise conditional on a margin above a threshold: Markov chains from known samples.
 
-Two moves alternate (`_NoiseMoves.choose`). The draws move by adaptive conditional sampling (Papaioannou, Betz,
-Zwirglmaier and Straub 2015, section 4.3): a candidate is rho u + sqrt(1 - rho^2) xi with xi standard normal, which
-leaves the normal distribution as it is; its spread sqrt(1 - rho^2) follows the acceptance rate. The noise moves by a
-fresh stream for one source, chosen at random: a Gibbs sampler over the sources by rejection. Either is accepted where
-the candidate's margin is above the threshold, and is reversible with respect to the distribution before the condition.
+Two moves alternate (`_NoiseMoves.choose`). Draws move by adaptive conditional sampling (Papaioannou, Betz, Zwirglmaier
+and Straub 2015, section 4.3): a candidate is rho u + sqrt(1 - rho^2) xi with xi standard normal, which preserves the
+normal distribution; its spread sqrt(1 - rho^2) is adapted to the acceptance rate. Noise moves by a fresh stream for one
+source, chosen at random: a Gibbs sampler over the sources by rejection. A candidate is accepted if its margin is above
+the threshold; both moves are reversible with respect to the unconditional distribution.
 """
 
 from __future__ import annotations
@@ -20,16 +20,17 @@ from ...runtime.loop.elementary import elementary
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """``draws`` (points, dimensions), standard normal, and ``streams`` (points, sources), a number each.
+    """Samples: ``draws`` (points, dimensions), standard normal, and stream numbers ``streams`` (points, sources).
 
-    Points with the same number in a column have the same noise of that source; other numbers are independent of it.
+    Points with the same number in a column have the same noise of that source; noise of other numbers is independent of
+    it.
     """
 
     draws: np.ndarray
     streams: np.ndarray
 
     def rows(self, rows: np.ndarray) -> Points:
-        """Return some of the points, by number or by mask."""
+        """Return some of the points, by index or mask."""
         return Points(self.draws[rows], self.streams[rows])
 
     def __len__(self) -> int:
@@ -40,7 +41,7 @@ MarginOf = Callable[[Points], np.ndarray]
 
 
 class FreshStreams:
-    """Unused numbers of streams, each returned once, from 0 on: the noise of trials not simulated before."""
+    """Unused stream numbers, each returned once, from 0 on: the noise of trials not simulated before."""
 
     def __init__(self) -> None:
         self._next = 0
@@ -59,11 +60,11 @@ INERT_AFTER = 10  # fresh streams of a source, none of which changes a margin
 
 @dataclass(frozen=True, eq=False)
 class Chains:
-    """Chains by time: points as ``draws`` (chains, length, dimensions) and ``streams`` (chains, length, sources).
+    """Markov chains: points as ``draws`` (chains, length, dimensions) and ``streams`` (chains, length, sources).
 
-    The first point of each is its seed; ``margins`` are (chains, length). ``draw_acceptance`` is the share of draw
-    moves that were accepted, None where there were none. ``noise_moves`` and ``noise_accepted`` (sources,) count the
-    moves of each source, ``spread`` is the last one.
+    The first point of each is its seed; ``margins`` are (chains, length). ``draw_acceptance`` is the share of accepted
+    draw moves, None if there were none. ``noise_moves`` and ``noise_accepted`` (sources,) count the moves of each
+    source; ``spread`` is the final one.
     """
 
     draws: np.ndarray
@@ -76,12 +77,12 @@ class Chains:
 
 
 class _NoiseMoves:
-    """Choice of the streams to renew: one source at a time, those that change no margin along with every move.
+    """Choice of the streams to renew: one source at a time, and inert sources along with every move.
 
-    A source is chosen with a probability inverse to its acceptance rate so far, so that all are renewed about as often:
-    the acceptance rate of all noise moves together is then near the harmonic mean of the sources'. A source is inert
-    where `INERT_AFTER` fresh streams have not changed a bit of any margin since the level began: renewing it along with
-    other moves costs none, and leaves chains as right as they are.
+    A source is chosen with a probability inverse to its acceptance rate so far, so that all are renewed about equally
+    often: the acceptance rate of all noise moves is then near the harmonic mean of the sources'. A source is inert if
+    `INERT_AFTER` fresh streams have not changed any bit of a margin since the level began: renewing it along with other
+    moves is free, and keeps the chains valid.
     """
 
     def __init__(self, sources: int, fresh: FreshStreams, random: np.random.Generator) -> None:
@@ -97,16 +98,16 @@ class _NoiseMoves:
         return bool(self._active.size)
 
     def adapt(self) -> None:
-        """Leave out the sources that are inert so far; between groups of chains."""
+        """Exclude the sources that have been inert so far; called between groups of chains."""
         inert = ~self._changed & (self.moves >= INERT_AFTER)
         self._active, self._inert = np.flatnonzero(~inert), np.flatnonzero(inert)
         self._weights = (self.moves[~inert] + 2.0) / (self.accepted[~inert] + 1.0)
 
     def choose(self, chains: np.ndarray, step: int, draws: float | None) -> np.ndarray:
-        """Return the ``chains`` (by number) that renew noise in a step, and do not move draws.
+        """Return the ``chains`` (by number) that renew noise in a step, instead of moving draws.
 
-        They alternate, unless draws are renewed as a whole, with the acceptance rate ``draws``: then they are chosen as
-        often as a source of that rate, if that is less often.
+        Both moves alternate, unless draws are renewed as a whole, with the acceptance rate ``draws``: then they are
+        chosen as often as a source with that rate, if that is less often.
         """
         if draws is None:
             return (step + chains) % 2 == 1
@@ -114,8 +115,7 @@ class _NoiseMoves:
         return self._random.random(chains.size) < max(0.5, noise / (noise + 1.0 / max(draws, 0.01)))
 
     def candidates(self, streams: np.ndarray, noise: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return streams of the next candidates, where ``noise`` moves with one source renewed,
-        and the moved ones (moves,)."""
+        """Return streams of the next candidates, with one source renewed where ``noise``, and these sources (moves,)."""
         rows = np.flatnonzero(noise)
         chosen = (
             self._random.choice(self._active, rows.size, p=self._weights / self._weights.sum()) if rows.size else rows
@@ -127,7 +127,7 @@ class _NoiseMoves:
         return renewed, chosen
 
     def count(self, chosen: np.ndarray, accepted: np.ndarray, changed: np.ndarray) -> None:
-        """Record moves of the sources ``chosen``: which were accepted, which changed the margin."""
+        """Record moves of the sources ``chosen``: which were accepted, and which changed the margin."""
         np.add.at(self.moves, chosen, 1)
         np.add.at(self.accepted, chosen[accepted], 1)
         self._changed[chosen[changed]] = True
@@ -145,9 +145,9 @@ def grow_chains(
 ) -> Chains:
     """Grow chains of ``length`` points from ``seeds``, whose ``margins`` (chains,) reach ``threshold``.
 
-    ``margin`` maps points to margins (points,); chains are independent of each other but for the moves, which change
-    from one group of them to the next (ibid., equations 25 to 27). ``random`` are the generators of draw moves and of
-    noise moves. Where there are no sources, all moves are draw moves, and the other way round.
+    ``margin`` maps points to margins (points,). Chains only depend on each other through the moves, which are adapted
+    from one group of them to the next (ibid., equations 25 to 27). ``random`` are the generators for draw moves and for
+    noise moves. Without sources all moves are draw moves; without dimensions all are noise moves.
     """
     chains, dimensions = seeds.draws.shape
     draws = np.empty((chains, length, dimensions))

@@ -1,4 +1,4 @@
-"""Conclusions from a rare failure's simulations: its levels, the influence of parameters, equivalent Monte Carlo."""
+"""Interpretation of a rare failure's simulations: levels, influence of parameters, equivalent Monte Carlo."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from .outcome import RareOutcome
 
 
 class LevelSpan(NamedTuple):
-    """The simulations ``first`` to ``last`` of a level, their limit state ``threshold``, and that of the next level.
+    """Simulations ``first`` to ``last`` of a level, their limit state ``threshold``, and that of the next level.
 
-    ``reached`` is the probability of the level itself, None where its chains are not trusted: no level follows then.
+    ``reached`` is the probability of the level itself, None if its chains are not trusted: no level follows then.
     """
 
     number: int
@@ -26,8 +26,7 @@ class LevelSpan(NamedTuple):
 
 
 def level_spans(result: RareOutcome) -> list[LevelSpan]:
-    """Return the levels by the numbers of their simulations, counted from 1: a chain's seed
-    belongs to the level before."""
+    """Return the levels by the numbers of their simulations, from 1; a chain's seed belongs to the level before."""
     spans: list[LevelSpan] = []
     levels = result.simulation.levels
     first, seeds, reached = 1, 0, 1.0
@@ -71,7 +70,7 @@ def influence(result: RareOutcome) -> dict[str, float]:
 
 
 class Equivalent(NamedTuple):
-    """A way to estimate the probability: its simulations, and the interval that they give."""
+    """Method to estimate the probability, with its number of simulations and the resulting interval."""
 
     label: str
     simulations: float
@@ -80,9 +79,10 @@ class Equivalent(NamedTuple):
 
 
 def equivalents(result: RareOutcome) -> list[Equivalent]:
-    """Return this study, Monte Carlo with as many simulations, and with as many for the same coefficient of variation.
+    """Return this study, Monte Carlo with as many simulations, and Monte Carlo of the same accuracy.
 
-    Of Monte Carlo it is Clopper and Pearson's interval of the expected number of failures, as a whole number.
+    The same accuracy means the same coefficient of variation. For Monte Carlo the interval is Clopper and Pearson's for
+    the expected number of failures, rounded to an integer.
     """
     low, high = result.interval
     estimates = [Equivalent("this study", result.flights, low, high)]

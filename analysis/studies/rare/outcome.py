@@ -22,10 +22,10 @@ APART = 1.0  # standard deviations: a failure nearer to a more probable one is n
 
 
 class FailedFlight(FlightDocument):
-    """A row of failures.parquet: ``trial`` is its number.
+    """Row of failures.parquet: ``trial`` is its number.
 
-    ``distance`` is in standard deviations from the medians of the draws, as independent normal ones. Of noise that
-    is random, ``streams`` are the trials whose noise each component had.
+    ``distance`` is in standard deviations from the medians of the draws, as independent normal variables. For random
+    noise ``streams`` are the trials whose noise each component had.
     """
 
     trial: int
@@ -37,9 +37,9 @@ class FailedFlight(FlightDocument):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RareOutcome(StudyResult):
-    """The probability of a ``failure``, and the flights that it was found by.
+    """Probability of a ``failure``, and the simulations from which it was estimated.
 
-    ``simulation`` has the numbers, of ``samples`` points a level.
+    ``simulation`` has the numbers, with ``samples`` points per level.
     """
 
     DRAWS = "failures.parquet"
@@ -50,27 +50,27 @@ class RareOutcome(StudyResult):
 
     @property
     def probability(self) -> float | None:
-        """Probability of the failure; None where it was not reached."""
+        """Probability of the failure; None if no failure was reached."""
         return self.simulation.probability
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The 95 % interval of the probability."""
+        """95 % interval of the probability."""
         return self.simulation.interval.low, self.simulation.interval.high
 
     @property
     def brute_force(self) -> float | None:
-        """Number of plain Monte Carlo flights of the campaign with the same information; None where it is unknown."""
+        """Number of plain Monte Carlo trials of the campaign with the same information; None if unknown."""
         return self.simulation.equivalent_trials
 
     @property
     def margin_unit(self) -> str:
-        """The unit of margins and thresholds; empty where they have none."""
+        """Unit of margins and thresholds, "" if they have none."""
         return unit_of_expression(self.failure.expression, self.units)
 
     @property
     def why_levels_ended(self) -> str:
-        """Why no level follows the last one, where that is the noise; else empty."""
+        """Reason why no level follows the last one, if it is the noise, else ""."""
         if not self.simulation.noise_ends:
             return ""
         level, place = self.simulation.levels[-1], len(self.simulation.levels)
@@ -81,7 +81,7 @@ class RareOutcome(StudyResult):
 
     @cached_property
     def failures(self) -> list[FailedFlight]:
-        """The most probable failed flights."""
+        """Most probable failed simulations."""
         return [self._failure(trial, row) for trial, row in enumerate(self._places.tolist())]
 
     def _failure(self, trial: int, row: int) -> FailedFlight:
@@ -93,10 +93,9 @@ class RareOutcome(StudyResult):
 
     @cached_property
     def _places(self) -> np.ndarray:
-        """Positions of the failures among the simulations: nearest to the origin first, where the draws are most
-        probable.
+        """Indices of the failures among the simulations: nearest to the origin first, where draws are most probable.
 
-        Where no draw varies, those nearest to the limit.
+        If no draw varies, those nearest to the limit come first.
         """
         failed = np.flatnonzero(self.flown.values >= 0.0)
         points = self.flown.points
@@ -111,13 +110,13 @@ class RareOutcome(StudyResult):
         return np.array(chosen, dtype=int)
 
     def values(self) -> dict[str, float]:
-        """Return the numbers that requirements are about: probability, interval[1] and [2], flights."""
+        """Return the numbers that requirements may refer to: probability, interval[1] and [2], flights."""
         fraction = math.nan if self.probability is None else self.probability
         low, high = self.interval
         return {"probability": fraction, "interval[1]": low, "interval[2]": high, "flights": float(self.flights)}
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """Return the machine-readable result; ``folder`` is where it has been written, if it has."""
+        """Return the result as JSON; ``folder`` is where it has been written, or None."""
         simulation = self.simulation
         failures = self.failures
         if self.replay(folder, 0):
@@ -150,14 +149,14 @@ class RareOutcome(StudyResult):
 
     @property
     def digits(self) -> int:
-        """Number of digits of the probability that its interval leaves."""
+        """Number of significant digits of the probability, from its interval."""
         return significant_digits(*self.interval)
 
     @property
     def monte_carlo(self) -> str:
-        """The batch whose trials give a bound ten times lower, where the noise ends levels; else empty.
+        """Command for a batch whose trials give a bound ten times lower, if the noise ended the levels, else "".
 
-        Empty also where a value is held, since a batch holds none: its trials would not be those of this result.
+        Also "" if a value is held: a batch holds none, so its trials would not correspond to this result.
         """
         trials, command = self.brute_force, None if self.commands is None else self.commands.monte_carlo
         if not self.simulation.noise_ends or trials is None or command is None or self.space.held:
@@ -165,5 +164,5 @@ class RareOutcome(StudyResult):
         return command(round(10.0 * trials))
 
     def write(self, folder: Path) -> None:
-        """Write rare.json, flights.parquet and, where there are failures, failures.parquet for `--draws`."""
+        """Write rare.json, flights.parquet and, if there are failures, failures.parquet for `--draws`."""
         self._write(folder, "rare", "margin", self._places)

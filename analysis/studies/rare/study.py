@@ -1,4 +1,4 @@
-"""A rare failure of a campaign: its probability by subset simulation of draws and noise, every point a flight."""
+"""Rare failure of a campaign: its probability by subset simulation of draws and noise, one simulation per point."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ def rare_failure(
     least: float = LEAST,
     workers: int | None = None,
 ) -> RareOutcome:
-    """Compute the probability of a failure over a campaign's draws and the noise of its components. Raises InputError.
+    """Compute the probability of a failure over a campaign's draws and its components' noise. Raises InputError.
 
-    ``failure`` is an expression over metrics and draws, by default that a trial is no success. ``hold`` sets draws to
-    one value, which choices and grids need. The noise is random, a source for each component that draws random numbers,
-    unless ``noise_trial`` is the trial of the campaign whose noise all flights have. Every level has ``samples``
-    points; one less likely than ``least`` is abandoned. The campaign's seed is that of the points, too; ``workers``
-    does not change the result.
+    ``failure`` is an expression over metrics and draws, by default that a trial does not succeed. ``hold`` fixes draws
+    at one value, which choices and grids require. The noise is random, with a source for each component that generates
+    random numbers, unless all simulations have that of the campaign's trial ``noise_trial``. Every level has
+    ``samples`` points; the search stops below a probability of ``least``. The points are drawn with the campaign's
+    seed; ``workers`` does not change the result.
     """
     if samples < 100:
         raise InputError("`samples`", str(samples), "too few", "give 100 or more")

@@ -1,4 +1,4 @@
-"""Uncertainty of a probability by subset simulation: correlation within chains, and within families of chains."""
+"""Uncertainty of a probability from subset simulation: correlation within chains, and within families of chains."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ CONFIDENCE = 0.95
 
 
 class ConfidenceInterval(NamedTuple):
-    """A confidence interval and the coefficient of variation that it is based on."""
+    """Confidence interval, and the coefficient of variation on which it is based."""
 
     low: float
     high: float
@@ -22,14 +22,14 @@ FINE, COARSE = 2.0, 10.0  # the ratio of an interval's ends up to which three an
 
 
 def significant_digits(low: float, high: float) -> int:
-    """Return how many digits of an estimate say something where its interval is from ``low`` to ``high``."""
+    """Return the number of significant digits of an estimate with the interval from ``low`` to ``high``."""
     if high <= FINE * low:
         return 3
     return 2 if high <= COARSE * low else 1
 
 
 def binomial_interval(failures: int, samples: int, confidence: float) -> ConfidenceInterval:
-    """Return Clopper and Pearson's interval, of independent samples."""
+    """Return Clopper and Pearson's interval for independent samples."""
     ends = binomtest(failures, samples).proportion_ci(confidence, method="exact")
     fraction = failures / samples
     return ConfidenceInterval(
@@ -38,8 +38,7 @@ def binomial_interval(failures: int, samples: int, confidence: float) -> Confide
 
 
 def fractional_interval(failures: float, samples: float, confidence: float) -> ConfidenceInterval:
-    """Return Clopper and Pearson's interval of numbers of failures and samples that need not be whole: effective
-    ones."""
+    """Return Clopper and Pearson's interval for effective, not necessarily integer, numbers of failures and samples."""
     outside = (1.0 - confidence) / 2.0
     low = float(beta.ppf(outside, failures, samples - failures + 1.0)) if failures > 0.0 else 0.0
     high = float(beta.ppf(1.0 - outside, failures + 1.0, samples - failures)) if failures < samples else 1.0
@@ -50,15 +49,15 @@ def fractional_interval(failures: float, samples: float, confidence: float) -> C
 
 
 def equivalent_trials(probability: float, variation: float) -> float | None:
-    """Return the number of plain Monte Carlo trials with the same coefficient of variation; None where it is 0."""
+    """Return the number of plain Monte Carlo trials with the same coefficient of variation; None if that is 0."""
     return None if variation == 0.0 else (1.0 - probability) / (probability * variation**2)
 
 
 def chain_correlation(inside: np.ndarray) -> float:
-    """Return the factor gamma of Au and Beck (2001, equation 29) for chains whose points are inside an event or not.
+    """Return the factor gamma of Au and Beck (2001, equation 29) for chains whose points are in an event or not.
 
-    ``inside`` (chains, length) is true or false. The variance of their mean is 1 + gamma times that of independent
-    points, were the chains independent of each other.
+    ``inside`` (chains, length) is Boolean. If the chains were independent of each other, the variance of their mean
+    would be 1 + gamma times that of independent points.
     """
     length = inside.shape[1]
     mean = float(inside.mean())
@@ -74,13 +73,12 @@ def chain_correlation(inside: np.ndarray) -> float:
 
 
 def family_interval(probability: float, families: np.ndarray, first: int, confidence: float) -> ConfidenceInterval:
-    """Return the interval of a probability by levels, whose failed points belong to ``families`` of ``first`` first
-    points.
+    """Return the interval of a probability by levels; failed points belong to ``families`` of ``first`` first points.
 
-    The failed descendants of each first point are as one draw, independent of those of the others: the relative
-    variance of their mean is that of the estimate, with all correlation in chains, between chains of one origin and
-    from level to level (the genealogical estimator: Chan and Lai 2013; Lee and Whiteley 2018, section 2.3). The
-    interval is log-normal, with Student's t of as many degrees of freedom as the sum of squares has (Satterthwaite).
+    The failed descendants of each first point count as one draw, independent of the others: the relative variance of
+    their mean is that of the estimate, including all correlation in chains, between chains of one origin and from level
+    to level (the genealogical estimator: Chan and Lai 2013; Lee and Whiteley 2018, section 2.3). The interval is
+    log-normal, with Student's t for the degrees of freedom of the sum of squares (Satterthwaite).
     """
     _, sizes = np.unique(families, return_counts=True)
     fractions = sizes / sizes.sum()

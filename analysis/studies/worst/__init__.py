@@ -1,1 +1,1 @@
-"""Worst cases: the draws of a box that make a number largest."""
+"""Worst cases: the draws in a box that maximise a number."""

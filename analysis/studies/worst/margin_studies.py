@@ -1,4 +1,4 @@
-"""Margins at chosen draws of a campaign, by processes that stay: each has the loop's bench."""
+"""Margins at chosen draws of a campaign, by persistent processes that each keep the loop's bench."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ from .request import MarginAsked
 
 
 class Studied(NamedTuple):
-    """Margins of draws as a trial of a flight has metrics: columns by name, and of which rows there are any."""
+    """Margins of draws, in the form of a simulation's metrics: columns by name, and a mask of rows that exist."""
 
     metrics: dict[str, np.ndarray]
     flown: np.ndarray
 
 
 class MarginStudies:
-    """Studies a loop at chosen draws. Use it as a context manager: it holds processes.
+    """Evaluator of a loop's margins at chosen draws. A context manager, since it holds processes.
 
-    ``first`` are draws with which everything is checked; the rest is as in `SampleFlights`, whose place it takes.
-    ``reasons`` say of every study why it found no margin, empty where it did. The memory that matters is looked for
-    once, at the nominal point. Raises InputError, also where that cannot be studied.
+    ``first`` are draws with which everything is checked; other arguments are as in `SampleFlights`, which it replaces.
+    ``reasons`` tell for every study why it found no margin, "" if it did. The relevant memory cells are searched once,
+    at the nominal point. Raises InputError, also if that cannot be studied.
     """
 
     def __init__(
@@ -68,9 +68,9 @@ class MarginStudies:
         self._progress = progress_bar(unit="study")
 
     def fly(self, columns: Columns, streams: Streams) -> tuple[Studied, Mapping[str, np.ndarray]]:
-        """Return the margins of samples and random streams, in their order, with the drawn and derived values.
+        """Return the margins of samples with these random streams, in order, and the drawn and derived values.
 
-        ``streams`` are those of all sources of the noise, by component. Raises InputError.
+        ``streams`` are those of all sources of noise, by component. Raises InputError.
         """
         plan = self._plan.of_samples(make_samples(columns, streams, self.noise))
         check_draws(plan, [self._study.prepared])
@@ -97,7 +97,7 @@ class MarginStudies:
 
 
 def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
-    """Return the study of the point without draws, and the memory that matters there. Raises InputError."""
+    """Return the study of the point without draws, and its relevant memory cells. Raises InputError."""
     where = (asked.request.label, f"loop {asked.loop.name} at {asked.point.name}")
     remedy = "what perilune stability cannot study has no worst"
     try:
@@ -112,7 +112,7 @@ def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
 
 
 def _margins(study: PointStudy, cells: Sequence[int], plan: BatchPlan) -> list[LoopMargins] | str:
-    """Return the margins of every channel at a plan's one trial, or the reason of their absence."""
+    """Return the margins of every channel in the one trial of a plan, or the reason for their absence."""
     try:
         return [model.margins() for model in models_of_trial(study, plan, 0, cells).values()]
     except (InputError, StudyError) as error:

@@ -1,5 +1,4 @@
-"""Objective of a worst-case search: a number of every trial, of its metrics or of a loop's
-margins, the larger the worse."""
+"""Objective of a worst-case search: a number for every trial, from its metrics or a loop's margins; larger is worse."""
 
 from __future__ import annotations
 
@@ -19,11 +18,11 @@ from ..flown import strict
 
 @dataclass(frozen=True)
 class Objective:
-    """A number of every trial: called with values by name (trials,) and which flights came to their end (trials,).
+    """Objective: a function of values by name (trials,) and of which simulations completed (trials,).
 
-    It is inf where a flight did not, or where the number is not finite. ``text`` says what it is, ``size`` the number
-    that it stands for, and ``fact`` that number, or one of the values, as JSON has it; ``expression`` is what it is the
-    value or the margin of, None where its text says its unit.
+    It is inf for those that did not complete, and if the number is not finite. ``text`` describes it, ``size`` returns
+    the number that it represents, and ``fact`` converts that number, or one of the values, to JSON; ``expression`` is
+    the one whose value or margin it is, None if the text contains the unit.
     """
 
     text: str
@@ -37,7 +36,7 @@ class Objective:
 
 
 def metric_objective(campaign: Campaign, text: str | None) -> Objective:
-    """Return the objective of an expression over metrics and draws, or without one of the margin of success.
+    """Return the objective of an expression over metrics and draws, by default the margin of success.
 
     Raises InputError.
     """
@@ -68,8 +67,7 @@ LARGEST = "largest_multiplier"
 
 
 def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[LoopMargins] | None]) -> dict[str, np.ndarray]:
-    """Return the margins of all channels, a row for each of ``studied``, a column for each margin and largest
-    multiplier.
+    """Return columns with each margin and the largest multiplier of all channels, a row for each of ``studied``.
 
     A margin of an unstable loop is `UNSTABLE`, one without a crossing inf; a row of None is nan.
     """
@@ -86,7 +84,7 @@ def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[LoopMargi
 def margin_objective(name: str, point: str, channels: Sequence[str], margin: str) -> Objective:
     """Return the objective of the least margin of a loop's channels at a point; ``margin`` is one of `SIZES`.
 
-    Of an unstable channel it is its largest multiplier less 1, which continues where margins end at 0.
+    For an unstable channel it is its largest multiplier minus 1, which continues from the margin 0.
     """
     key, quantity = SIZES[margin]
 
@@ -103,7 +101,7 @@ def margin_objective(name: str, point: str, channels: Sequence[str], margin: str
 
 
 def _size(value: float) -> float:
-    """Return the margin of a value; nan where there is none."""
+    """Return the margin that an objective value represents; nan if there is none."""
     if value == math.inf:
         return math.nan
     return UNSTABLE if value > 0.0 else 0.0 - value

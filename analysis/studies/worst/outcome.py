@@ -1,4 +1,4 @@
-"""Result of a search for the worst case: numbers, JSON, tables, trials to replay."""
+"""Result of a worst-case search: numbers, JSON, tables, trials to replay."""
 
 from __future__ import annotations
 
@@ -16,30 +16,29 @@ from .search import SearchPhase
 
 
 class WorstFlight(FlightDocument):
-    """A flight of worst.parquet; ``value`` is None where it failed."""
+    """Row of worst.parquet; ``value`` is None if the simulation failed."""
 
     trial: int
     value: float | str | None
 
 
 class RandomFlight(WorstFlight):
-    """The worst of the random trials, and whether it is ``inside`` the box."""
+    """Worst of the random trials, and whether it is ``inside`` the box."""
 
     inside: bool
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WorstOutcome(StudyResult):
-    """The worst point of a box of draws: its ``value`` of ``badness``, infinite where it failed, and ``place`` in the
-    unit cube.
+    """Worst point in a box of draws: its ``value`` of ``badness``, inf if it failed, and ``place`` in the unit cube.
 
-    ``row`` and ``random`` are the flights, in ``flown``, of the worst and of the worst of the random trials,
-    ``reason`` is why the worst failed, where that is known. ``phases`` are those of the search by their points, the
-    random trials first.
+    ``row`` and ``random`` are the indices in ``flown`` of the worst simulation and of the worst random trial;
+    ``reason`` explains why the worst failed, if known. ``phases`` are those of the search with their numbers of points,
+    the random trials first.
 
-    Where the noise is random, values of points are those ``over`` its realisations, and ``fresh`` are flights of the
-    worst with others; ``noise_matters`` is whether it changed any value of the random trials, None where that was not
-    looked at.
+    With random noise, values of points are those ``over`` its realisations, and ``fresh`` are simulations of the worst
+    point with others; ``noise_matters`` tells whether noise changed any value of the random trials, None if that was
+    not examined.
     """
 
     DRAWS = "worst.parquet"
@@ -59,12 +58,12 @@ class WorstOutcome(StudyResult):
 
     @property
     def worst(self) -> WorstFlight:
-        """The worst flight: ``value`` (None where it failed), ``trial`` of worst.parquet, ``draws``, ``metrics``."""
+        """Worst simulation: ``value`` (None if it failed), ``trial`` in worst.parquet, ``draws``, ``metrics``."""
         return {"trial": 0, "value": self.as_json(self.value), **self.flown.fact(self.places[0], self.badness.fact)}
 
     @property
     def worst_random(self) -> RandomFlight:
-        """The worst of the random trials, and whether it is ``inside`` the box."""
+        """Worst of the random trials, and whether it is ``inside`` the box."""
         place = self.flown.points[self.random]
         inside = bool(np.all((place >= 0.0) & (place <= 1.0)))
         value = self.as_json(float(self.flown.values[self.random]))
@@ -72,14 +71,14 @@ class WorstOutcome(StudyResult):
 
     @property
     def flown_text(self) -> str:
-        """Statistic of the noise at the worst point; empty where the noise is not random."""
+        """Statistic of the noise at the worst point, "" if the noise is not random."""
         if self.over is None:
             return ""
         return ONE if self.noise_matters is False else self.over.text
 
     @property
     def worst_realisation(self) -> float | None:
-        """The worst value of the worst point under the noise of the search; None where its own value is that."""
+        """Worst value of the worst point under the noise of the search; None if it equals the point's value."""
         if self.over is None or self.over.count == 1 or self.over.quantile == 1.0 or self.noise_matters is False:
             return None
         fresh = 0 if self.fresh is None else self.fresh.values.size
@@ -88,21 +87,21 @@ class WorstOutcome(StudyResult):
         return float(self.flown.values[searched][same].max())
 
     def as_json(self, value: float) -> float | str | None:
-        """Return a value as JSON has it: null where it failed, of a margin a word where it is no number."""
+        """Return a value as JSON: null if it failed, a word for a margin without a number."""
         return self.badness.fact(self.badness.size(value))
 
     @property
     def places(self) -> list[int]:
-        """Rows of the worst flight and of the worst random one."""
+        """Indices of the worst simulation and of the worst random one."""
         return [self.row, self.random]
 
     @property
     def unit(self) -> str:
-        """Unit of the objective; empty where it has none, or its text says it."""
+        """Unit of the objective, "" if it has none or its text contains it."""
         return "" if self.badness.expression is None else unit_of_expression(self.badness.expression, self.units)
 
     def values(self) -> dict[str, float]:
-        """Return the numbers that requirements are about; those of fresh noise are nan where there was none."""
+        """Return the numbers that requirements may refer to; those of fresh noise are nan without it."""
         values = {"worst": self.value, "random": float(self.flown.values[self.random])}
         values |= {
             "fresh_worst": math.nan if self.fresh is None else self.fresh.worst,
@@ -111,7 +110,7 @@ class WorstOutcome(StudyResult):
         return {name: self.badness.size(value) for name, value in values.items()} | {"flights": float(self.flights)}
 
     def json_document(self, folder: Path | None = None) -> dict[str, object]:
-        """Return the machine-readable result; ``folder`` is where it has been written, if it has."""
+        """Return the result as JSON; ``folder`` is where it has been written, or None."""
         replay = self.replay(folder, 0)
         return {
             **self.facts,
@@ -132,7 +131,7 @@ class WorstOutcome(StudyResult):
         }
 
     def _noise_document(self) -> dict[str, object]:
-        """Return the value of a point under random noise; empty where the noise is not random."""
+        """Return the value of a point under random noise; empty if the noise is not random."""
         if self.over is None:
             return {}
         entries = {"objective": self.flown_text, "quantile": self.over.quantile, "realisations": self.over.count}

@@ -1,4 +1,4 @@
-"""Noise in a search for the worst: the same realisations at every point, fresh ones for the point that wins."""
+"""Noise in a worst-case search: the same realisations at every point, fresh ones for the worst point."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ FRESH = 10  # times as many realisations fly for the point that wins
 
 @dataclass(frozen=True)
 class Realisations:
-    """The objective of a point under noise: a ``quantile`` of its values over ``count`` realisations, 1 the worst."""
+    """Objective of a point under noise: a ``quantile`` of its values over ``count`` realisations; 1 is the worst."""
 
     count: int
     quantile: float
 
     @property
     def fresh(self) -> int:
-        """Number of realisations, new to the search, with which the winning point is simulated."""
+        """Number of realisations, new to the search, with which the worst point is simulated."""
         return FRESH * self.count
 
     @property
     def name(self) -> str:
-        """The quantile in words, for metrics, which are worse where larger, and for margins, where smaller."""
+        """Quantile as text, for metrics, of which larger ones are worse, or for margins, of which smaller ones are."""
         return {0.5: "median", 1.0: "worst"}.get(self.quantile, f"{self.quantile:g} quantile from best to worst")
 
     @property
@@ -51,7 +51,7 @@ class Realisations:
 def read_realisations(
     count: int | None, quantile: float | None, flights: int, noise_trial: int | None, *, default: int = REALISATIONS
 ) -> Realisations:
-    """Read the options on noise, for a search of ``flights`` flights. Raises InputError."""
+    """Return the options on noise, for a search of ``flights`` simulations. Raises InputError."""
     for option, value in (("`realisations`", count), ("`quantile`", quantile)):
         if value is not None and noise_trial is not None:
             problem = f"all flights have the noise of trial {noise_trial}"
@@ -75,7 +75,7 @@ def read_realisations(
 
 
 class FreshDocument(TypedDict):
-    """Fresh flights of the worst point as JSON."""
+    """Fresh simulations of the worst point as JSON."""
 
     realisations: int
     worst: float | str | None
@@ -85,7 +85,7 @@ class FreshDocument(TypedDict):
 
 @dataclass(frozen=True, eq=False)
 class Fresh:
-    """The point that won under fresh noise: ``values`` (realisations,) of the objective, the larger the worse."""
+    """Worst point under fresh noise: ``values`` (realisations,) of the objective; larger is worse."""
 
     values: np.ndarray
     quantile: float

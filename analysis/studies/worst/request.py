@@ -27,7 +27,7 @@ OF_FLIGHTS = {  # and what to do where a margin is looked for
 
 @dataclass(frozen=True)
 class MarginAsked:
-    """A loop at an operating point of a study that has a campaign; small enough to be sent to every worker."""
+    """Loop at an operating point of a study with a campaign; small enough to be sent to every worker."""
 
     request: Request
     loop: LoopDeclaration
@@ -39,7 +39,10 @@ class MarginAsked:
         return self.request.plan
 
     def open_request(self) -> PointStudy:
-        """Open the point with the campaign's layer and its draws, to be closed. Raises InputError, StudyError."""
+        """Return the study of the point with the campaign's layer and draws. Close it.
+
+        Raises InputError, StudyError.
+        """
         (variant,) = self.plan.campaign.variants()
         layer = self.plan.campaign.layer_of(variant)
         subject = Subject(self.request.system, self.request.options).with_options(campaign=layer)
@@ -47,7 +50,7 @@ class MarginAsked:
 
 
 def check_options(loop: str | None, options: Mapping[str, object]) -> None:
-    """Refuse options, by name, that do not go with a loop, or go with one only. Raises InputError."""
+    """Reject options, by name, that do not apply to a loop, or only to a loop. Raises InputError."""
     for name in OF_A_LOOP if loop is None else ():
         if options[name] is not None:
             raise InputError(f"`{name}`", str(options[name]), "there is no loop", "give `loop` with it")
@@ -67,9 +70,9 @@ def margin_asked(
     at: float | None,
     seed: int | None,
 ) -> MarginAsked:
-    """Return a loop of a system, or a connector cut at the time ``at`` (s), over the draws of a campaign.
+    """Return the request for a loop of a system, or a connector cut at the time ``at`` (s), over a campaign's draws.
 
-    ``point`` is needed where the loop has several, ``configuration`` where the campaign has. Raises InputError.
+    ``point`` is required if the loop has several, ``configuration`` if the campaign has. Raises InputError.
     """
     request = read_request(
         system,

@@ -1,9 +1,9 @@
-"""The largest value of a function over the unit cube, in as many evaluations as one may spend.
+"""Maximum of a function over the unit cube, within a number of evaluations.
 
-Differential evolution (Storn and Price 1997; scipy's, a generation at a time) finds the region, from what is known,
-from corners, where much that is smooth has its worst, and from points spread out. There each coordinate is tried at its
-ends, COBYQA (Ragonneau and Zhang 2023) climbs what is smooth, and Nelder and Mead's simplex (1965, as Gao and Han 2012
-adapt it) climbs stairs.
+Differential evolution (Storn and Price 1997; scipy's, a generation at a time) finds the region, from known points, from
+corners, where many smooth functions have their maximum, and from random points. There each coordinate is tried at its
+ends, COBYQA (Ragonneau and Zhang 2023) climbs smooth functions, and Nelder and Mead's simplex (1965, as adapted by Gao
+and Han 2012) climbs stepped ones.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class SearchPhase(NamedTuple):
 
 
 class Maximum(NamedTuple):
-    """The best ``point`` (dimensions,) of a search with its ``value``, and the ``phases`` in their order."""
+    """Best ``point`` (dimensions,) of a search with its ``value``, and the ``phases`` in order."""
 
     point: np.ndarray
     value: float
@@ -39,11 +39,11 @@ class Maximum(NamedTuple):
 
 
 class _EndError(Exception):
-    """Error of a finished search: the evaluations are spent, or a value is infinite, which nothing exceeds."""
+    """End of a search: the evaluations are used up, or a value is infinite, which none exceeds."""
 
 
 class _Counted:
-    """The function with the best point so far; ends at the last evaluation, and at an infinite value."""
+    """Function with a limited number of evaluations, which keeps the best point; an infinite value ends it, too."""
 
     def __init__(self, function: Function, points: np.ndarray, values: np.ndarray, evaluations: int) -> None:
         self._function = function
@@ -79,7 +79,7 @@ def largest(
     """Return the point (dimensions,) of the unit cube with the largest value found, that value, and the phases.
 
     ``function`` maps points (points, dimensions) to values (points,), of which none is nan and inf ends the search;
-    ``points`` and ``values`` are known ones to begin with, one or more; ``evaluations`` are spent besides.
+    ``points`` and ``values`` are known ones to begin with, at least one; ``evaluations`` is the number of further ones.
     """
     counted = _Counted(function, points, values, evaluations)
     try:
@@ -121,10 +121,9 @@ def _evolve(counted: _Counted, points: np.ndarray, values: np.ndarray, random: n
 
 
 def _corners(points: np.ndarray, values: np.ndarray, most: int, random: np.random.Generator) -> np.ndarray:
-    """Return all corners (corners, dimensions) of the cube if they are no more than ``most``; else half as many of
-    them.
+    """Return all corners (corners, dimensions) of the cube, or half of ``most`` if there are more than that.
 
-    Those are the one that a plane through the known values rises to, and others at random.
+    They include the corner to which a plane through the known values rises; the others are random.
     """
     dimensions = points.shape[1]
     if 2**dimensions <= most:
@@ -136,7 +135,7 @@ def _corners(points: np.ndarray, values: np.ndarray, most: int, random: np.rando
 
 
 def _to_ends(counted: _Counted) -> None:
-    """Move one coordinate at a time of the best point to an end of its edge, as long as that is worse."""
+    """Move one coordinate of the best point at a time to an end of its edge, as long as the value increases."""
     dimensions = counted.point.size
     before = -np.inf
     while counted.value > before:
@@ -147,7 +146,7 @@ def _to_ends(counted: _Counted) -> None:
 
 
 def _climb(counted: _Counted) -> None:
-    """Climb from the best point, with the remaining evaluations."""
+    """Climb from the best point with the remaining evaluations."""
 
     def badly(point: np.ndarray) -> float:
         return -float(counted(point[np.newaxis])[0])

@@ -1,4 +1,4 @@
-"""The worst that a campaign's draws allow: within a box of them, every point a flight."""
+"""Worst case of a campaign's draws within a box, with one simulation or study per point."""
 
 from __future__ import annotations
 
@@ -35,8 +35,10 @@ RANDOM = 0.2  # of the flights are random trials, with which the worst is compar
 
 
 class SampleEvaluator(Protocol):
-    """Evaluates samples by simulation or by a stability study; ``fly`` returns the evaluations,
-    and the drawn and derived values."""
+    """Evaluator of samples, by simulation or by a stability study.
+
+    ``fly`` returns the evaluations, and the drawn and derived values.
+    """
 
     facts: StudyProvenance
     noise: Noise
@@ -56,7 +58,7 @@ class Sampled(Protocol):
 
 
 class WorstCaseOptions(TypedDict, total=False):
-    """Options of a search by name; ``sigmas`` bound normal draws, the rest is as in `worst_case`."""
+    """Options of a search by name; ``sigmas`` bounds normal draws, the others are as in `worst_case`."""
 
     sigmas: float
     hold: Mapping[str, float] | None
@@ -69,14 +71,14 @@ class WorstCaseOptions(TypedDict, total=False):
 def worst_case(
     plan: BatchPlan, metric: str | None = None, *, flights: int = FLIGHTS, **options: Unpack[WorstCaseOptions]
 ) -> WorstOutcome:
-    """Search for the draws that make an expression largest, within ``sigmas`` of normal draws and the ends of others.
+    """Search for the draws that maximise an expression, within ``sigmas`` of normal draws and the ends of others.
 
-    ``metric`` is over metrics and draws, by default the margin by which a trial is no success. ``hold`` and
-    ``noise_trial`` are as in `rare_failure`. Where components have noise, every point flies the same ``realisations``
-    of it (5, or one for every hundred ``flights`` where these are fewer than 500), whose ``quantile`` (the median) is
-    made largest; the point that wins flies ten times as many fresh ones. A fifth of the ``flights`` are random trials,
-    to begin with and to compare with. The campaign's seed is that of the search; ``workers`` does not change the
-    result. Raises InputError.
+    ``metric`` is over metrics and draws, by default the margin of success. ``hold`` and ``noise_trial`` are as in
+    `rare_failure`. If components have noise, every point is simulated with the same ``realisations`` of it (5, or one
+    for every hundred ``flights`` if these are fewer than 500), whose ``quantile`` (the median) is maximised; the worst
+    point is simulated with ten times as many fresh ones. A fifth of the ``flights`` are random trials, as starting
+    points and for comparison. The search uses the campaign's seed; ``workers`` does not change the result. Raises
+    InputError.
     """
     search = _Search(plan, flights, REALISATIONS, **options)
     objective = metric_objective(plan.campaign, metric)
@@ -87,11 +89,11 @@ def worst_case(
 def worst_margin(
     asked: MarginAsked, margin: str = MARGIN, *, flights: int = STUDIES, **options: Unpack[WorstCaseOptions]
 ) -> WorstOutcome:
-    """Search for the draws that make the least margin of a loop's channels smallest, in the box of `worst_case`.
+    """Search for the draws that minimise the least margin of a loop's channels, in the box of `worst_case`.
 
-    ``margin`` is one of `SIZES`. An unstable loop is worse than any margin, by its spectral radius; draws that cannot
-    be studied are the worst there is. The rest is as in `worst_case`, but for ``realisations``: 1, since noise moves a
-    loop's margin only by where it has brought the flight to. Raises InputError.
+    ``margin`` is one of `SIZES`. An unstable loop is worse than any margin, ranked by its spectral radius; draws that
+    cannot be studied are worst. Other arguments are as in `worst_case`, except that ``realisations`` is 1 by default,
+    since noise only affects a loop's margin through the state at the operating point. Raises InputError.
     """
     if margin not in SIZES:
         raise InputError("`margin`", margin, "no such margin", f"give {', '.join(SIZES)}")
@@ -176,9 +178,9 @@ class _Search:
 
 
 class _Points:
-    """Points flown with the realisations of noise that all have; ``over`` is None where there is no random noise.
+    """Points simulated with common realisations of noise; ``over`` is None without random noise.
 
-    ``effect`` says whether the noise changed a value of the random trials; where it did not, points fly one.
+    ``effect`` tells whether the noise changed a value of the random trials; if not, points are simulated only once.
     """
 
     def __init__(self, flights_of: SampleEvaluator, objective: Objective, over: Realisations | None) -> None:
@@ -198,13 +200,13 @@ class _Points:
         return rows[:, 0] if self.over is None or count == 1 else self.over.objective(rows)
 
     def leave_out_noise_without_effect(self) -> None:
-        """Set one realisation after the random trials, where noise has not changed a value of any."""
+        """Use one realisation after the random trials if noise has not changed the value of any."""
         if self.realisations > 1:
             self.effect = self._varied
             self.realisations = self.realisations if self._varied else 1
 
     def fly_fresh(self, row: int, names: Sequence[str]) -> Fresh:
-        """Simulate the point of a flight with noise that no flight of the search had."""
+        """Simulate the point of a row with noise that no simulation of the search had."""
         assert self.over is not None
         whole, count = self.flown.whole(), self.over.fresh
         columns = {name: np.full(count, whole.draws[name][row]) for name in names}
@@ -212,7 +214,7 @@ class _Points:
         return Fresh(values, self.over.quantile)
 
     def row_of(self, place: np.ndarray, value: float) -> int:
-        """Return the first flight of a point that has its objective: quantiles are values of flights."""
+        """Return the first simulation with the point's objective, since a quantile is the value of a simulation."""
         whole = self.flown.whole()
         return int(np.argmax(np.all(whole.points == place, axis=1) & (whole.values == value)))
 
