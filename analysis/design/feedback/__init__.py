@@ -1,1 +1,1 @@
-"""Modal synthesis beyond gains on state and output: derivatives fed back, disturbances, divisors of zero."""
+"""Modal synthesis beyond gains on state and output: derivative feedback, disturbances, divisors of zero."""

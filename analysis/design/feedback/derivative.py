@@ -1,14 +1,15 @@
-"""Poles placed by the derivative of the state, u = -K x'.
+"""Pole placement by feedback of the state's derivative, u = -K x'.
 
 (I + B K) x' = A x, so that x = (A^-1 + A^-1 B K) x': the poles are the inverses of the eigenvalues of A^-1 + A^-1 B K,
-and -K is the gain on the state that places 1/s_i on (A^-1, A^-1 B). It needs A nonsingular, and no pole at 0. Of a gain
-Kx on the state that places the same poles, K = Kx (A - B Kx)^-1.
+and -K is the gain on the state that places 1/s_i on (A^-1, A^-1 B). A must be nonsingular, and no pole may be 0. From a
+gain Kx on the state that places the same poles, K = Kx (A - B Kx)^-1.
 
-det(I + B K) is the product of the plant's poles over that of the placed ones. u is x' of an instant ago, by sensing,
-filter or sample: a lag h of the derivative, h u' = -u - K x' with h small, leaves the placed poles alone only where
-all eigenvalues of I + K B have positive real parts. For one input an odd number of unstable real poles is then beyond
-this feedback; for several it is not, where the whole plant has an even number.
-Lapin's thesis, section 1.3.4, has the task; Abdelaziz and Valasek, "Direct algorithm for pole placement by
+det(I + B K) is the product of the plant's poles over that of the placed ones. In practice x' is slightly delayed by
+sensing, filter or sampling: a lag h of the derivative, h u' = -u - K x' with h small, preserves the placed poles only
+if all eigenvalues of I + K B have positive real parts. For one input this excludes an odd number of unstable real
+poles; for several it does not, if the whole plant has an even number.
+
+Lapin's thesis, section 1.3.4, states the task; Abdelaziz and Valasek, "Direct algorithm for pole placement by
 state-derivative feedback for multi-input linear systems - nonsingular case", Kybernetika 41 (2005); lags: Michiels,
 Vyhlidal, Huijberts and Nijmeijer, "Stabilizability and stability robustness of state derivative feedback controllers",
 SIAM Journal on Control and Optimization 47 (2009).
@@ -32,16 +33,16 @@ from ..poles.spectrum import Spectrum
 
 @dataclass(frozen=True, kw_only=True)
 class DerivativeFeedback(Placement):
-    """u = -K x' with K = ``gain`` (m, n): the closed loop is (I + B K)^-1 A.
+    """Feedback u = -K x' with K = ``gain`` (m, n): the closed loop is (I + B K)^-1 A.
 
-    ``fast`` (m,) are the eigenvalues of I + K B. A lag of the derivative adds modes of minus these over the lag.
+    ``fast`` (m,) are the eigenvalues of I + K B. A lag of the derivative adds modes at minus these divided by the lag.
     """
 
     fast: np.ndarray
 
     @property
     def stands_lag(self) -> bool:
-        """True if a small lag of the derivative leaves the loop as placed: real parts of ``fast`` are positive."""
+        """True if a small lag of the derivative preserves the placed poles: ``fast`` has positive real parts only."""
         return bool(np.all(self.fast.real > 0.0))
 
 
@@ -50,9 +51,9 @@ def place_derivative(
 ) -> DerivativeFeedback:
     """Return the gain K (m, n) of **u = -K x'** that gives (I + B K)^-1 A the poles.
 
-    ``a`` is A (n, n), nonsingular, ``b`` B (n, m) of a continuous plant x' = A x + B u; ``poles`` (1/s) and
-    ``options`` as in `place`, none of them 0. A counts as singular where a singular value is below 1e-9 of the largest.
-    Raises InputError; PlacementError for a singular A, or where the method does not apply to (A^-1, A^-1 B).
+    ``a`` is A (n, n), nonsingular, ``b`` B (n, m) of a continuous plant x' = A x + B u; ``poles`` (1/s, none of them 0)
+    and ``options`` are as in `place`. A counts as singular if a singular value is below 1e-9 of the largest. Raises
+    InputError; PlacementError for a singular A, or if the method does not apply to (A^-1, A^-1 B).
     """
     state = state_matrix(a)
     inputs = input_matrix(b, len(state))

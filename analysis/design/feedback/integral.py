@@ -1,11 +1,12 @@
-"""Poles placed under constant disturbances: integrals of the outputs are fed back with the state.
+"""Pole placement under constant disturbances: integrals of the outputs are fed back with the state.
 
-x' = A x + B u + E d, y = C x, q' = y - r with d and the reference r constant and unknown to the gain: u = -K x - Ki q
-is the gain on the state of [A 0; C 0], [B; 0], and at rest y = r, whatever d, E and small errors of A and B are.
-Sampled, q+ = q + y - r and [A 0; C I]. The pair is controllable where (A, B) is and no zero of the plant from u to y
-lies at 0, or at the multiplier 1: [A B; C 0], or [A - I B; C 0], has full row rank.
+x' = A x + B u + E d, y = C x, q' = y - r with constant, unknown d and reference r: u = -K x - Ki q is a gain on the
+state of [A 0; C 0], [B; 0], and at rest y = r, for any d, E and small errors of A and B. For a sampled plant q+ = q + y
+- r and [A 0; C I]. The pair is controllable if (A, B) is and the plant from u to y has no zero at 0, or at the
+multiplier 1: [A B; C 0], or [A - I B; C 0], has full row rank.
+
 Davison, "The robust control of a servomechanism problem for linear time-invariant multivariable systems", IEEE
-Transactions on Automatic Control 21 (1976); Lapin's thesis names modal control under disturbances among its methods.
+Transactions on Automatic Control 21 (1976); Lapin's thesis lists modal control under disturbances among its methods.
 """
 
 from __future__ import annotations
@@ -24,9 +25,10 @@ from ..poles.results import Placement, PlacementError, Reason
 
 @dataclass(frozen=True, kw_only=True)
 class IntegralFeedback(Placement):
-    """u = -K x - Ki q, q' = y - r or q+ = q + y - r, with K = ``on_state`` (m, n) and Ki = ``on_integral`` (m, p).
+    """Feedback u = -K x - Ki q with the integral q' = y - r, or q+ = q + y - r.
 
-    ``gain`` is [K Ki] (m, n + p) and ``closed_loop`` the matrix of (x, q).
+    K is ``on_state`` (m, n), Ki is ``on_integral`` (m, p), ``gain`` is [K Ki] (m, n + p) and ``closed_loop`` the matrix
+    of (x, q).
     """
 
     on_state: np.ndarray
@@ -42,11 +44,11 @@ def place_integral(
     sampled: bool = False,
     **options: Unpack[PlaceOptions],
 ) -> IntegralFeedback:
-    """Return the gains of **u = -K x - Ki q**, q' = C x - r, that give state and integrals the n + p poles.
+    """Return the gains of **u = -K x - Ki q**, q' = C x - r, that place the n + p poles of state and integrals.
 
-    ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n) of the p outputs that are to have no error at rest, p <= m;
-    ``poles`` are 1/s, or multipliers of a ``sampled`` plant with q+ = q + C x - r; ``options`` as in `place`.
-    Raises InputError; PlacementError for a plant with a zero at rest, or one that is not controllable.
+    ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n) of the p outputs without error at rest, p <= m; ``poles`` are in
+    1/s, or multipliers of a ``sampled`` plant with q+ = q + C x - r; ``options`` as in `place`. Raises InputError;
+    PlacementError for a plant with a zero at rest, or one that is not controllable.
     """
     state = state_matrix(a)
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))

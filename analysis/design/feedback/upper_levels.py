@@ -46,10 +46,10 @@ _PLACED = 1e4 * np.finfo(float).eps  # of kappa |Ac|: how far from the poles rou
 
 
 class UpperLevels:
-    """All gains that give the level above the zeroth its poles, by ``size`` numbers."""
+    """All gains that place the poles of the level above the zeroth, parametrised by ``size`` numbers."""
 
     def __init__(self, level: ZerothLevel, upper: Spectrum) -> None:
-        """Raise PlacementError for a pole that is repeated more often than the level has inputs."""
+        """Prepare the parametrisation. Raises PlacementError for a pole repeated more often than there are inputs."""
         self.level, self.upper = level, upper
         self.levels, self.family = family_of(*level.above, upper)
         self.divisors = null_space(level.above[1])
@@ -57,7 +57,7 @@ class UpperLevels:
         self.size = self.family.parameters + self.divisors.shape[1] * upper.size
 
     def added(self, free: np.ndarray) -> np.ndarray:
-        """Return N W, which the upper level does not notice."""
+        """Return N W, which does not affect the upper level."""
         w = self.unit * free[self.family.parameters :].reshape(self.divisors.shape[1], self.upper.size)
         return self.divisors @ w
 
@@ -66,7 +66,7 @@ class UpperLevels:
         return self.family.gain(self.family.at(free[: self.family.parameters])) + self.added(free)
 
     def feedback(self, free: np.ndarray) -> StateFeedback:
-        """Return the same as u = -K x of the upper level, through its levels, which place to rounding."""
+        """Return the gain as u = -K x of the upper level, computed on its levels: poles are exact up to rounding."""
         a, b = self.level.above
         first = on_levels(self.levels, self.family, free[: self.family.parameters])
         gain = first.gain - self.added(free)
@@ -85,10 +85,10 @@ def output_feedback_upper(
 ) -> OutputFeedback:
     """Return the gain F (m, p) of **u = F y** that gives A + B F C the poles, for m p >= n.
 
-    ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n), of full ranks; ``poles`` as in `place`. ``upper`` names the n - m
-    poles of the upper levels, else the first real distribution is taken. Free numbers come from ``starts`` random
-    starts from ``seed``; with m + p > n the smallest |F| of them is returned, else the first solution.
-    Raises InputError; PlacementError for another class, levels that cannot be driven, or where no start arrives.
+    ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n), of full ranks; ``poles`` as in `place`. ``upper`` are the n - m
+    poles of the upper levels, by default the first real distribution. Free numbers are searched from ``starts`` random
+    starts with ``seed``; with m + p > n the result has the smallest |F| of them, else it is the first solution. Raises
+    InputError; PlacementError for another class of plants, uncontrollable levels, or if no start converges.
     """
     state = state_matrix(a)
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))

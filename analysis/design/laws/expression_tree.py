@@ -1,4 +1,4 @@
-"""A network operator as expressions: for every output a tree over the sources; how operations are written."""
+"""Network operator as expressions: a tree over the sources for every output; notation of operations."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ OUTPUT_NUMBERS = (15, 16)  # counted from 1, as printed
 
 @dataclass(frozen=True, eq=False)
 class OperationNode:
-    """A node that an output depends on: ``number`` from 1, its binary ``operation``, what it gathers.
+    """Node on which an output depends: its ``number`` from 1, its binary ``operation``, and its operands.
 
-    ``source`` is what the node starts from, None for the neutral element of its operation; ``terms`` are
-    the unary operations and the nodes at the other ends of its edges, in the order of gathering.
+    ``source`` is the node's first operand, None for the neutral element of its operation; ``terms`` are the unary
+    operations and the nodes at the other ends of its edges, in the order of evaluation.
     """
 
     number: int
@@ -38,7 +38,7 @@ def expression_tree(matrix: Sequence[Sequence[int]]) -> tuple[OperationNode, ...
 
 
 def nodes_of(outputs: Sequence[OperationNode]) -> list[OperationNode]:
-    """Return every node that the outputs depend on, themselves included, in order of number."""
+    """Return all nodes on which the outputs depend, including the outputs, in order of number."""
     nodes: dict[int, OperationNode] = {}
 
     def walk(node: OperationNode) -> Iterator[OperationNode]:
@@ -58,10 +58,10 @@ IDENTITY, NEGATIVE, RECIPROCAL = 1, 3, 5
 
 
 class Notation(NamedTuple):
-    """``formula`` has {z} for the argument; ``edge`` is the short form for drawings.
+    """Notation of an operation: ``formula`` has {z} for the argument; ``edge`` is the short form for drawings.
 
-    ``level`` says how tightly the formula binds: SUM_LEVEL, PRODUCT_LEVEL, POWER_LEVEL or ATOM; ``argument``
-    how tightly an argument must bind to stand in it without parentheses.
+    ``level`` is the precedence of the formula: SUM_LEVEL, PRODUCT_LEVEL, POWER_LEVEL or ATOM; ``argument`` is the least
+    precedence of an argument without parentheses.
     """
 
     formula: str

@@ -1,4 +1,4 @@
-"""A law as formulas: a line for every shared subexpression and for each output, as a reader would write it."""
+"""Control law as formulas: a line for every shared subexpression and for each output."""
 
 from __future__ import annotations
 
@@ -36,18 +36,18 @@ NEEDS_A_NAME = {
 
 
 class FormulaText(NamedTuple):
-    """Fragment of a formula, with the level at which it binds."""
+    """Part of a formula, with its precedence level."""
 
     text: str
     level: int
 
     def at(self, level: int) -> str:
-        """Return the text as it stands where at least ``level`` is needed."""
+        """Return the text, in parentheses if its precedence is below ``level``."""
         return self.text if self.level >= level else f"({self.text})"
 
 
 def formula(law: NetworkOperator) -> dict[str, str]:
-    """Return right sides by left side, in the order in which they can be computed; the outputs are z15 and z16."""
+    """Return right sides by left side, in an order in which they can be computed; the outputs are z15 and z16."""
     outputs = expression_tree(law.matrix)
     nodes = nodes_of(outputs)
     uses = Counter(other.number for node in nodes for _, other in node.terms)

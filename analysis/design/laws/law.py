@@ -1,4 +1,4 @@
-"""Laws as files: a network operator's matrix and parameters as JSON, read, checked and written; as parameter set."""
+"""Files of control laws: a network operator's matrix and parameters as JSON, and as a parameter set."""
 
 from __future__ import annotations
 
@@ -27,11 +27,10 @@ Matrix = tuple[tuple[int, ...], ...]
 
 @dataclass(frozen=True)
 class NetworkOperator:
-    """A control law as a network operator.
+    """Control law as a network operator.
 
-    ``matrix`` has SIZE rows, the operations as in `fmus_src.mathlib.network_operator`; ``q`` are the
-    law's parameters; ``exp_saturation`` says what exp is where it would be more than 1e8: ``true``
-    1e8, ``legacy`` ln 1e8.
+    ``matrix`` has SIZE rows, with operations as in `fmus_src.mathlib.network_operator`; ``q`` are the law's parameters;
+    ``exp_saturation`` is the value of exp where it would exceed 1e8: ``true`` means 1e8, ``legacy`` ln 1e8.
     """
 
     name: str
@@ -53,7 +52,7 @@ class NetworkOperator:
         }
 
     def write(self, path: Path) -> None:
-        """Write the law's file, a line to each row of the matrix."""
+        """Write the law's file, with a line for each row of the matrix."""
         rows = ",\n".join(f"  [{', '.join(f'{entry:2d}' for entry in row)}]" for row in self.matrix)
         lines = {key: json.dumps(value, ensure_ascii=False) for key, value in self.content().items()}
         lines["matrix"] = f"[\n{rows}\n ]"
@@ -62,7 +61,7 @@ class NetworkOperator:
 
 
 def find_law(name: str, folder: Path | None = None) -> Path:
-    """Return the file of a law: NAME for laws/NAME.json of this repository, else a path, relative to ``folder``."""
+    """Return the file of a law: NAME stands for laws/NAME.json of this repository, or a path from ``folder``."""
     if (LAWS / f"{name}.json").is_file() and Path(name).name == name:
         return LAWS / f"{name}.json"
     path = (folder or Path()) / name
@@ -73,7 +72,7 @@ def find_law(name: str, folder: Path | None = None) -> Path:
 
 
 def read_law(path: Path) -> NetworkOperator:
-    """Read the law in a file. Raises InputError, for a wrong matrix with the cell: matrix[row,column], from 1."""
+    """Return the law in a file. Raises InputError, for a wrong matrix with the cell: matrix[row,column], from 1."""
     try:
         text = read_input(path, "give a law's file", CAMPAIGN_BYTES).decode("utf-8")
     except UnicodeDecodeError as error:
@@ -86,7 +85,7 @@ def read_law(path: Path) -> NetworkOperator:
 
 
 def law_of(document: object, file: str) -> NetworkOperator:
-    """Read the law in the content of a JSON file called ``file`` in errors. Raises InputError."""
+    """Return the law in the content of a JSON file, called ``file`` in errors. Raises InputError."""
 
     def refuse(element: str, problem: str, remedy: str) -> NoReturn:
         raise InputError(file, element, problem, remedy)
@@ -138,7 +137,7 @@ def _matrix(rows: object, file: str) -> Matrix:
 
 
 def _wrong(row: int, column: int, entry: object) -> tuple[str, str] | None:
-    """Return the problem of a cell, and its remedy; rows and columns from 1."""
+    """Return what is wrong with a cell, and the remedy; rows and columns count from 1."""
     if isinstance(entry, bool) or not isinstance(entry, int):
         return f"{entry!r} is not a whole number", "write an integer"
     if row > column:
@@ -188,5 +187,5 @@ def law_parameters(law: NetworkOperator, component: str) -> dict[str, int | floa
 
 
 def parameter_set(law: NetworkOperator, component: str) -> bytes:
-    """Return the content of an .ssv file with the whole law, zeros of the matrix included."""
+    """Return the content of an .ssv file with the whole law, including zeros of the matrix."""
     return write_parameter_set(law.name, law_parameters(law, component), law.description)

@@ -1,7 +1,7 @@
-"""A layered drawing of a directed acyclic graph: left to right, few crossings, long edges led around nodes.
+"""Layered drawing of a directed acyclic graph: left to right, with few crossings, long edges routed around nodes.
 
-Sugiyama, Tagawa and Toda 1981: layers by longest path, long edges cut by joints that are placed like nodes,
-order within a layer by barycentres; heights then by isotonic regression towards the neighbours.
+Sugiyama, Tagawa and Toda 1981: layers by longest path, long edges divided by joints that are placed like nodes, order
+within a layer by barycentres, then heights by isotonic regression towards the neighbours.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Layers = list[list[Place]]
 
 
 class GraphLayout:
-    """Positions for drawing: ``nodes`` (x, y) by number; ``paths`` by edge, points from one node to the other."""
+    """Positions for drawing: ``nodes`` (x, y) by number; ``paths`` by edge, the points from one node to the other."""
 
     def __init__(self, nodes: Sequence[int], edges: Sequence[Edge]) -> None:
         """Arrange ``nodes``, in an order in which every edge leads forward."""
@@ -53,7 +53,7 @@ class GraphLayout:
                 self.before[right].append(left)
 
     def _order(self) -> None:
-        """Sweep to and fro, each layer sorted by the mean position of its neighbours; keep the best order."""
+        """Sweep back and forth, sorting each layer by the mean position of its neighbours; keep the best order."""
         best = [list(places) for places in self.layers]
         fewest = self.crossings()
         for sweep in range(SWEEPS):
@@ -84,7 +84,7 @@ class GraphLayout:
         return total
 
     def _heights(self) -> dict[Place, float]:
-        """Return heights near the neighbours' mean that keep order and gaps within each layer."""
+        """Return heights close to the neighbours' mean that preserve order and gaps within each layer."""
         offsets = [self._offsets(places) for places in self.layers]
         heights = {
             place: float(offset - row[-1] / 2.0)
@@ -100,14 +100,14 @@ class GraphLayout:
         return heights
 
     def _offsets(self, places: Sequence[Place]) -> np.ndarray:
-        """Return least height of every place above the first one of its layer."""
+        """Return the least height of every place above the first one of its layer."""
         joint = [isinstance(place, tuple) for place in places]
         gaps = [JOINT_GAP if a or b else NODE_GAP for a, b in itertools.pairwise(joint)]
         return np.cumsum([0.0, *gaps])
 
 
 def longest_paths(nodes: Sequence[int], edges: Sequence[Edge]) -> Mapping[int, int]:
-    """Return the number of edges on the longest way to each node; ``nodes`` in an order in which edges lead forward."""
+    """Return the length of the longest path to each node, in edges; ``nodes`` are in an order with edges forward."""
     length = dict.fromkeys(nodes, 0)
     for node in nodes:
         for start, end in edges:

@@ -1,1 +1,1 @@
-"""Start of a spacecraft: parameters from dates and orbital elements."""
+"""Initial parameters of a spacecraft from dates and orbital elements."""

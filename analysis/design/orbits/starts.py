@@ -1,4 +1,4 @@
-"""Parameters of a spacecraft's start: `perilune.epoch` and `perilune.orbit`."""
+"""Initial parameters of a spacecraft: `perilune.epoch` and `perilune.orbit`."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Placing poles by formula: state and output feedback, observers, pulses. Pure mathematics, free of FMI."""
+"""Pole placement by formula: state and output feedback, observers, pulses. Pure mathematics, independent of FMI."""

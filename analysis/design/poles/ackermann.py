@@ -29,7 +29,7 @@ FORMULA = "generalised Ackermann"  # as refusals name it
 
 
 def ackermann(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback:
-    """Place the spectrum with diagonal N_i as far as its pairs let. Raises PlacementError."""
+    """Place the spectrum with diagonal N_i as far as its pairs permit. Raises PlacementError."""
     rows, _ = last_rows(a, b)
     return ackermann_of(a, b, make_polynomial(spectrum, [len(a) // len(rows)] * len(rows)), spectrum.poles)
 
@@ -37,7 +37,7 @@ def ackermann(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback
 def ackermann_of(
     a: np.ndarray, b: np.ndarray, coefficients: np.ndarray, wanted: np.ndarray | None = None
 ) -> StateFeedback:
-    """Return the gain of N (p, m, m); ``wanted`` are its poles where they are known. Raises PlacementError."""
+    """Return the gain of N (p, m, m); ``wanted`` are its poles if they are known. Raises PlacementError."""
     rows, condition = last_rows(a, b)
     gain = rows
     for block in coefficients[::-1]:  # Horner
@@ -54,8 +54,10 @@ def coefficients_of(a: np.ndarray, b: np.ndarray, gain: np.ndarray) -> np.ndarra
 
 
 def last_rows(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.ndarray, float]:
-    """Return T (m, n), and cond(U). Raises PlacementError in the name of ``formula``: n no
-    multiple of m, or U singular."""
+    """Return T (m, n), and cond(U).
+
+    Raises PlacementError in the name of ``formula`` if n is not a multiple of m, or U is singular.
+    """
     states, inputs = b.shape
     if states % inputs:
         problem = f"n/m = {states}/{inputs} = {states / inputs:.3g} is not whole"
@@ -79,7 +81,7 @@ def row_stack(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.
 
 
 def split(side_by_side: np.ndarray, inputs: int) -> np.ndarray:
-    """Return [N_0 .. N_(p-1)] (m, n) as (p, m, m)."""
+    """Return [N_0 .. N_(p-1)] (m, n) as an array (p, m, m)."""
     return np.stack(np.hsplit(side_by_side, side_by_side.shape[1] // inputs))
 
 

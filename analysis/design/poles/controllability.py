@@ -1,7 +1,8 @@
-"""Controllability of a pair (A, B): the matrix U, the indices, and placement by them for any pair and any spectrum.
+"""Controllability of a pair (A, B): the matrix U, the indices, and placement by indices for any pair and spectrum.
 
 With Q = [b_1 .. A^(k_1 - 1) b_1, b_2 ..], t_i the row of Q^-1 at the end of block i, Gamma = [t_i A^(k_i - 1) B] and
 phi_i the required polynomial of degree k_i, u = -K x with K = Gamma^-1 [t_i phi_i(A)]. Inputs with k_i = 0 get no gain.
+
 Source: Kalman (1960); indices and canonical form: Luenberger, "Canonical forms for linear multivariable systems", IEEE
 Transactions on Automatic Control 12 (1967); the gain was derived here: t_i (A - B K)^j = t_i A^j for j < k_i, and then
 t_i phi_i(A - B K) = 0.
@@ -27,10 +28,10 @@ def controllability_matrix(a: np.ndarray, b: np.ndarray, blocks: int) -> np.ndar
 
 
 def controllability_indices(a: np.ndarray, b: np.ndarray, tolerance: float = TOLERANCE) -> tuple[int, ...]:
-    """Return k_i (m): how many of b_i, A b_i, .. are independent of those before in the order b_1 .. b_m, A b_1 ..
+    """Return k_i (m): the number of b_i, A b_i, .. independent of all before in the order b_1 .. b_m, A b_1 ..
 
-    A column counts when more than ``tolerance`` of |B|, or of |A|, is new in it. Each is A times the last new direction
-    of its chain, which leaves what is new and does not grow with the power. Raises PlacementError.
+    A column counts if its new component exceeds ``tolerance`` of |B|, or of |A|. Each column is A times the last new
+    direction of its chain, which preserves new components and does not grow with the power. Raises PlacementError.
     """
     states, inputs = b.shape
     basis = np.zeros((states, 0))

@@ -28,7 +28,7 @@ _OUTSIDE = 1e-8  # relative; permitted distance of a user's basis from the drive
 
 @dataclass(frozen=True)
 class PoleLevel:
-    """One level: its pair ``a``, ``b`` = ``left`` ``right``, the rows P = ``down``, and the singular values kept."""
+    """Level with its pair ``a``, ``b`` = ``left`` ``right``, the rows P = ``down``, and retained singular values."""
 
     a: np.ndarray
     b: np.ndarray
@@ -47,10 +47,10 @@ def decompose(
 ) -> list[PoleLevel]:
     """Return the levels of a pair, level 0 first.
 
-    Bt = U S and R = V' of the singular value decomposition; values above ``tolerance`` of |B| are kept, on the levels
-    above of |A| |Bt| of the level below. With ``sizes`` the levels are the first states, the next and so on instead,
-    and Bt picks them, so that a level's Phi is meant in these coordinates. Raises PlacementError for a pair that is not
-    controllable, or states that are not what a level drives.
+    Bt = U S and R = V' are from the singular value decomposition; values above ``tolerance`` of |B| are retained, on
+    higher levels of |A| |Bt| of the level below. With ``sizes`` the levels are the first states, the next and so on
+    instead, and Bt selects them, so that a level's Phi is in these coordinates. Raises PlacementError for a pair that
+    is not controllable, or states that do not form a level.
     """
     levels: list[PoleLevel] = []
     scale = float(np.linalg.norm(b, 2))
@@ -83,8 +83,8 @@ def assemble(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return K of u = K x and B^-, both of level 0, for Phi_i = ``wanted``, real or complex, level 0 first.
 
-    ``above`` has for each level the gain that the level above should have. What R of that level maps to 0 is taken from
-    there: Phi does not say it. Without it that is 0.
+    ``above`` has, for each level, the required gain of the level above, from which the part in the null space of R is
+    taken, since Phi does not determine it. By default that part is 0.
     """
     gain = inverse = np.zeros((0, 0))
     for i in reversed(range(len(levels))):
@@ -106,7 +106,7 @@ def place_on_levels(
     method: str = "multilevel",
     above: Sequence[np.ndarray] | None = None,
 ) -> StateFeedback:
-    """Return the gain of u = -K x for Phi_i = ``wanted``, level 0 first, which have the ``poles`` together."""
+    """Return the gain of u = -K x for Phi_i = ``wanted``, level 0 first, which together have the ``poles``."""
     gain = -np.real(assemble(levels, wanted, above)[0])
     closed_loop = levels[0].a - levels[0].b @ gain
     return StateFeedback(method, gain, poles, closed_loop, levels=[level.values for level in levels])
@@ -115,7 +115,7 @@ def place_on_levels(
 def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE) -> StateFeedback:
     """Place the spectrum with diagonal Phi_i, 2 x 2 blocks for pairs, the fastest poles on level 0.
 
-    Raises PlacementError. A pair needs a level of rank 2 or more to itself.
+    A pair needs a level of rank 2 or more for itself. Raises PlacementError.
     """
     levels = decompose(a, b, tolerance)
     parts = spectrum.rank([level.rank for level in levels])

@@ -1,7 +1,7 @@
-"""Observers as duals of state feedback: of full order, and of the order of what is not measured.
+"""Observers as duals of state feedback: of full order, and of the order of the unmeasured states.
 
 Luenberger, "Observers for multivariable systems", IEEE Transactions on Automatic Control 11 (1966). With W = C^perp
-(orthonormal columns, C W = 0) x = C^+ y + W z, and zeta = z_h - Lr y rids the reduced one of y'.
+(orthonormal columns, C W = 0) x = C^+ y + W z, and zeta = z_h - Lr y eliminates y' from the reduced one.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from .results import Observer, PlacementError, Reason, ReducedObserver, StateFee
 
 
 def observer(a: ArrayLike, c: ArrayLike, poles: ArrayLike, **options: Unpack[PlaceOptions]) -> Observer:
-    """Return the gain L (n, p) of x_h' = A x_h + B u + L (y - C x_h) with which A - L C has the n ``poles``.
+    """Return the gain L (n, p) of x_h' = A x_h + B u + L (y - C x_h) that gives A - L C the n ``poles``.
 
-    ``a`` is A (n, n), ``c`` C (p, n); ``options`` are those of `place` (method, choice, tolerance, starts, seed), of
-    which this is the dual: L' = K of (A', C'). Raises InputError; PlacementError where the pair is not observable or
-    the method does not apply.
+    ``a`` is A (n, n), ``c`` C (p, n); ``options`` are those of `place` (method, choice, tolerance, starts, seed), whose
+    dual this is: L' = K of (A', C'). Raises InputError; PlacementError if the pair is not observable or the method does
+    not apply.
     """
     state = state_matrix(a)
     outputs = output_matrix(c, len(state))
@@ -35,11 +35,11 @@ def observer(a: ArrayLike, c: ArrayLike, poles: ArrayLike, **options: Unpack[Pla
 def reduced_observer(
     a: ArrayLike, c: ArrayLike, poles: ArrayLike, *, b: ArrayLike | None = None, **options: Unpack[PlaceOptions]
 ) -> ReducedObserver:
-    """Return the observer of order n - p for outputs without noise, with its n - p ``poles``.
+    """Return the observer of order n - p for noise-free outputs, with its n - p ``poles``.
 
-    ``b`` is B (n, m), where there are inputs. The rest is as in `observer`. The result's zeta' = M zeta + from_y y +
-    from_u u, x_h = of_zeta zeta + of_y y; x_h has C x_h = y at every instant. Raises InputError; PlacementError where C
-    has not full row rank, or the pair is not observable.
+    ``b`` is B (n, m) if there are inputs; other arguments are as in `observer`. The result's zeta' = M zeta + from_y y
+    + from_u u, x_h = of_zeta zeta + of_y y satisfies C x_h = y at all times. Raises InputError; PlacementError if C
+    does not have full row rank, or the pair is not observable.
     """
     state = state_matrix(a)
     outputs = output_matrix(c, len(state))

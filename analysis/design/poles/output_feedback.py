@@ -1,4 +1,4 @@
-"""Output feedback u = F y: direct or dual, and which poles go where."""
+"""Output feedback u = F y by direct or dual placement, with a choice of the distribution of poles."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from .zeroth_level import ZerothLevel, direct, square
 
 
 class DecomposedPlant(StrEnum):
-    """Plant that is decomposed."""
+    """Plant of which the levels are taken: direct or dual."""
 
     DIRECT = "direct"  # (A, B, C): the upper level takes n - m poles
     DUAL = "dual"  # (A', C', B'), F transposed: n - p poles
 
 
 class Spread(StrEnum):
-    """Way of spreading the poles over the levels."""
+    """Criterion for the distribution of poles over the levels."""
 
     FIRST = "first"  # that applies
     LEAST_NORM = "least_norm"  # the smallest of all
@@ -45,14 +45,14 @@ def output_feedback(
     starts: int = 20,
     seed: int = 0,
 ) -> OutputFeedback:
-    """Return the gain F (m, p) of **u = F y** with which A + B F C has the poles, for m + p >= n.
+    """Return the gain F (m, p) of **u = F y** that gives A + B F C the poles, for m + p >= n.
 
     ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n), of full ranks; ``poles`` as in `place`. ``method`` is direct or
-    dual, both without one; ``upper`` names the poles of the upper level (n - m of them, dual n - p). Else ``choice`` is
-    first, the first spread that applies; least_norm: every real spread is tried and the smallest |F| returned; or
-    smallest, a search from there in the set of all F with these poles, which is m p - n numbers wide. For m + p > n
-    generic plants have a solution; for m + p = n one is searched for from ``starts`` starts. Raises InputError;
-    PlacementError where no spread that may be tried applies, with the reason of the last.
+    dual, by default both; ``upper`` are the poles of the upper level (n - m of them, dual n - p). Otherwise ``choice``
+    is first, the first distribution that applies; least_norm, the smallest |F| over all real distributions; or
+    smallest, a search from there in the set of all F with these poles, which has m p - n dimensions. For m + p > n
+    generic plants have a solution; for m + p = n one is searched from ``starts`` starts. Raises InputError;
+    PlacementError if no permitted distribution applies, with the reason of the last.
     """
     state = state_matrix(a)
     plant = state, input_matrix(b, len(state)), output_matrix(c, len(state))
@@ -93,7 +93,7 @@ def _placements(
     seed: int,
     refusals: list[PlacementError],
 ) -> Iterator[OutputFeedback]:
-    """Yield placements, direct before dual; reasons of inapplicable ones go to ``refusals``."""
+    """Yield placements, direct before dual; append the reasons of inapplicable ones to ``refusals``."""
     for route, plant in ((DecomposedPlant.DIRECT, (a, b, c)), (DecomposedPlant.DUAL, (a.T, c.T, b.T))):
         if method not in (None, route):
             continue

@@ -1,16 +1,17 @@
-"""Every output feedback of a plant, and one for several plants, by the generalised Ackermann formula.
+"""All output feedbacks of a plant, and one for several plants, by the generalised Ackermann formula.
 
-A state feedback K(N) is an output feedback, K = -F C, when K(N) C^perp = 0. That is linear in the N_i; m p numbers z
+A state feedback K(N) is an output feedback, K = -F C, if K(N) C^perp = 0. That is linear in the N_i; m p numbers z
 remain free: N = N* + sum z_j N^j. The spectrum is that of the block companion of N.
 
-Plants A(q_k), k = 1 .. s, with one B and C can have a common F (m, p): a regulator free of a plant's parameters.
-Elements of the N_i that are prescribed have one value for all plants, the others are unknown for each plant. For all k
+Plants A(q_k), k = 1 .. s, with the same B and C can have a common F (m, p): a regulator independent of a plant's
+parameters. Prescribed elements of the N_i have one value for all plants, the others are unknown for each plant. For all
+k
 
     T_k A_k^p + sum_i N_i,k T_k A_k^i = -F C
 
-is linear in the unknowns, each row by itself, and solved by least squares. When it holds the regulator does not contain
-q, and the prescribed part of the closed loop does not either. Lapin's thesis (2.3.2) has the aim; the equations are
-ours.
+is linear in the unknowns, each row separately, and solved by least squares. If it has a solution the regulator does not
+depend on q, and neither does the prescribed part of the closed loop. Lapin's thesis (2.3.2) states the aim; the
+equations are ours.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ _RESIDUAL = 1e-10  # of the right side
 
 @dataclass(frozen=True)
 class OutputFeedbackSet:
-    """N = ``particular`` + sum z_j ``directions``[j], arrays (p, m, m) as `place_polynomial` takes them; see `at`."""
+    """Set N = ``particular`` + sum z_j ``directions``[j], arrays (p, m, m) as in `place_polynomial`; see `at`."""
 
     a: np.ndarray
     b: np.ndarray
@@ -44,7 +45,7 @@ class OutputFeedbackSet:
 
     @property
     def free(self) -> int:
-        """Number of the elements of z."""
+        """Number of elements of z."""
         return len(self.directions)
 
     def coefficients(self, z: ArrayLike) -> np.ndarray:
@@ -52,7 +53,7 @@ class OutputFeedbackSet:
         return self.particular + np.tensordot(real_matrix("z", z, (self.free,)), self.directions, axes=1)
 
     def at(self, z: ArrayLike) -> OutputFeedback:
-        """Return u = F y at z (free,); its poles are those of N(z). Raises InputError."""
+        """Return the feedback u = F y at z (free,), with the poles of N(z). Raises InputError."""
         coefficients = self.coefficients(z)
         stack, power, _ = row_stack(self.a, self.b)
         gain = -(power + np.hstack(list(coefficients)) @ stack) @ np.linalg.pinv(self.c)
@@ -74,10 +75,10 @@ class OutputFeedbackSet:
 
 
 def output_feedback_set(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> OutputFeedbackSet:
-    """Return every u = F y of x' = A x + B u, y = C x with n = p_u m states, U = [B AB ..] nonsingular, C of full row
-    rank.
+    """Return all output feedbacks u = F y of x' = A x + B u, y = C x.
 
-    ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n). Raises InputError and PlacementError.
+    ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n), with n = p_u m states, U = [B AB ..] nonsingular and C of full
+    row rank. Raises InputError and PlacementError.
     """
     state = state_matrix(a)
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))
@@ -102,10 +103,10 @@ def output_feedback_set(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> OutputFeedb
 
 @dataclass(frozen=True)
 class CommonFeedback:
-    """u = F y with F = ``gain`` (m, p) for all plants.
+    """Feedback u = F y with F = ``gain`` (m, p) for all plants.
 
-    ``coefficients`` are the N (plants, p, m, m) of each closed loop, ``residual`` what the equations leave of their
-    right side, ``loops`` the feedback on each plant with its poles, kappa and so on.
+    ``coefficients`` are the N (plants, p, m, m) of each closed loop, ``residual`` is that of the equations relative to
+    their right side, ``loops`` are the feedback on each plant with its poles, kappa and so on.
     """
 
     gain: np.ndarray
@@ -119,9 +120,9 @@ def common_feedback(
 ) -> CommonFeedback:
     """Return the F of u = F y that gives every plant the prescribed coefficients.
 
-    ``plants`` are A (n, n), ``b`` is B (n, m), ``c`` C (p, n), n = p_u m. ``wanted`` (p_u, m, m), N_0 first, holds the
-    prescribed elements of the N_i, and nan where an element is free for each plant. Raises InputError, and
-    PlacementError where no F does it, with the residual.
+    ``plants`` are A (n, n), ``b`` is B (n, m), ``c`` C (p, n), n = p_u m. ``wanted`` (p_u, m, m), N_0 first, has the
+    prescribed elements of the N_i, and nan for elements that are free for each plant. Raises InputError, and
+    PlacementError with the residual if there is no such F.
     """
     if not len(plants):
         raise InputError("modal", "plants", "there are none", "give a list of matrices A")

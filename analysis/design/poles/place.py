@@ -1,4 +1,4 @@
-"""State feedback u = -K x: the methods by name, the one that applies, and the sets that they choose from."""
+"""State feedback u = -K x: placement methods by name, automatic choice of a method, and parametrised sets of gains."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class FreedomUse(StrEnum):
 
 
 class PlaceOptions(TypedDict, total=False):
-    """The options of `place`."""
+    """Options of `place`."""
 
     method: str | None
     choice: str
@@ -61,15 +61,15 @@ def place(
     starts: int = STARTS,
     seed: int = 0,
 ) -> StateFeedback:
-    """Return the gain K (m, n) of **u = -K x** with which A - B K has the poles, as scipy and python-control do.
+    """Return the gain K (m, n) of **u = -K x** that gives A - B K the poles, as in scipy and python-control.
 
     ``a`` is A (n, n), ``b`` B (n, m) of x' = A x + B u, or of a sampled plant; ``poles`` are n real or complex numbers
-    (1/s, or multipliers), conjugates in pairs, repeated ones repeated. ``method`` is ackermann, bass_gura, indices or
-    multilevel; without one it is multilevel where its levels have room for the pairs, else indices, and the result's
-    ``method`` says which. ``choice`` is diagonal, least_condition (of the eigenvectors: poles that move least) or
-    least_norm (of K), found by ``starts`` searches from ``seed`` and placed by multilevel. What is new in indices and
-    multilevel counts above ``tolerance`` of the matrices that it comes from, 1e-9: their units matter here. Raises
-    InputError; PlacementError where a method does not apply.
+    (1/s, or multipliers), closed under conjugation, with repeated ones repeated. ``method`` is ackermann, bass_gura,
+    indices or multilevel; by default multilevel if its levels have room for the pairs, else indices, and the result's
+    ``method`` tells which. ``choice`` is diagonal, least_condition (of the eigenvectors: least sensitive poles) or
+    least_norm (of K), found by ``starts`` searches with ``seed`` and placed by multilevel. In indices and multilevel, a
+    new direction counts above ``tolerance``, 1e-9, of the matrices from which it is computed, so their units matter.
+    Raises InputError; PlacementError if a method does not apply.
     """
     state = state_matrix(a)
     inputs = input_matrix(b, len(state))
@@ -111,11 +111,11 @@ def place_levels(
     bases: Sequence[ArrayLike] | None = None,
     tolerance: float | None = None,
 ) -> StateFeedback:
-    """Return the gain K of u = -K x from the matrix Phi_i that each level of the multilevel decomposition should have.
+    """Return the gain K of u = -K x from the required matrix Phi_i of each level of the multilevel decomposition.
 
-    ``matrices`` are real, (r_i, r_i), level 0 (what the inputs drive) first. ``bases`` (n, r_i) are orthonormal columns
+    ``matrices`` are real, (r_i, r_i), level 0 (driven by the inputs) first. ``bases`` (n, r_i) are orthonormal columns
     that span the levels; then the closed loop is z' = Phi_i z in these coordinates of the level, driven from the level
-    below only, as with angles and rates: bases [I[:, 3:], I[:, :3]] of x = (angles, rates). Without them they are those
+    below only, as with angles and rates: bases [I[:, 3:], I[:, :3]] of x = (angles, rates). By default they are those
     of singular value decompositions, and K is unique only for multiples of I. ``tolerance`` is as in `place`. Raises
     InputError and PlacementError.
     """
@@ -174,7 +174,7 @@ def _above(tolerance: float | None) -> float:
 
 
 def _whole(bases: Sequence[np.ndarray], states: int) -> np.ndarray:
-    """Return the bases side by side, an orthonormal basis of the state."""
+    """Return the bases concatenated, as an orthonormal basis of the state space."""
     if all(len(basis) == states for basis in bases) and sum(basis.shape[1] for basis in bases) == states:
         whole = np.hstack(bases)
         if np.max(np.abs(whole.T @ whole - np.eye(states))) <= _ORTHONORMAL:

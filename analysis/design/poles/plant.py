@@ -1,4 +1,4 @@
-"""Matrices of a plant as arguments: checked and converted to real arrays of two dimensions."""
+"""Matrices of a plant as arguments: checked and converted to real two-dimensional arrays."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def output_matrix(value: ArrayLike, states: int) -> np.ndarray:
 
 
 def real_matrix(name: str, value: ArrayLike | Sequence[ArrayLike], shape: tuple[int, ...] | None = None) -> np.ndarray:
-    """Return a real, finite array of the ``shape``, or of any with two dimensions. Raises InputError."""
+    """Return a real, finite array with this ``shape``, or any two-dimensional one. Raises InputError."""
     try:
         matrix = np.asarray(value)
     except ValueError:  # rows of different lengths

@@ -1,6 +1,6 @@
 """Monic matrix polynomials with a required determinant.
 
-Phi(s) = I s^p + N_(p-1) s^(p-1) + .. + N_0 is kept as its coefficients N (p, m, m), N_0 first.
+Phi(s) = I s^p + N_(p-1) s^(p-1) + .. + N_0 is represented by its coefficients N (p, m, m), N_0 first.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from .spectrum import Spectrum
 
 
 def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
-    """Return N (largest degree, r, r) of a matrix polynomial that has the spectrum; column j is of degree k_j at most.
+    """Return N (largest degree, r, r) of a matrix polynomial with the spectrum; column j has at most degree k_j.
 
-    Each element of the diagonal has separate poles. Where conjugate pairs outnumber what fits there, a pair a +- i b is
-    across two elements of odd degree: [(s - a) f, -b g; b f, (s - a) g] has the determinant f g ((s - a)^2 + b^2).
+    Each element of the diagonal has separate poles. If conjugate pairs outnumber the places there, a pair a +- i b uses
+    two elements of odd degree: [(s - a) f, -b g; b f, (s - a) g] has the determinant f g ((s - a)^2 + b^2).
     """
     odd = [j for j, degree in enumerate(degrees) if degree % 2]
     across = max(0, len(spectrum.pairs) - sum(degree // 2 for degree in degrees))
@@ -42,7 +42,7 @@ def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
 def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
     """Return N (p, m, m) of Phi(s) = (s I - S_p) .. (s I - S_1) for ``solvents`` S_1 .. S_p, real (m, m) each.
 
-    Its spectrum is the union of theirs. Raises InputError.
+    Its spectrum is the union of the solvents'. Raises InputError.
     """
     size = len(np.atleast_2d(solvents[0]))
     coefficients = np.eye(size)[None]
@@ -54,7 +54,7 @@ def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
 
 
 def block_companion(coefficients: np.ndarray) -> np.ndarray:
-    """Return the real matrix (p m, p m) that has the spectrum of the polynomial N (p, m, m)."""
+    """Return the real matrix (p m, p m) with the spectrum of the polynomial N (p, m, m)."""
     blocks, size, _ = coefficients.shape
     below = np.hstack(list(-coefficients))
     return np.vstack([np.eye((blocks - 1) * size, blocks * size, size), below])

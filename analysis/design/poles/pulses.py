@@ -1,12 +1,12 @@
-"""Plants driven by pulses of variable length: exact over a tick, any number of switch-offs.
+"""Plants driven by pulses of variable length: exact over a tick with any number of switch-offs.
 
-Input i has the value U_i from the start of a tick T on for tau_i and 0 for the rest, so that
+Input i has the value U_i from the start of a tick T for tau_i and then 0, so that
 
     x+ = expm(A T) x + sum_i expm(A (T - tau_i)) Psi(tau_i) b_i U_i,    Psi(tau) = integral_0^tau expm(A s) ds,
     dx+/dx = expm(A T),    dx+/dtau_i = expm(A (T - tau_i)) b_i U_i.
 
 Psi b is a column of expm([A b; 0 0] tau): Van Loan, "Computing integrals involving the matrix exponential", IEEE
-Transactions on Automatic Control 23 (1978). The split at the switch-offs is Lapin's (2.2.1), the formulas ours.
+Transactions on Automatic Control 23 (1978). The division at the switch-offs is Lapin's (2.2.1), the formulas are ours.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .plant import input_matrix, real_matrix, state_matrix
 
 @dataclass(frozen=True)
 class PulsedPlant:
-    """x' = A x + B u over ticks of ``period`` (s), pulses at their starts; ``a`` is A (n, n), ``b`` B (n, m)."""
+    """Plant x' = A x + B u over ticks of ``period`` (s), with pulses at their starts; ``a`` (n, n), ``b`` (n, m)."""
 
     a: np.ndarray
     b: np.ndarray
@@ -42,12 +42,14 @@ class PulsedPlant:
 
     @cached_property
     def transition(self) -> np.ndarray:
-        """dx+/dx = expm(A T) (n, n), whatever the pulses."""
+        """Matrix dx+/dx = expm(A T) (n, n), independent of the pulses."""
         return expm(self.a * self.period)
 
     def after(self, state: ArrayLike, lengths: ArrayLike, values: ArrayLike) -> np.ndarray:
-        """Return x (n,) a tick later, for pulses of ``lengths`` tau (m,) in s and ``values`` U (m,). Raises
-        InputError."""
+        """Return x (n,) after a tick, for pulses of ``lengths`` tau (m,) in s and ``values`` U (m,).
+
+        Raises InputError.
+        """
         lengths, values = self._pulses(lengths, values)
         propagated = self.transition @ real_matrix("state", state, (len(self.a),))
         for column, length, value in zip(self.b.T, lengths, values, strict=True):
@@ -83,10 +85,10 @@ def pulsed_step(
     *,
     longest: float = np.inf,
 ) -> np.ndarray:
-    """Return x (n,) of x' = ``rate`` (x, u) a tick of ``period`` (s) later, for pulses as those of `PulsedPlant`.
+    """Return x (n,) of x' = ``rate`` (x, u) after a tick of ``period`` (s), for pulses as in `PulsedPlant`.
 
-    Runge and Kutta's fourth order over the intervals between switch-offs, in equal steps of at most ``longest`` (s).
-    Raises InputError.
+    Uses the fourth-order Runge-Kutta method over the intervals between switch-offs, in equal steps of at most
+    ``longest`` (s). Raises InputError.
     """
     propagated = np.array(state, dtype=float)
     pulses = real_matrix("values", values, np.shape(lengths))

@@ -1,4 +1,4 @@
-"""Results of every placement: the gain and its quality, or the error of a method that does not apply."""
+"""Results of placements: the gain and its quality, or the error of a method that does not apply."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _SEMISIMPLE = 1e-9  # relative, of the singular values that count as none
 
 
 class Reason(StrEnum):
-    """Why poles cannot be placed as asked."""
+    """Reason why poles cannot be placed as requested."""
 
     NOT_CONTROLLABLE = "not controllable"
     NOT_OBSERVABLE = "not observable"
@@ -30,8 +30,8 @@ class Reason(StrEnum):
 class PlacementError(InputError):
     """Error of a ``routine`` that does not apply to its arguments.
 
-    ``number`` is the criterion: the largest singular value left out, n/m, a condition number, a residual. ``problem``
-    states it, too; ``remedy`` says what to do.
+    ``number`` is the criterion: the largest omitted singular value, n/m, a condition number, or a residual. ``problem``
+    states it in words, ``remedy`` what to do.
     """
 
     def __init__(self, routine: str, reason: Reason, problem: str, number: float, remedy: str) -> None:
@@ -43,12 +43,12 @@ class PlacementError(InputError):
 
 @dataclass(frozen=True)
 class Placement:
-    """A gain and its closed loop.
+    """Gain and its closed loop.
 
     ``method`` is the method that found it; ``wanted`` the requested poles (n,); ``closed_loop`` the real matrix (n, n)
-    that has them. ``condition_u`` is the condition number of the controllability matrix (of Q for "indices"), None for
-    methods that do not invert one; ``levels`` are the singular values kept on each level of a decomposition, level 0
-    first.
+    with these poles. ``condition_u`` is the condition number of the controllability matrix (of Q for "indices"), None
+    for methods that do not invert one; ``levels`` are the retained singular values on each level of a decomposition,
+    level 0 first.
     """
 
     method: str
@@ -64,15 +64,15 @@ class Placement:
 
     @property
     def poles(self) -> np.ndarray:
-        """Eigenvalues of the closed loop (n,) as they came out."""
+        """Eigenvalues of the closed loop (n,), as computed."""
         return self._eigen[0]
 
     @cached_property
     def kappa(self) -> float:
-        """Condition number of the closed loop's eigenvectors of unit length: how far a small change moves a pole.
+        """Condition number of the closed loop's unit eigenvectors: the sensitivity of its poles to small changes.
 
-        Of a repeated pole they are orthogonal where it has as many; infinite, or of the size of 1/eps, where there is
-        no full set.
+        Eigenvectors of a repeated pole are taken as orthogonal if there are enough; the number is infinite, or of the
+        order of 1/eps, if there is no full set.
         """
         vectors = self._eigen[1].astype(complex)
         places = match(self.wanted, self.poles)
@@ -86,12 +86,12 @@ class Placement:
 
     @cached_property
     def error(self) -> float:
-        """Largest distance of a pole from the required one that it is matched with."""
+        """Largest distance of a pole from the required pole matched with it."""
         return distance(self.wanted, self.poles)
 
     @cached_property
     def norm(self) -> float:
-        """|K|: the largest singular value of the gain."""
+        """Norm |K|: the largest singular value of the gain."""
         return float(np.linalg.norm(self.gain, 2))
 
     def text(self) -> str:
@@ -106,15 +106,15 @@ class Placement:
 
 @dataclass(frozen=True)
 class StateFeedback(Placement):
-    """u = -K x with K = ``gain`` (m, n): the closed loop is A - B K."""
+    """Feedback u = -K x with K = ``gain`` (m, n): the closed loop is A - B K."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class OutputFeedback(Placement):
-    """u = F y with F = ``gain`` (m, p): the closed loop is A + B F C.
+    """Feedback u = F y with F = ``gain`` (m, p): the closed loop is A + B F C.
 
-    ``upper`` are the poles that the upper level took, ``condition_x`` is that of X, whose inverse gives Phi_0; both
-    None where there are none.
+    ``upper`` are the poles of the upper level, ``condition_x`` is the condition number of X, whose inverse determines
+    Phi_0; None if there are none.
     """
 
     upper: np.ndarray | None = None
@@ -123,15 +123,15 @@ class OutputFeedback(Placement):
 
 @dataclass(frozen=True)
 class Observer(Placement):
-    """x_h' = A x_h + B u + L (y - C x_h) with L = ``gain`` (n, p): the error's matrix is A - L C."""
+    """Observer x_h' = A x_h + B u + L (y - C x_h) with L = ``gain`` (n, p): the error's matrix is A - L C."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReducedObserver(Placement):
-    """zeta' = M zeta + from_y y + from_u u and x_h = of_zeta zeta + of_y y, M = ``closed_loop`` (n - p, n - p).
+    """Observer zeta' = M zeta + from_y y + from_u u, x_h = of_zeta zeta + of_y y, with M = ``closed_loop``.
 
-    ``gain`` is Lr (n - p, p); M = W'A W - Lr C A W is the error's matrix, W = of_zeta (n, n - p), of_y (n, p),
-    from_y (n - p, p), from_u (n - p, m).
+    ``gain`` is Lr (n - p, p); M = W'A W - Lr C A W (n - p, n - p) is the error's matrix, W = of_zeta (n, n - p), of_y
+    (n, p), from_y (n - p, p), from_u (n - p, m).
     """
 
     from_y: np.ndarray

@@ -1,9 +1,10 @@
-"""The smallest of all F that have the required poles, from a few that do, and Newton steps on F itself.
+"""Smallest of all F with the required poles, searched from several such F, with Newton steps on F itself.
 
-They are a set m p - n numbers wide, given by the coefficients of the characteristic polynomial, whose derivatives are
-those of det(s I - M): d det = -tr(adj(s I - M) dM), adj(s I - M) by Faddeev and Leverrier. On it |F| is minimised by
-sequential quadratic programming (scipy's SLSQP, Kraft 1988), and Newton's method takes the poles to rounding: a simple
-pole with the left and right eigenvectors w, v (w v = 1) moves by dlambda = w B dF C v when F does. Ours.
+The set of these F has m p - n dimensions. It is described by the coefficients of the characteristic polynomial, whose
+derivatives are those of det(s I - M): d det = -tr(adj(s I - M) dM), adj(s I - M) by Faddeev and Leverrier. On it |F| is
+minimised by sequential quadratic programming (scipy's SLSQP, Kraft 1988), and Newton's method improves the poles up to
+rounding: a simple pole with the left and right eigenvectors w, v (w v = 1) moves by dlambda = w B dF C v with F. The
+method is ours.
 """
 
 from __future__ import annotations
@@ -28,9 +29,9 @@ _ALLOWED = 1000.0 * np.finfo(float).eps  # of kappa |Ac|; how far from the poles
 
 
 def polish(feedback: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
-    """Polish the poles by some Newton steps, each the smallest that would reach them; return the best.
+    """Improve the poles by some Newton steps, each the smallest that would reach them; return the best result.
 
-    The formulas go through matrices that may be larger than F, and so are the errors that they bring.
+    The placement formulas use matrices that may be larger than F, and introduce correspondingly larger errors.
     """
     best = feedback
     for _ in range(_NEWTON_STEPS):
@@ -46,7 +47,7 @@ def polish(feedback: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray
 
 
 def smallest(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
-    """Return the feedback of least |F| of ``feedbacks`` and of the searches from them.
+    """Return the feedback of least |F| among ``feedbacks`` and the results of searches from them.
 
     Raises PlacementError for repeated poles, at which Newton's method has no derivative.
     """
@@ -61,8 +62,10 @@ def smallest(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, 
 
 
 def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return coefficients of det(s I - M) below the leading one, highest first (n,), and adj(s
-    I - M) (n, n, n) likewise."""
+    """Return coefficients of det(s I - M) below the leading one (n,), and those of adj(s I - M) (n, n, n).
+
+    Both are in descending order.
+    """
     adjugate, coefficients = [np.eye(len(matrix))], []
     for k in range(1, len(matrix) + 1):
         product = matrix @ adjugate[-1]
@@ -72,8 +75,7 @@ def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
-    """Return the end of successive searches, each from the end of the last one, as long as that
-    is on the set and smaller."""
+    """Return the end of successive searches, each from the last result, while it is in the set and smaller."""
     for _ in range(_ROUNDS):
         end = _search(start, a, b, c)
         if end is None or end.norm >= (1.0 - _WORTH) * start.norm:
@@ -83,7 +85,7 @@ def _from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) ->
 
 
 def _search(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback | None:
-    """Return the end of one search, None where that is no F with the poles."""
+    """Return the result of one search, None if it does not have the poles."""
     radius, scale = float(np.max(np.abs(start.wanted))), float(np.linalg.norm(start.gain))
     wanted = np.poly(start.wanted / radius).real[1:]
     driven = b * (scale / radius)

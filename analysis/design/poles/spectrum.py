@@ -18,15 +18,14 @@ _CONJUGATE = 1e-8  # relative; agreement of a pole with its conjugate in the inp
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Real poles, and of each conjugate pair the one with the positive imaginary part, both ascending."""
+    """Spectrum: real poles, and of each conjugate pair the pole with positive imaginary part, both ascending."""
 
     real: tuple[float, ...] = ()
     pairs: tuple[complex, ...] = ()
 
     @classmethod
     def of(cls, poles: ArrayLike, size: int, name: str = "poles") -> Spectrum:
-        """Return the spectrum of ``size`` poles. Raises InputError for another number, or a pole without its
-        conjugate."""
+        """Return the spectrum of ``size`` poles. Raises InputError for another number, or unpaired complex poles."""
         values = np.asarray(poles)
         if values.dtype.kind not in "biufc" or values.ndim != 1 or not np.all(np.isfinite(values)):
             raise InputError("modal", name, "they are no list of finite numbers", "give real or complex numbers")
@@ -53,13 +52,13 @@ class Spectrum:
 
     @property
     def poles(self) -> np.ndarray:
-        """All of them (n,), a pair side by side."""
+        """All poles (n,), conjugates next to each other."""
         both = [pole for pair in self.pairs for pole in (pair, pair.conjugate())]
         return np.array([*self.real, *both], dtype=complex)
 
     @property
     def matrix(self) -> np.ndarray:
-        """A real matrix that has them: its diagonal, and [a b; -b a] for a pair a +- i b."""
+        """Real matrix with these poles: diagonal, with [a b; -b a] for a pair a +- i b."""
         blocks = [np.array([[pair.real, pair.imag], [-pair.imag, pair.real]]) for pair in self.pairs]
         return block_diag(np.diag(self.real), *blocks) if self.real else block_diag(*blocks)
 
@@ -69,7 +68,7 @@ class Spectrum:
         return np.real(np.poly(self.poles))[::-1] if self.size else np.ones(1)
 
     def splits(self, size: int) -> Iterator[tuple[Spectrum, Spectrum]]:
-        """Yield every subset of ``size`` poles that is closed under conjugation, with the rest."""
+        """Yield every subset of ``size`` poles that is closed under conjugation, with the remaining poles."""
         seen = set()
         for count in range(min(size // 2, len(self.pairs)) + 1):
             for pairs in combinations(range(len(self.pairs)), count):
@@ -81,7 +80,7 @@ class Spectrum:
                         yield part, Spectrum(single, tuple(p for i, p in enumerate(self.pairs) if i not in pairs))
 
     def without(self, part: Spectrum) -> Spectrum:
-        """Return the spectrum without ``part``. Raises InputError for a missing pole."""
+        """Return the spectrum without the poles of ``part``. Raises InputError for a missing pole."""
         real, pairs = list(self.real), list(self.pairs)
         for pole in (*part.real, *part.pairs):
             if _take(real if isinstance(pole, float) else pairs, pole) is None:
@@ -89,10 +88,9 @@ class Spectrum:
         return Spectrum(tuple(real), tuple(pairs))
 
     def deal(self, sizes: Sequence[int]) -> list[Spectrum] | None:
-        """Deal the poles to groups of the ``sizes``, neighbours in different ones where possible; None where the pairs
-        do not fit.
+        """Deal the poles to groups of these ``sizes``, neighbours to different ones if possible.
 
-        Pairs go first. The groups take turns, those with most room first.
+        Pairs are dealt first. The groups take turns, those with most room first. Returns None if the pairs do not fit.
         """
         room, real, pairs = list(sizes), _lists(sizes), _lists(sizes)
         if not self._fits(room):
@@ -108,9 +106,9 @@ class Spectrum:
         return [Spectrum.sort(*part) for part in zip(real, pairs, strict=True)]
 
     def rank(self, sizes: Sequence[int]) -> list[Spectrum] | None:
-        """Split the poles into the ``sizes``, the fastest poles first as far as pairs permit; None where they do not.
+        """Split the poles into these ``sizes``, fastest first as far as pairs permit; return None if they do not.
 
-        A pole goes to the first group that has room for it and leaves room for the pairs to follow.
+        A pole goes to the first group that has room for it and leaves room for the pairs that follow.
         """
         room, real, pairs = list(sizes), _lists(sizes), _lists(sizes)
         if not self._fits(room):
@@ -132,7 +130,7 @@ class Spectrum:
 
 
 def _take(poles: list, pole: complex) -> complex | None:
-    """Take the nearest pole out of the list; return None when none is the same within rounding."""
+    """Remove the nearest pole from the list; return None if none is equal within rounding."""
     nearest = min(poles, key=lambda other: abs(other - pole), default=None)
     if nearest is None or abs(nearest - pole) > _CONJUGATE * abs(pole):
         return None
@@ -145,13 +143,13 @@ def _lists(sizes: Sequence[int]) -> list[list]:
 
 
 def match(wanted: np.ndarray, actual: np.ndarray) -> np.ndarray:
-    """Return for each pole found the required one, one to one, so that the sum of the distances is least."""
+    """Return the required pole for each pole found, one to one, with the least sum of distances."""
     rows, columns = linear_sum_assignment(np.abs(actual[:, None] - wanted[None, :]))
     return wanted[columns[np.argsort(rows)]]
 
 
 def distance(wanted: np.ndarray, actual: np.ndarray) -> float:
-    """Return the largest distance between poles that are matched."""
+    """Return the largest distance between matched poles."""
     return float(np.max(np.abs(match(wanted, actual) - actual), initial=0.0))
 
 

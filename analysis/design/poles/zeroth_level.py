@@ -39,11 +39,10 @@ _STEPS = 60  # of a search: those that arrive took fewer
 
 
 class ZerothLevel:
-    """The zeroth level of a plant with full ranks: m + p >= n."""
+    """Zeroth level of a plant with full ranks: m + p >= n."""
 
     def __init__(self, a: np.ndarray, b: np.ndarray, c: np.ndarray, basis: np.ndarray | None = None) -> None:
-        """Decompose A (n, n), B (n, m), C (p, n); ``basis`` (n, n - m) has columns with P = basis', else the null
-        space's.
+        """Decompose A (n, n), B (n, m), C (p, n); ``basis`` (n, n - m) is P', by default that of the null space.
 
         Raises PlacementError.
         """
@@ -85,13 +84,15 @@ class ZerothLevel:
 
 
 def direct(level: ZerothLevel, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
-    """Place ``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p
-    > n. Raises PlacementError."""
+    """Place ``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p > n.
+
+    Raises PlacementError.
+    """
     return under(level, make_placement(*level.above, upper) if upper.size else None, upper, lower)
 
 
 def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
-    """Return the zeroth level under the gain of the upper one, ``first``. Raises PlacementError."""
+    """Return the feedback of the zeroth level with the gain ``first`` on the upper one. Raises PlacementError."""
     inverse, x, y = level.lower_matrices(-first.gain if first else np.zeros((lower.size, 0)))
     condition = condition_of(x)
     own, q = y @ np.linalg.pinv(x), null_space(x.T).T
@@ -108,7 +109,7 @@ def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lowe
 
 
 def condition_of(x: np.ndarray) -> float:
-    """Return cond X; 1 without columns. Raises PlacementError where it has not full column rank."""
+    """Return cond X; 1 without columns. Raises PlacementError if X does not have full column rank."""
     condition = float(np.linalg.cond(x)) if x.size else 1.0
     if not condition < 1.0 / TOLERANCE:
         problem = f"X has not full column rank, cond X = {condition:.2g}"
@@ -119,13 +120,12 @@ def condition_of(x: np.ndarray) -> float:
 def output_feedback_levels(
     a: ArrayLike, b: ArrayLike, c: ArrayLike, upper: ArrayLike, poles: ArrayLike, *, basis: ArrayLike | None = None
 ) -> OutputFeedback:
-    """Return the gain F (m, p) of **u = F y**, m + p > n, with the matrix ``upper`` on the upper level, ``poles``
-    below.
+    """Return the gain F (m, p) of **u = F y**, m + p > n, with the matrix ``upper`` on the upper level.
 
     ``upper`` (n - m, n - m) is the matrix of the coordinates basis' x of the upper level in the closed loop; ``basis``
-    (n, n - m) are orthonormal columns with basis' B = 0, else those of a singular value decomposition. ``poles`` are
-    the other m. With a basis F is unique. For the dual give A', C', B' and transpose F. Raises InputError, and
-    PlacementError where the upper level is not driven as a whole or the rest does not apply.
+    (n, n - m) has orthonormal columns with basis' B = 0, by default those of a singular value decomposition. ``poles``
+    are the other m, on the zeroth level. With a basis F is unique. For the dual pass A', C', B' and transpose F. Raises
+    InputError, and PlacementError if the upper level is not completely controllable or the method does not apply.
     """
     state = state_matrix(a)
     inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))
@@ -145,7 +145,10 @@ def output_feedback_levels(
 
 
 def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, seed: int) -> OutputFeedback:
-    """Place ``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth. Raises PlacementError."""
+    """Place ``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p = n.
+
+    Raises PlacementError.
+    """
     levels, family = family_of(*level.above, upper)
     radius = float(np.max(np.abs(lower.poles)))
     wanted = np.poly(lower.poles / radius).real[1:]

@@ -1,1 +1,1 @@
-"""Gains as formulas in symbols: the multilevel decomposition, generalised Ackermann and Bass-Gura formulas by sympy."""
+"""Gains as symbolic formulas by sympy: multilevel decomposition, generalised Ackermann and Bass-Gura formulas."""

@@ -1,4 +1,4 @@
-"""Common parts of the formulas: sympy where it is installed, matrices of exact elements, and their simplest form."""
+"""Common functions for the formulas: access to sympy, matrices with exact elements, and their simplification."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Symbols = Any  # a sympy matrix
 
 @cache
 def sympy() -> ModuleType:
-    """Return sympy, of the optional extra `symbolic`. Raises InputError where it is not installed."""
+    """Return the module sympy, from the optional extra `symbolic`. Raises InputError if it is not installed."""
     try:
         return importlib.import_module("sympy")
     except ImportError as error:
@@ -27,14 +27,14 @@ def sympy() -> ModuleType:
 
 
 def exact(value: object) -> Expression:
-    """Return a number or expression with exact numbers: 0.1 is 1/10."""
+    """Return a number or expression with exact numbers: 0.1 becomes 1/10."""
     sp = sympy()
     expression = sp.sympify(value.item() if isinstance(value, np.generic) else value)
     return expression.xreplace({number: sp.Rational(str(number)) for number in expression.atoms(sp.Float)})
 
 
 def matrix_of(name: str, value: Any, shape: tuple[int | None, int | None] = (None, None)) -> Symbols:
-    """Return a matrix of exact elements; ``shape`` has the rows and columns that it must have. Raises InputError."""
+    """Return a matrix with exact elements and the required ``shape``. Raises InputError."""
     sp = sympy()
     try:
         rows = value.tolist() if hasattr(value, "tolist") else value
@@ -53,7 +53,7 @@ def tidy(matrix: Symbols) -> Symbols:
 
 
 def _tidy(expression: Expression) -> Expression:
-    """Return a quotient of products of factors; sin^2 is 1 - cos^2, so that zeros are detected."""
+    """Return an expression as a quotient of products of factors, sin^2 as 1 - cos^2, so that zeros are detected."""
     sp = sympy()
     angles = sorted({each.args[0] for each in expression.atoms(sp.sin, sp.cos)}, key=str)
     if not angles:
@@ -69,18 +69,18 @@ def _tidy(expression: Expression) -> Expression:
 
 
 def is_zero(expression: Expression) -> bool:
-    """Return True if 0 for all values of its symbols."""
+    """Return True if an expression is 0 for all values of its symbols."""
     return bool(_tidy(expression) == 0)
 
 
 def inverse_of(matrix: Symbols) -> Symbols | None:
-    """Return the inverse for general values of the symbols, None where there is none."""
+    """Return the inverse for general values of the symbols, None if there is none."""
     determinant = _tidy(matrix.det(method="berkowitz"))
     return None if determinant == 0 else tidy(matrix.adjugate() / determinant)
 
 
 def left_inverse(matrix: Symbols) -> Symbols:
-    """Return the pseudo-inverse of full column rank, (M' M)^-1 M'."""
+    """Return the pseudo-inverse of a matrix with full column rank, (M' M)^-1 M'."""
     return tidy(inverse_of(tidy(matrix.T * matrix)) * matrix.T)
 
 

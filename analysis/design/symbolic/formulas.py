@@ -1,4 +1,4 @@
-"""Generalised Ackermann and Bass-Gura formulas in symbols; those of `poles/ackermann.py`, where their source stands."""
+"""Generalised Ackermann and Bass-Gura formulas in symbols; see `poles/ackermann.py` for their sources."""
 
 from __future__ import annotations
 

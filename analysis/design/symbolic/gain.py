@@ -1,4 +1,4 @@
-"""K and L as formulas in symbols, and their forms: numbers, LaTeX, a kernel function."""
+"""K and L as symbolic formulas, and their conversion to numbers, LaTeX and kernel functions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _DIGITS = 30
 
 
 class SymbolicMethod(StrEnum):
-    """The methods that have a formula in symbols."""
+    """Methods with a symbolic formula."""
 
     MULTILEVEL = "multilevel"
     ACKERMANN = "ackermann"
@@ -31,7 +31,7 @@ class SymbolicMethod(StrEnum):
 
 @dataclass(frozen=True)
 class SymbolicGain:
-    """A gain as a formula: ``gain`` and ``closed_loop`` are matrices of sympy, ``letter`` is K or L.
+    """Gain as a formula: ``gain`` and ``closed_loop`` are sympy matrices, ``letter`` is K or L.
 
     Elements are products of factors of rational functions; sines and cosines are functions of their angles.
     """
@@ -43,13 +43,13 @@ class SymbolicGain:
 
     @property
     def names(self) -> list[str]:
-        """The names of the symbols in the gain, sorted."""
+        """Names of the symbols in the gain, sorted."""
         return sorted(str(symbol) for symbol in self.gain.free_symbols)
 
     def at(self, values: Mapping[str, float]) -> np.ndarray:
-        """Return the gain as numbers for ``values`` of its symbols by name. Raises InputError for one that is missing.
+        """Return the gain as numbers for ``values`` of its symbols by name. Raises InputError for a missing one.
 
-        It is computed to 30 digits and rounded, so that it adds no rounding errors.
+        It is computed with 30 digits and rounded, so that the evaluation adds no rounding errors.
         """
         missing = [name for name in self.names if name not in values]
         if missing:
@@ -69,10 +69,10 @@ class SymbolicGain:
         return f"{self.letter} = {sympy().latex(self.gain)}"
 
     def kernel(self, name: str) -> str:
-        """Return a module with the kernel function ``name``: symbols, sorted by name, in; the matrix out.
+        """Return a module with the kernel function ``name``, from the symbols in sorted order to the matrix.
 
-        A block's `initialize` or `step` may call it. Raises InputError for a name or symbol that Python has not, or a
-        function that kernels have not.
+        A block's `initialize` or `step` may call it. Raises InputError for a name or symbol that is not valid in
+        Python, or a function that kernels do not have.
         """
         return kernel_text(name, self.letter, self.gain)
 
@@ -85,13 +85,13 @@ def symbolic_gain(
     method: str = SymbolicMethod.MULTILEVEL,
     bases: Sequence[Any] | None = None,
 ) -> SymbolicGain:
-    """Return K of **u = -K x** as a formula in the symbols of A and B; needs sympy, `pip install 'perilune[symbolic]'`.
+    """Return K of **u = -K x** as a formula in the symbols of A and B; needs `pip install 'perilune[symbolic]'`.
 
-    ``a`` is A (n, n), ``b`` B (n, m), of numbers and sympy's symbols; 0.1 is taken as 1/10. ``required`` are n poles,
-    numbers or symbols that stand for real ones; or matrices, by ``method``: multilevel (the automated algorithm) has
-    Phi_i of each level, level 0 first, with ``bases`` as in `place_levels`; ackermann and bass_gura have N_i, N_0
-    first, as in `place_polynomial`. Poles are taken in order, along the levels' diagonals or n/m for each input.
-    Ranks are those for general values of the symbols. Raises InputError and PlacementError.
+    ``a`` is A (n, n), ``b`` B (n, m), of numbers and sympy symbols; 0.1 is taken as 1/10. ``required`` are n poles,
+    numbers or symbols for real ones; or matrices, depending on ``method``: for multilevel (the automated algorithm)
+    Phi_i of each level, level 0 first, with ``bases`` as in `place_levels`; for ackermann and bass_gura N_i, N_0 first,
+    as in `place_polynomial`. Poles are taken in order, along the levels' diagonals or n/m for each input. Ranks are
+    those for general values of the symbols. Raises InputError and PlacementError.
     """
     state = matrix_of("A", a)
     state = matrix_of("A", state, (state.rows, state.rows))
@@ -123,7 +123,7 @@ def symbolic_observer(
 ) -> SymbolicGain:
     """Return L of x_h' = A x_h + B u + L (y - C x_h) as a formula: L' is K of `symbolic_gain` for (A', C').
 
-    ``c`` is C (p, n); ``required``, ``method`` and ``bases`` are of (A', C'). Raises InputError and PlacementError.
+    ``c`` is C (p, n); ``required``, ``method`` and ``bases`` refer to (A', C'). Raises InputError and PlacementError.
     """
     state, outputs = matrix_of("A", a), matrix_of("C", c)
     dual = symbolic_gain(state.T, outputs.T, required, method=method, bases=bases)
@@ -150,7 +150,7 @@ def _multilevel(a: Symbols, b: Symbols, required: Sequence[Any], bases: Sequence
 
 
 def _matrices(required: Sequence[Any], sizes: Sequence[int]) -> list[Symbols] | None:
-    """Return square matrices of the sizes; None where poles are required instead."""
+    """Return square matrices of these sizes; None if poles are required instead."""
     if len(required) and not hasattr(required[0], "__len__"):
         return None
     if len(required) != len(sizes):

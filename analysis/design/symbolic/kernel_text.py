@@ -1,4 +1,4 @@
-"""A matrix of formulas as a kernel function: Python that `perilune export` also writes as C."""
+"""Writes a matrix of formulas as a kernel function: Python that `perilune export` translates to C."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _RESERVED = (*_FUNCTIONS, "gain", "math", "zeros", "Matrix")
 
 
 def kernel_text(name: str, letter: str, matrix: Symbols) -> str:
-    """Return the module with the function ``name``, common terms computed once. Raises InputError."""
+    """Return a module with the function ``name``, in which common terms are computed once. Raises InputError."""
     sp = sympy()
     arguments = sorted(str(symbol) for symbol in matrix.free_symbols)
     for each in (name, *arguments):
@@ -57,7 +57,7 @@ def kernel_text(name: str, letter: str, matrix: Symbols) -> str:
 
 
 def _printer() -> Any:
-    """Return a printer of floats, products instead of powers, and functions that kernels have."""
+    """Return a printer with floats, products instead of powers, and only functions that kernels have."""
     printing = importlib.import_module("sympy.printing.str")
     methods = {"Integer": _integer, "Rational": _rational, "Pow": _power, "Function": _function}
     named = {f"_print_{name}": method for name, method in methods.items()}
@@ -73,7 +73,7 @@ def _rational(_: Any, number: Expression) -> str:
 
 
 def _power(printer: Any, power: Expression, rational: bool = False) -> str:
-    """Return a product, or a root, in brackets: a divisor binds as it stands."""
+    """Return a power as a product or a root, in parentheses, so that it may be a divisor."""
     base, exponent = power.args
     if not (2 * exponent).is_Integer:
         raise InputError("modal", "kernel", f"{power} is a power that kernels have not", "give it a symbol")

@@ -1,1 +1,1 @@
-"""Synthesis of control laws: network operators as files, formulas and drawings, and the search for them."""
+"""Synthesis of control laws: search for network operators by a variational genetic algorithm."""

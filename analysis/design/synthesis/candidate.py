@@ -1,4 +1,4 @@
-"""A candidate of the search: genes and how they arise, the law they stand for, its evaluation, and the evaluator."""
+"""Candidate of the search: its genes, the law they encode, its evaluation, and the interface of the evaluator."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MOST_FLIPS = 3  # bits in which half of the random genes differ from their basis
 
 
 class Genes(NamedTuple):
-    """The number of a basis, what is varied on it, and the parameters in Gray code."""
+    """Genes of a candidate: the number of a basis, variations on it, and the parameters in Gray code."""
 
     basis: int
     variations: tuple[Variation, ...]
@@ -27,14 +27,14 @@ class Genes(NamedTuple):
 
 
 class Phenotype(NamedTuple):
-    """A law as it flies: matrix without what leads nowhere, and parameters."""
+    """Law that is simulated: the matrix without unused nodes, and the parameters."""
 
     matrix: Matrix
     q: tuple[float, ...]
 
     @property
     def key(self) -> str:
-        """A name that equal laws share: parameters that the matrix does not use do not count."""
+        """Hash that is equal for equal laws; parameters that the matrix does not use do not count."""
         used = [
             value if edges_out(self.matrix, node) else None for node, value in zip(PARAMETER_NODES, self.q, strict=True)
         ]
@@ -42,7 +42,7 @@ class Phenotype(NamedTuple):
 
 
 class Evaluation(NamedTuple):
-    """Result of a law's evaluation: sums over the first ``flown`` trials, and the number of successes among them."""
+    """Result of a law's evaluation: sums of objectives over the first ``flown`` trials, and successes among them."""
 
     objectives: tuple[float, ...]
     successes: int
@@ -50,7 +50,7 @@ class Evaluation(NamedTuple):
 
 
 class Candidate(NamedTuple):
-    """Genes that were tried: the law's key and its evaluation."""
+    """Evaluated genes, with the law's key and its evaluation."""
 
     genes: Genes
     key: str
@@ -58,7 +58,7 @@ class Candidate(NamedTuple):
 
 
 def phenotype(genes: Genes, bases: list[Matrix], coding: Coding) -> Phenotype:
-    """Return the law that genes stand for."""
+    """Return the law that genes encode."""
     return Phenotype(prune(apply_variations(bases[genes.basis], genes.variations)), coding.decode(genes.code))
 
 
@@ -69,19 +69,19 @@ class AdmissionThreshold(NamedTuple):
     worst: Standing
 
     def rejects(self, objectives: Sequence[float]) -> bool:
-        """Return True if sums that can only grow any further are too large already."""
+        """Return True if sums, which can only increase, are too large already."""
         return self.order.standing(np.array(objectives)) >= self.worst
 
 
 class EvaluationTask(NamedTuple):
-    """A law to evaluate, and what is known of its first trials."""
+    """Law to evaluate, with the known evaluation of its first trials."""
 
     law: Phenotype
     known: Evaluation
 
 
 class Evaluator(Protocol):
-    """Evaluator of laws as the search needs it."""
+    """Interface of the evaluator of laws."""
 
     objectives: int  # number of objectives
     trials: int  # of an evaluation that is complete
@@ -89,7 +89,7 @@ class Evaluator(Protocol):
     def evaluate(self, tasks: Sequence[EvaluationTask], bar: AdmissionThreshold | None) -> list[Evaluation]:
         """Evaluate laws, each from the trial after the known ones; objectives are sums of numbers >= 0.
 
-        An evaluation may end early where ``bar`` rejects it, and must not otherwise.
+        An evaluation may end early only if ``bar`` rejects it.
         """
         ...
 
@@ -97,9 +97,9 @@ class Evaluator(Protocol):
 def random_genes(
     random: np.random.Generator, basis: int, bases: Sequence[Matrix], code: int, count: int, coding: Coding
 ) -> Genes:
-    """Draw ``count`` variations on a basis, each applicable after those before it.
+    """Draw ``count`` variations on a basis, each applicable after the previous ones.
 
-    Parameters are near those of ``code``, or anywhere, one as likely as the other.
+    Parameters are near those of ``code``, or anywhere, with equal probability.
     """
     matrix = bases[basis]
     variations: list[Variation] = []
@@ -116,9 +116,10 @@ def random_genes(
 
 
 def cross(random: np.random.Generator, first: Genes, second: Genes, coding: Coding) -> list[Genes]:
-    """Return four children of two parents: both joins of their variations, each with both joins of their codes.
+    """Return four children of two parents: both crossings of the variations, each with both crossings of the codes.
 
-    Either is cut at one random place. A child's variations belong to the basis of the parent that gives the head.
+    Variations and codes are each cut at one random place. A child's variations belong to the basis of the parent that
+    contributes the first part.
     """
     cut = int(random.integers(1, max(len(first.variations), 2)))
     low = 2 ** int(random.integers(1, max(coding.bits, 2))) - 1
@@ -130,7 +131,7 @@ def cross(random: np.random.Generator, first: Genes, second: Genes, coding: Codi
 
 
 def mutate(random: np.random.Generator, genes: Genes, bases: Sequence[Matrix], coding: Coding) -> Genes:
-    """Flip one bit of the code, and draw one variation again that those before it permit."""
+    """Flip one bit of the code, and redraw one variation that the previous ones permit."""
     place = int(random.integers(len(genes.variations)))
     before = genes.variations[:place]
     variation = random_variation(random, apply_variations(bases[genes.basis], before))

@@ -1,4 +1,4 @@
-"""The state of a search as JSON: all that is needed to go on to the very same result."""
+"""State of a search as JSON, with all that is needed to resume it with the same result."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ REMEDY = "start anew in another folder"
 
 
 def write_checkpoint(path: Path, state: SearchState, facts: Mapping[str, object]) -> None:
-    """Write the state, with the ``facts`` that it depends on."""
+    """Write the state, with the ``facts`` on which it depends."""
     document = {"format": FORMAT, "version": VERSION, "facts": facts, "state": state_document(state)}
     write_atomically(path, json.dumps(document, allow_nan=False).encode())
 
 
 def read_checkpoint(path: Path, facts: Mapping[str, object]) -> SearchState:
-    """Read the state in a file that was written with the same facts. Raises InputError."""
+    """Return the state in a file that was written with the same facts. Raises InputError."""
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
         if not isinstance(document, dict) or document.get("format") != FORMAT or document.get("version") != VERSION:
@@ -47,7 +47,7 @@ def read_checkpoint(path: Path, facts: Mapping[str, object]) -> SearchState:
 
 
 def state_document(state: SearchState) -> dict[str, object]:
-    """Return a state as JSON can hold it; infinite objectives are null."""
+    """Return a state as JSON; infinite objectives are null."""
     return {
         "random": state.random.bit_generator.state,
         "bases": state.bases,

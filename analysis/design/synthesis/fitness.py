@@ -1,4 +1,4 @@
-"""Fitness of a law: its simulations in the co-simulated system, every trial of a campaign."""
+"""Fitness of a law, from simulations of the complete system in every trial of a campaign."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ VARIANT = "default"
 
 
 class FlightEvaluator:
-    """Evaluates laws by flying them, as many at a time as there are workers; see `candidate.Evaluator`.
+    """Evaluator of laws by simulation, as many in parallel as there are workers; see `candidate.Evaluator`.
 
-    ``plan`` overlays the parameters of ``component`` that make a law; ``basic`` gives what the search does
-    not vary; ``objectives`` are expressions over metrics. ``evaluated`` is called after each law.
-    Use it as a context manager: it holds the workers.
+    ``plan`` overlays the parameters of ``component`` that define a law; ``basic`` has the properties that the search
+    does not vary; ``objectives`` are expressions over metrics. ``evaluated`` is called after each law. A context
+    manager, since it holds the workers.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ def fly_law(
     known: Evaluation,
     bar: AdmissionThreshold | None,
 ) -> Evaluation:
-    """Fly a law's trials after the known ones, in order, to the last or until the bar rejects the sums."""
+    """Simulate a law's trials after the known ones, in order, until the last or until the bar rejects the sums."""
     sums, successes, flown = known
     trials = flyer.plan.campaign.trials
     given: dict[str, ParameterValue] | None = overlay
@@ -91,7 +91,7 @@ def fly_law(
 
 
 def objective_value(expression: Expression, result: TrialResult, trial: int) -> float:
-    """Evaluate an objective in one trial; infinite where it is NaN, as after a simulation that failed."""
+    """Return an objective in one trial; inf if it is NaN, as after a failed simulation."""
     value = float(np.asarray(expression.evaluate(result.metrics)))
     if math.isnan(value):
         return math.inf

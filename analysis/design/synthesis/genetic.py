@@ -1,11 +1,11 @@
-"""The variational genetic algorithm: a population of variations of a basic solution in Pareto's order.
+"""Variational genetic algorithm: a population of variations of a basic solution, in Pareto order.
 
-Source: Diveev 2010 and Diveev, Pupkov and Sofronova 2013 for the search over variations, Gray code, parents that mate
-the likelier the fewer dominate them, four children that replace the worst, and the renewal of the basis. Parents
-dominated by L1 and L2 mate with probability max (1 + alpha L)/(1 + L). Filled in here: variations are sampled where
-they apply, after the earlier ones; half of the random parameters are uniform, half differ from the basis in up to
-three bits; 16 couples are evaluated together; children with objectives equal to a member's are rejected; ties are
-decided by the distance from the ideal point in units of the Pareto set's extent; elites keep their basis.
+Source: Diveev 2010 and Diveev, Pupkov and Sofronova 2013 for the search over variations, Gray code, parents that are
+more likely to mate the fewer dominate them, four children that replace the worst, and the renewal of the basis. Parents
+dominated by L1 and L2 mate with probability max (1 + alpha L)/(1 + L). Added here: variations are sampled where they
+apply, after the earlier ones; half of the random parameters are uniform, half differ from the basis in up to three
+bits; 16 couples are evaluated together; children with objectives equal to a member's are rejected; ties are decided by
+the distance from the ideal point in units of the Pareto set's extent; elites keep their basis.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ BROOD = 16  # couples whose children are evaluated together: fixed, so that work
 
 @dataclass
 class SearchState:
-    """State from which the search continues, apart from its settings."""
+    """State from which a search can be resumed, without its settings."""
 
     random: np.random.Generator
     bases: list[Matrix]
@@ -55,7 +55,7 @@ class SearchState:
 
 
 class Search:
-    """One search; `advance` takes it on until it `is_over`."""
+    """Search for laws; call `advance` until it `is_over`."""
 
     def __init__(self, settings: SearchSettings, evaluator: Evaluator, state: SearchState) -> None:
         self.settings = settings
@@ -68,7 +68,7 @@ class Search:
         return self.state.succeeded or self.state.generation >= self.settings.generations
 
     def advance(self) -> None:
-        """Evaluate the first population, or the next generation, which ends early where the search does."""
+        """Evaluate the first population, or the next generation, which ends early if the search does."""
         state = self.state
         if not state.population:
             self._start()
@@ -83,7 +83,7 @@ class Search:
         self._note()
 
     def _start(self) -> None:
-        """Evaluate the first population: the basic solution as coded and, unless that is enough, others around it."""
+        """Evaluate the first population: the basic solution as encoded and, unless it suffices, others around it."""
         state = self.state
         basic = Genes(0, (NO_VARIATION,) * self.settings.variations, state.code)
         state.population = self._evaluate([basic])
@@ -107,7 +107,7 @@ class Search:
         return [random_genes(random, basis, bases, code, variations, self.coding) for _ in range(count)]
 
     def _breed(self, couples: int) -> None:
-        """Breed children of some couples, evaluated together, then inserted one after another."""
+        """Breed children of some couples, evaluated together and then inserted one after another."""
         random, settings = self.state.random, self.settings
         order = ParetoOrder(objectives_of(self.state.population))
         bar = AdmissionThreshold(order, order.standing(order.objectives[order.worst()]))
@@ -127,7 +127,7 @@ class Search:
                 order = ParetoOrder(objectives_of(self.state.population))
 
     def _let_in(self, candidate: Candidate, order: ParetoOrder) -> bool:
-        """Put a candidate in the place of the worst, unless it is worse or has the objectives of one there."""
+        """Replace the worst member by a candidate, unless that is no better or has the objectives of another member."""
         point = np.array(candidate.evaluation.objectives)
         worst = order.worst()
         twin = np.any(np.all(order.objectives == point, axis=1))
@@ -137,7 +137,7 @@ class Search:
         return True
 
     def _renew(self) -> None:
-        """Replace the basis by the chosen candidate; the elites stay as they are, the others are drawn again."""
+        """Replace the basis by the best candidate; elites remain, the others are redrawn."""
         state = self.state
         best = self.choose().genes
         state.bases.append(apply_variations(state.bases[best.basis], best.variations))
@@ -149,11 +149,9 @@ class Search:
         state.population = elites + self._evaluate([basic, *others])
 
     def _evaluate(self, genes: Sequence[Genes], bar: AdmissionThreshold | None = None) -> list[Candidate]:
-        """Evaluate candidates of genes. Known laws are not evaluated again, nor where the bar rejects the known
-        results.
+        """Evaluate genes, except for known laws and those whose known results the bar rejects.
 
-        A rejection leaves no other trace than its evaluation, complete or not, so that rejecting early does not change
-        the search.
+        A rejected law only leaves its evaluation, complete or not, so that rejecting early does not change the search.
         """
         state = self.state
         laws = [phenotype(each, state.bases, self.coding) for each in genes]
@@ -177,7 +175,7 @@ class Search:
         return candidates
 
     def _watch(self, candidate: Candidate) -> None:
-        """Keep the Pareto set of all candidates and the one with most successes."""
+        """Update the Pareto set of all candidates, and the one with most successes."""
         state, evaluation = self.state, candidate.evaluation
         point = np.array(evaluation.objectives)
         objectives = objectives_of(state.front)
@@ -198,7 +196,7 @@ class Search:
         state.succeeded |= self.settings.stop and evaluation.successes == self.evaluator.trials
 
     def _note(self) -> None:
-        """Add a line of history."""
+        """Add an entry to the history."""
         state = self.state
         assert state.champion is not None
         minimum = objectives_of(state.front).min(axis=0)

@@ -23,7 +23,7 @@ FORMAT, VERSION = "perilune-pareto-set", 2
 
 @dataclass
 class SynthesisOutcome:
-    """A search as far as it came; ``ended`` says why: success, generations or evaluations."""
+    """Result of a search, complete or not; ``ended`` is the reason: success, generations or evaluations."""
 
     synthesis: Synthesis
     search: Search
@@ -49,7 +49,7 @@ class SynthesisOutcome:
 
     @property
     def succeeded(self) -> bool:
-        """True if the chosen law has every trial a success."""
+        """True if every trial succeeds with the chosen law."""
         return self.search.choose().evaluation.successes == self.search.evaluator.trials
 
     def pareto_set(self) -> list[Candidate]:
@@ -57,13 +57,13 @@ class SynthesisOutcome:
         return sorted(self.search.state.front, key=lambda candidate: candidate.evaluation.objectives)
 
     def objectives(self, candidate: Candidate) -> dict[str, dict[str, float]]:
-        """Return of each objective the sum over the flights, which is minimised, and the mean of one flight."""
+        """Return, for each objective, the sum over the trials, which is minimised, and the mean of one trial."""
         _, _, flown = evaluation = candidate.evaluation
         sums = zip(self.synthesis.objectives, evaluation.objectives, strict=True)
         return {name: {"sum": value, "mean": value / flown} for name, value in sums}
 
     def objectives_text(self, candidate: Candidate) -> str:
-        """Return the objectives of a candidate, as the description of its law has them."""
+        """Return the objectives of a candidate as text, for the description of its law."""
         flown = candidate.evaluation.flown
         return ", ".join(
             f"{name} {value['mean']:.6g} per flight ({value['sum']:.6g} over {flown})"

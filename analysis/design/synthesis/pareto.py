@@ -1,4 +1,4 @@
-"""Pareto order: of several objectives, all to be minimised, none weighs more than another."""
+"""Pareto order of several objectives, all to be minimised and of equal weight."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def dominators(objectives: np.ndarray, point: np.ndarray) -> int:
 
 
 def is_dominated(objectives: np.ndarray, point: np.ndarray) -> np.ndarray:
-    """Return for each row of ``objectives`` (n, m) if a point (m,) dominates it."""
+    """Return for each row of ``objectives`` (n, m) whether a point (m,) dominates it."""
     return np.all(objectives >= point, axis=1) & np.any(objectives > point, axis=1)
 
 
@@ -36,11 +36,11 @@ class Standing(NamedTuple):
 
 
 class ParetoOrder:
-    """An order of points by a set of them, ``objectives`` (n, m), infinite ones allowed.
+    """Order of points with respect to a set, ``objectives`` (n, m), which may be infinite.
 
-    Points of equal rank are ordered by their distance from the ideal point, the least value of every
-    objective in the set, in units of the extent of the set's Pareto front. What is below the ideal
-    point counts as on it, so that making any objective larger never improves a standing.
+    Points of equal rank are ordered by their distance from the ideal point, the least value of every objective in the
+    set, in units of the extent of the set's Pareto front. Values below the ideal point count as equal to it, so that
+    increasing any objective never improves a standing.
     """
 
     def __init__(self, objectives: np.ndarray) -> None:

@@ -1,4 +1,4 @@
-"""The numbers of a search, and its parameters in Gray code.
+"""Settings of a search, and its parameters in Gray code.
 
 Neighbouring numbers differ in one bit, so that a flipped bit can be a small change.
 """
@@ -17,7 +17,7 @@ def to_gray(number: int) -> int:
 
 
 def from_gray(code: int) -> int:
-    """Return the number that a Gray code stands for: each bit is the parity of the code's bits from there up."""
+    """Return the number with this Gray code: each bit is the parity of the code's bits from there up."""
     number = 0
     while code:
         number ^= code
@@ -27,7 +27,7 @@ def from_gray(code: int) -> int:
 
 @dataclass(frozen=True)
 class Coding:
-    """Parameters in fixed point, without sign, each in Gray code, one behind the other in one integer.
+    """Unsigned fixed-point parameters, each in Gray code, concatenated in one integer.
 
     ``count`` parameters of ``integer`` and ``fraction`` bits; the first has the highest bits.
     """
@@ -55,7 +55,7 @@ class Coding:
         return code
 
     def decode(self, code: int) -> tuple[float, ...]:
-        """Return the parameters that a code stands for, exact."""
+        """Return the parameters of a code, exactly."""
         mask = 2**self.width - 1
         parts = [code >> self.width * place & mask for place in reversed(range(self.count))]
         return tuple(from_gray(part) / 2**self.fraction for part in parts)
@@ -63,12 +63,12 @@ class Coding:
 
 @dataclass(frozen=True)
 class SearchSettings:
-    """The numbers of the search; defaults as published.
+    """Settings of the search; defaults as published.
 
-    ``crossovers`` couples a generation, ``variations`` a candidate; ``mutation`` is the probability for a
-    child, ``crossover`` the weight in the probability that a couple mates; every ``renewal`` generations
-    the basis is replaced and only ``elites`` stay; ``stop`` ends the search as soon as a candidate has
-    every trial a success.
+    ``crossovers`` is the number of couples in a generation, ``variations`` that of a candidate; ``mutation`` is the
+    probability for a child, ``crossover`` the weight in the probability that a couple mates; every ``renewal``
+    generations the basis is replaced and only ``elites`` remain; with ``stop`` the search ends once a candidate
+    succeeds in every trial.
     """
 
     population: int = 256

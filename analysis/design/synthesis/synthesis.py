@@ -37,10 +37,10 @@ def run_synthesis(
 ) -> SynthesisOutcome:
     """Search for laws. Raises InputError before any simulation.
 
-    ``seed`` replaces the campaign's; ``workers`` is the number of laws that are evaluated at the same time (default:
-    one per processor) and does not change the result. With ``output`` a checkpoint is written there after every
-    generation, from which ``resume`` continues, and the results at the end. The search ends with the generation in
-    which ``evaluations`` laws have been evaluated.
+    ``seed`` replaces the campaign's; ``workers`` is the number of laws evaluated in parallel (default: one per
+    processor) and does not change the result. With ``output`` a checkpoint is written there after every generation,
+    from which ``resume`` continues, and the results at the end. The search ends with the generation in which the number
+    of evaluated laws reaches ``evaluations``.
     """
     output = None if output is None else output.absolute()  # FMUs may change the working folder
     count = worker_count(workers)
@@ -88,7 +88,10 @@ def run_synthesis(
 
 
 def _checkpoint(output: Path | None, resume: bool) -> Path | None:
-    """Return the checkpoint's file; refuse to lose one, or to resume without."""
+    """Return the checkpoint's file, None without ``output``.
+
+    Raises InputError if a checkpoint would be overwritten, or if there is no folder for ``resume``.
+    """
     if output is None:
         if resume:
             raise InputError("`resume`", "", "no folder to resume from", "give `output`")
@@ -100,7 +103,7 @@ def _checkpoint(output: Path | None, resume: bool) -> Path | None:
 
 
 def _check(synthesis: Synthesis, plan: BatchPlan) -> PreparedSystem:
-    """Return the prepared system, with a component that takes a law."""
+    """Return the prepared system, after checking that the component can take a law."""
     without_law = BatchPlan(plan.system, plan.campaign, plan.options, plan.campaign_sha256)
     prepared = check_plan(without_law)[VARIANT]
     fmus, component = prepared.network.fmus, synthesis.component
@@ -117,7 +120,7 @@ def _check(synthesis: Synthesis, plan: BatchPlan) -> PreparedSystem:
 
 
 def _rehearse(synthesis: Synthesis, plan: BatchPlan) -> None:
-    """Fly the basic solution once: a system that cannot fly it would fail with every other law as well."""
+    """Simulate the basic solution once: a system that fails with it would fail with every law."""
     flyer = Flyer(plan)
     try:
         result = flyer.fly_one(VARIANT, 0, law_parameters(synthesis.basic, synthesis.component))
@@ -129,7 +132,7 @@ def _rehearse(synthesis: Synthesis, plan: BatchPlan) -> None:
 
 
 def provenance(synthesis: Synthesis, plan: BatchPlan, prepared: PreparedSystem) -> dict[str, object]:
-    """Return the inputs of the result."""
+    """Return the inputs that determine the result."""
     return {
         "system": prepared.archive.name,
         "system_sha256": prepared.archive.digest,

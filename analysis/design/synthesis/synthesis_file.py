@@ -1,4 +1,4 @@
-"""Reads what a synthesis is from its TOML file: a campaign, and the table [network_operator] of the search."""
+"""Reads the TOML file of a synthesis: a campaign, and the table [network_operator] of the search."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ LIMITS: Mapping[str, tuple[float, float]] = {
 
 @dataclass(frozen=True)
 class Synthesis:
-    """A synthesis as declared.
+    """Synthesis as declared.
 
-    ``component`` is simulated by ``fmu`` where one is named; ``basic`` is the law that the search begins with;
-    ``objectives`` are expressions over metrics by name, to be minimised. ``step`` and ``stop_time`` (s) replace the
-    system's. ``sha256`` is that of the file.
+    ``component`` is simulated by ``fmu`` if one is named; the search begins with the law ``basic``; ``objectives`` are
+    expressions over metrics by name, to be minimised. ``step`` and ``stop_time`` (s) replace the system's. ``sha256``
+    is that of the file.
     """
 
     campaign: Campaign
@@ -72,13 +72,13 @@ class Synthesis:
 
 
 def find_search(name: str) -> Path:
-    """Return the file of a search: NAME for laws/searches/NAME.toml of this repository, else a path."""
+    """Return the file of a search: NAME stands for laws/searches/NAME.toml of this repository, or a path."""
     own = SEARCHES / f"{name}.toml"
     return own if own.is_file() and Path(name).name == name else Path(name)
 
 
 def read_synthesis(path: Path) -> Synthesis:
-    """Read the synthesis in a TOML file. Raises InputError."""
+    """Return the synthesis in a TOML file. Raises InputError."""
     whole = read_source_file(path).table()
     if SYNTHESIS not in whole.content:
         raise whole.error(SYNTHESIS, "missing", f"add [{SYNTHESIS}] with component, law and objectives")
@@ -146,7 +146,7 @@ def _objectives(table: TomlTable, campaign: Campaign) -> dict[str, Expression]:
 
 
 def _check_basic(law: NetworkOperator, settings: SearchSettings, path: Path) -> None:
-    """Refuse a basic solution that the search could not vary or code."""
+    """Reject a basic solution that the search cannot vary or encode."""
     for node in range(SOURCES, SIZE):
         if not edges_in(law.matrix, node) and (node in OUTPUTS or edges_out(law.matrix, node)):
             problem = f"nothing leads to node {node + 1}"

@@ -1,8 +1,8 @@
-"""Small variations of a network operator's matrix: what a candidate differs by from the basic solution.
+"""Small variations of a network operator's matrix: the difference between a candidate and the basic solution.
 
-Every sequence of variations turns an allowed matrix into an allowed one: upper triangular, every node that
-is no source and has an edge out has an edge in as well, and the outputs keep theirs. A variation that
-does not apply changes nothing; after another one, or on another basis, it may.
+Every sequence of variations turns an admissible matrix into an admissible one: upper triangular, every node that is not
+a source and has an outgoing edge has an incoming edge as well, and the outputs keep theirs. A variation that does not
+apply changes nothing; after another one, or on another basis, it may apply.
 
 Source: Diveev 2010; Diveev and Sofronova 2012 (small variations of the basic solution).
 """
@@ -25,7 +25,7 @@ BINARY_CHOICE = (0, 1)
 
 
 class Variation(NamedTuple):
-    """One change at row and column, counted from 0; ``operation`` is unary, or binary on the diagonal."""
+    """Variation at row and column, from 0; ``operation`` is unary, or binary on the diagonal."""
 
     kind: int
     row: int
@@ -37,7 +37,7 @@ NO_VARIATION = Variation(NOTHING, 0, 0, 0)
 
 
 def random_variation(random: np.random.Generator, matrix: Matrix) -> Variation:
-    """Draw a variation, each kind equally likely, at a random admissible place, any operation."""
+    """Draw a variation: each kind equally likely, at a random admissible place, with any operation."""
     kind = int(random.integers(CHANGE_UNARY, REMOVE_EDGE + 1))
     if kind == CHANGE_BINARY:
         node = int(random.integers(SOURCES, SIZE))
@@ -70,7 +70,7 @@ def apply_variations(matrix: Matrix, variations: Iterable[Variation]) -> Matrix:
 
 
 def prune(matrix: Matrix) -> Matrix:
-    """Return the same law without nodes that no output depends on."""
+    """Return the same law without nodes on which no output depends."""
     needed = [node in OUTPUTS for node in range(SIZE)]
     for node in reversed(range(SIZE)):
         needed[node] |= any(

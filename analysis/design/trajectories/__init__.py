@@ -1,1 +1,1 @@
-"""Plans of least propellant: direct method, bounds of transfers and landings."""
+"""Plans of least propellant: direct method, and bounds of transfers and landings."""

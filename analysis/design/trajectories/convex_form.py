@@ -1,10 +1,10 @@
-"""The point-mass problem at a fixed time as a sequence of convex ones.
+"""Point-mass problem with fixed time as a sequence of convex problems.
 
-Second-order cones, solved by Clarabel. Size of thrust acceleration s >= |u| in place of s = |u|, logarithm of the mass
-ratio z in place of the mass (Acikmese and Ploen 2007, "Convex programming approach to powered descent guidance for Mars
-landing"); thrust limits and gravity are expanded about the last solution until nothing changes. Tilt and glide slope
-are cones (Acikmese, Carson and Blackmore 2013, "Lossless convexification of nonconvex control bound and pointing
-constraints of the soft landing optimal control problem").
+Second-order cone programmes, solved by Clarabel. The size of thrust acceleration s >= |u| replaces s = |u|, the
+logarithm z of the mass ratio replaces the mass (Acikmese and Ploen 2007, "Convex programming approach to powered
+descent guidance for Mars landing"); thrust limits and gravity are linearised about the last solution until it no longer
+changes. Tilt and glide slope are cones (Acikmese, Carson and Blackmore 2013, "Lossless convexification of nonconvex
+control bound and pointing constraints of the soft landing optimal control problem").
 """
 
 from __future__ import annotations
@@ -26,9 +26,10 @@ TOLERANCE = 1e-10
 
 @dataclass(frozen=True)
 class PointMassPath:
-    """A solution over ``time`` (s), N + 1 points: ``position`` (m) and ``velocity`` (m/s), a row each, and
-    ``log_mass``, ln of mass over the initial mass; over each of the N intervals the ``thrust_acceleration`` (m/s2)
-    is constant, and ``size`` is what it was held to in the convex form.
+    """Solution at ``time`` (s), N + 1 points: ``position`` (m), ``velocity`` (m/s), a row each, and ``log_mass``.
+
+    ``log_mass`` is ln of mass over the initial mass. Over each of the N intervals ``thrust_acceleration`` (m/s2) is
+    constant, and ``size`` (m/s2) is its upper bound s in the convex form.
     """
 
     time: np.ndarray
@@ -44,11 +45,11 @@ class PointMassPath:
 
     @property
     def looseness(self) -> float:
-        """Largest s - |u| (m/s2): near 0, and the convex form has the solutions of the problem itself."""
+        """Largest s - |u| (m/s2); if it is near 0, the convex form solves the original problem."""
         return float(np.max(self.size - np.linalg.norm(self.thrust_acceleration, axis=1)))
 
     def make_path(self, problem: PointMassProblem) -> PlannedPath:
-        """Return the path of a ``problem`` in a plane as plans have it."""
+        """Return the path of a ``problem`` in a plane, in the form of plans."""
         force = self.thrust_acceleration
         throttle = self.size / problem.most * np.exp((self.log_mass[1:] + self.log_mass[:-1]) / 2.0)
         pitch = np.where(throttle > OFF, np.arctan2(force[:, 1], force[:, 0]), np.nan)
@@ -58,9 +59,9 @@ class PointMassPath:
 def solve_fixed_time(
     problem: PointMassProblem, duration: float, intervals: int, near: PointMassPath | None = None
 ) -> PointMassPath | None:
-    """Minimise the propellant in ``duration`` (s) with ``intervals`` intervals; None where that is infeasible.
+    """Minimise the propellant in ``duration`` (s) with ``intervals`` intervals; return None if it is infeasible.
 
-    ``near``, a solution with as many intervals for another time, is expanded about first, in place of straight lines.
+    ``near``, a solution with as many intervals for another time, replaces straight lines as the first reference.
     """
     if near is None:
         fraction = np.linspace(0.0, 1.0, intervals + 1)[:, np.newaxis]
@@ -96,7 +97,7 @@ class _Layout:
 def _solve(
     problem: PointMassProblem, duration: float, about: np.ndarray, log_about: np.ndarray
 ) -> PointMassPath | None:
-    """Solve one convex problem, expanded about a path; scaled by length, speed and derived units."""
+    """Solve one convex problem, linearised about a path, scaled by length, speed and derived units."""
     intervals, axes = about.shape[0] - 1, about.shape[1]
     unit = problem.speed**2 / problem.length
     h = duration / intervals * problem.speed / problem.length
@@ -169,7 +170,7 @@ def _solve(
 
 
 def _interleave(parts: list[sparse.csr_array]) -> sparse.csr_array:
-    """Return first rows of all blocks, then second rows, and so on: one cone after another."""
+    """Return the first rows of all blocks, then the second rows, and so on: one cone after another."""
     count = parts[0].shape[0]
     order = np.arange(count * len(parts)).reshape(len(parts), count).T.ravel()
     return sparse.csr_array(sparse.vstack(parts, format="csr")[order])
@@ -178,7 +179,7 @@ def _interleave(parts: list[sparse.csr_array]) -> sparse.csr_array:
 def _clarabel(
     cost: np.ndarray, rows: list[sparse.csr_array], right: list[np.ndarray], cones: list[object]
 ) -> np.ndarray | None:
-    """Return the minimiser of cost . x with right - rows x in the cones; None where there is none."""
+    """Return the minimiser of cost . x with right - rows x in the cones, None if there is none."""
     settings = clarabel().DefaultSettings()
     settings.verbose = False
     settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = TOLERANCE

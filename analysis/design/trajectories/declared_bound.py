@@ -39,9 +39,9 @@ Inputs = Mapping[str, float | tuple[float, ...]]
 
 
 def read_inputs(prepared: PreparedSystem) -> Inputs | None:
-    """Read the values, SI, of the bound of a system's landing; None where its SSD declares no bound.
+    """Return the values, in SI, of the bound of a system's landing; None if its SSD declares no bound.
 
-    They are those of the prepared system with the parameter set that braking starts from on top. Raises InputError.
+    They are those of the prepared system, overridden by the parameter set from which braking starts. Raises InputError.
     """
     annotation = prepared.network.description.annotations.get(ANNOTATION)
     return None if annotation is None else _BoundReader(prepared).inputs(annotation)
@@ -80,7 +80,7 @@ class _BoundReader(AnnotationReader):
         return inputs
 
     def value(self, element: etree._Element, prepared: PreparedSystem, name: str) -> float:
-        """Return a parameter as it is set, or as its FMU starts; a number is itself."""
+        """Return a parameter's setting, or its FMU's start value; a number is returned as such."""
         if NUMBER.fullmatch(name):
             return float(name)
         component, variable = split_name(name, prepared.network.fmus)
@@ -95,9 +95,9 @@ class _BoundReader(AnnotationReader):
 
 
 def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
-    """Return the bound's vehicle and landing, in the plane of start and site; ``file`` is the name in refusals.
+    """Return the bound's vehicle and landing, in the plane of start and site; ``file`` is named in errors.
 
-    The bound is that of an engine that can be off: its least thrust is 0.
+    The bound is for an engine that can be off: its least thrust is 0.
     """
     values = _numbers(inputs)
     arm = np.add(inputs["position"], (0.0, 0.0, values["moon_radius"]))
@@ -131,7 +131,7 @@ def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
 
 
 def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, float]]:
-    """Return the pieces that a landing is cut into, by name: the bounded problem, and the initial mass (kg)."""
+    """Return the pieces into which a landing is divided, by name: the bounded problem, and the initial mass (kg)."""
     values = _numbers(inputs)
     vehicle, landing = landing_of(inputs, file)
     pieces = {}

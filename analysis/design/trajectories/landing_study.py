@@ -1,4 +1,4 @@
-"""The bound of a single-burn braking and landing, and the direct method that checks it."""
+"""Bound of a single-burn braking and landing, and the direct method that verifies it."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class Direct:
 
 @dataclass(frozen=True)
 class LandingStudy:
-    """``looseness`` (m/s2) is how far the convex form's thrust is from a real one; ``direct`` None: not asked for.
+    """Bound of a landing; ``looseness`` (m/s2) is that of the convex form, ``direct`` is None if not requested.
 
-    ``pieces``: propellant (kg) of the parts that a system cuts its landing into, each bounded by itself.
+    ``pieces``: propellant (kg) of the phases into which a system divides its landing, each bounded separately.
     """
 
     vehicle: Vehicle
@@ -39,11 +39,11 @@ class LandingStudy:
 
     @property
     def propellant(self) -> float:
-        """The bound, kg."""
+        """Bound on the propellant, kg."""
         return self.bound.propellant_fraction * self.vehicle.mass
 
     def to_stored_bound(self, inputs: Inputs) -> StoredBound:
-        """Return the stored form of it for a system, with its inputs."""
+        """Return the bound in the form stored for a system, with its inputs."""
         burns = tuple(self.bound.burns())
         return StoredBound(
             propellant=self.propellant,
@@ -64,7 +64,7 @@ def landing_study(
     intervals: int | None = None,
     pieces: Mapping[str, tuple[PointMassProblem, float]] | None = None,
 ) -> LandingStudy:
-    """Compute the bound, and with ``direct`` its check; ``pieces`` as `pieces_of` returns them.
+    """Compute the bound, and with ``direct`` its verification; ``pieces`` as `pieces_of` returns them.
 
     Raises `PlanError`, and InputError for a missing solver.
     """

@@ -1,8 +1,8 @@
-"""Direct multiple shooting of a free-time problem: controls constant over equal intervals, one Runge-Kutta step each.
+"""Direct multiple shooting of a free-time problem: constant controls over equal intervals, a Runge-Kutta step each.
 
-The states at the ends of all intervals are unknowns, too, and IPOPT (Waechter and Biegler 2006) solves the sparse
-nonlinear programme that remains; CasADi (Andersson et al. 2019) writes it and its derivatives down. The point-mass
-problem by it, from a crude guess, checks the convex form.
+The states at the ends of all intervals are unknowns, too, and IPOPT (Waechter and Biegler 2006) solves the resulting
+sparse nonlinear programme; CasADi (Andersson et al. 2019) formulates it with its derivatives. Solving the point-mass
+problem in this way, from a crude guess, verifies the convex form.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ THROTTLE = 0.7  # of the guess
 
 @dataclass(frozen=True)
 class ShootingProblem:
-    """Least last state, from ``start`` to ``end`` (nan: free) in free time. All states and controls are scaled.
+    """Problem of least last state, from ``start`` to ``end`` (nan: free) in free time.
 
-    ``rate`` gives the derivative of the states (a CasADi vector) by time in s from states and controls;
-    ``low`` and ``high`` bound the controls.
+    States and controls are scaled. ``rate`` returns the derivative of the states (a CasADi vector) by time in s from
+    states and controls; ``low`` and ``high`` bound the controls.
     """
 
     rate: Callable[[Symbol, Symbol], Symbol]
@@ -39,10 +39,10 @@ class ShootingProblem:
 
 @dataclass(frozen=True)
 class Shooting:
-    """States at the N + 1 ends of intervals and controls over the N intervals, a row each; ``duration`` in s.
+    """Solution: states at the N + 1 ends of intervals, controls over the N intervals, a row each; ``duration`` in s.
 
-    ``costates``, a row for each of the last N ends, are the derivatives of the last state by the states there:
-    multipliers of the conditions that join the intervals; None for a guess.
+    ``costates``, a row for each of the last N ends, are the derivatives of the last state with respect to the states
+    there: multipliers of the continuity conditions; None for a guess.
     """
 
     duration: float
@@ -52,7 +52,7 @@ class Shooting:
 
 
 def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
-    """Solve a problem on as many intervals as the guess has; raises `PlanError`."""
+    """Solve a problem on as many intervals as the guess has. Raises `PlanError`."""
     ca = casadi()
     intervals = guess.controls.shape[0]
     x, u, t = ca.SX.sym("x", problem.start.size), ca.SX.sym("u", problem.low.size), ca.SX.sym("t")
@@ -99,7 +99,7 @@ def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
 def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float, float]:
     """Return propellant fraction and duration (s) by multiple shooting on ``intervals`` intervals.
 
-    States: place, velocity, propellant over the initial mass; raises `PlanError`.
+    States: position, velocity, propellant over the initial mass. Raises `PlanError`.
     """
     length, speed = problem.length, problem.speed
     ca = casadi()
@@ -122,7 +122,7 @@ def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float,
 
 
 def _guess(problem: PointMassProblem, start: np.ndarray, end: np.ndarray, intervals: int) -> Shooting:
-    """Guess straight lines at the natural time; thrust against the change of velocity, upwards from rest to rest."""
+    """Return straight lines over the natural time, with constant thrust along the change of velocity or upwards."""
     duration = problem.natural_time
     fraction = np.linspace(0.0, 1.0, intervals + 1)[:, np.newaxis]
     spent = 1.0 - math.exp(-THROTTLE * problem.most * duration / problem.exhaust_speed)

@@ -1,4 +1,4 @@
-"""Course of a plan, of any origin: data for pages and tables."""
+"""Path of a plan, of any origin: data for pages and tables."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ALL = 1.0 - 1e-6  # from where on it counts as all of it
 
 
 class PlanError(EndedError):
-    """There is no plan of the requested kind; the message says which and why."""
+    """Failure to find a requested plan; the message names it and the reason."""
 
     def __init__(self, message: str, status: int = ExitStatus.NOT_MET) -> None:
         super().__init__(message, status)
@@ -21,11 +21,11 @@ class PlanError(EndedError):
 
 @dataclass(frozen=True)
 class PlannedPath:
-    """A plan at N + 1 times (s) and over the N intervals between them.
+    """Plan at N + 1 times (s) and over the N intervals between them.
 
-    ``position`` (m) and ``velocity`` (m/s), a row each, along and up; ``propellant`` over the initial mass. Over
-    each interval ``throttle``, the share of the engine's largest thrust, and ``pitch`` (rad), the angle of thrust from
-    the first axis in its middle, nan where there is no thrust.
+    ``position`` (m) and ``velocity`` (m/s) have a row each, along and up; ``propellant`` is relative to the initial
+    mass. Over each interval ``throttle`` is the fraction of the engine's largest thrust, and ``pitch`` (rad) the angle
+    of thrust from the first axis in its middle, nan without thrust.
     """
 
     time: np.ndarray
@@ -37,7 +37,7 @@ class PlannedPath:
 
     @property
     def duration(self) -> float:
-        """In s."""
+        """Duration, s."""
         return float(self.time[-1])
 
     @property
@@ -46,11 +46,11 @@ class PlannedPath:
 
     @property
     def middle(self) -> np.ndarray:
-        """The middles of the intervals, s."""
+        """Middles of the intervals, s."""
         return (self.time[1:] + self.time[:-1]) / 2.0
 
     def burns(self) -> list[tuple[float, float]]:
-        """Begin and end (s) of every stretch above least throttle; an interval that is partly one is divided so."""
+        """Begin and end (s) of every stretch above least throttle; intermediate intervals are divided in proportion."""
         low, high = float(self.throttle.min()), float(self.throttle.max())
         if not high > low:
             return [(float(self.time[0]), self.duration)]

@@ -1,6 +1,6 @@
-"""The problem of a bound: a point mass with any thrust direction, in a plane or in space, on a transfer or a landing.
+"""Problem of a bound: a point mass with any thrust direction, in a plane or in space, on a transfer or a landing.
 
-Of two or three axes the last one points up.
+The last of the two or three axes points up.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .vehicle import Landing, Transfer, Vehicle
 
 @dataclass(frozen=True)
 class UniformGravity:
-    """``value`` (m/s2) downwards everywhere."""
+    """Uniform gravity, ``value`` (m/s2) downwards everywhere."""
 
     value: float
 
@@ -32,8 +32,10 @@ class UniformGravity:
 
 @dataclass(frozen=True)
 class CentralGravity:
-    """Gravity of a Moon whose centre is ``radius`` (m) below the origin; ``parameter`` is its
-    gravitational one (m3/s2)."""
+    """Gravity of a Moon whose centre is ``radius`` (m) below the origin.
+
+    ``parameter`` (m3/s2) is its gravitational parameter.
+    """
 
     parameter: float
     radius: float
@@ -46,8 +48,7 @@ class CentralGravity:
         return (*(-pull * x for x in level), -pull * up)
 
     def gradient(self, position: np.ndarray) -> np.ndarray:
-        """Return its derivative by position (1/s2) as matrices, one for each row of
-        ``position`` (m): mu/r^3 (3 u u' - 1)."""
+        """Return mu/r^3 (3 u u' - 1), the derivative by position (1/s2), for each row of ``position`` (m)."""
         arm = position.copy()
         arm[:, -1] += self.radius
         distance = np.linalg.norm(arm, axis=1)[:, np.newaxis, np.newaxis]
@@ -57,13 +58,13 @@ class CentralGravity:
 
 @dataclass(frozen=True)
 class PointMassProblem:
-    """From one state to another on least propellant, attitude free. Positions (m) and velocities (m/s) along and up, or
-    along three axes of which the last is up.
+    """Problem from one state to another with least propellant and free attitude.
 
-    ``exhaust_speed`` in m/s; ``least`` and ``most`` are the engine's thrust limits over the initial mass, m/s2.
-    ``length`` (m) and ``speed`` (m/s) are the scales in which it is solved. ``largest_tilt`` (rad) limits the angle of
-    thrust from up, ``glide_slope`` (rad) that of the path over a cone whose apex lies ``glide_offset`` (m) below the
-    end; None: no such limit.
+    Positions (m) and velocities (m/s) are along and up, or along three axes of which the last is up. ``exhaust_speed``
+    is in m/s; ``least`` and ``most`` are the engine's thrust limits over the initial mass, m/s2. ``length`` (m) and
+    ``speed`` (m/s) are the scales of the solution. ``largest_tilt`` (rad) limits the angle of thrust from up;
+    ``glide_slope`` (rad) is the least elevation of the path, seen from an apex ``glide_offset`` (m) below the end;
+    None: no such limit.
     """
 
     start_position: tuple[float, ...]
@@ -82,14 +83,14 @@ class PointMassProblem:
 
     @property
     def natural_time(self) -> float:
-        """A time (s) of the order of the one that costs least: at mean speed, or at full thrust from rest."""
+        """Time (s) of the order of the optimal one: at mean speed, or at full thrust from rest."""
         way = math.dist(self.end_position, self.start_position)
         speeds = math.hypot(*self.start_velocity) + math.hypot(*self.end_velocity)
         return min(2.0 * way / speeds if speeds > 0.0 else np.inf, 2.0 * (2.0 * way / self.most) ** 0.5)
 
 
 def transfer_problem(vehicle: Vehicle, transfer: Transfer) -> PointMassProblem:
-    """Return a hover transfer with the attitude free, at its ends, too."""
+    """Return the problem of a hover transfer with free attitude, also at its ends."""
     return PointMassProblem(
         start_position=(0.0, 0.0),
         start_velocity=(0.0, 0.0),
@@ -105,7 +106,7 @@ def transfer_problem(vehicle: Vehicle, transfer: Transfer) -> PointMassProblem:
 
 
 def landing_problem(vehicle: Vehicle, landing: Landing) -> PointMassProblem:
-    """Pose braking and landing in the site's frame: along, from the site to the start, and up."""
+    """Return the problem of braking and landing in the site's frame: along, from the site to the start, and up."""
     angle = landing.range / landing.radius
     distance = landing.radius + landing.altitude
     course = angle + landing.climb

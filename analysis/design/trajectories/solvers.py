@@ -1,4 +1,4 @@
-"""The solvers of the optional extra `plan`, asked for where they are needed; what needs none works without them."""
+"""Solvers of the optional extra `plan`, imported where they are needed; everything else works without them."""
 
 from __future__ import annotations
 

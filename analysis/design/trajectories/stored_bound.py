@@ -1,6 +1,6 @@
-"""The bound of a system's landing, computed once and stored in its folder with the hash of its inputs.
+"""Bound of a system's landing, computed once and stored in its folder with the hash of its inputs.
 
-Free of solvers: a page can show it, or say that it is missing, where none is installed.
+Independent of solvers: a page can show it, or report that it is missing, without any installed.
 """
 
 from __future__ import annotations
@@ -23,9 +23,12 @@ FIELDS = ("propellant", "duration", "intervals", "burns", "pieces", "sha256", "i
 
 @dataclass(frozen=True)
 class StoredBound:
-    """``propellant`` (kg) and ``duration`` (s) of a single-burn braking and landing, ``burns`` at full thrust (begin
-    and end, s), on a number of ``intervals``; propellant (kg) of the ``pieces`` that the SSD cuts it into, by name;
-    ``inputs``, SI, and their hash."""
+    """Bound of a landing, with its inputs.
+
+    ``propellant`` (kg) and ``duration`` (s) are those of a single-burn braking and landing, ``burns`` those at full
+    thrust (begin and end, s), on a number of ``intervals``; ``pieces`` are the propellant (kg) of the phases into which
+    the SSD divides it, by name; ``inputs`` are in SI, with their hash.
+    """
 
     propellant: float
     duration: float
@@ -38,20 +41,20 @@ class StoredBound:
 
 @dataclass(frozen=True)
 class MissingBound:
-    """Why there is none to show, and what to do."""
+    """Reason why there is no bound to show, and the remedy."""
 
     reason: str
 
 
 def digest(inputs: Inputs) -> str:
-    """Return SHA-256 of the inputs by name, every number to its last bit."""
+    """Return the SHA-256 of the inputs by name, with every bit of their numbers."""
     return hashlib.sha256(json.dumps(_plain(inputs), sort_keys=True).encode()).hexdigest()
 
 
 def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
-    """Find the bound that a prepared system's folder holds for its values; None where its SSD declares none.
+    """Return the bound stored in a prepared system's folder for its values, None if its SSD declares no bound.
 
-    Raises InputError for a file that is no bound.
+    Raises InputError for an invalid file.
     """
     inputs = read_inputs(prepared)
     if inputs is None:
@@ -68,7 +71,7 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
 
 
 def read_bound(content: bytes, file: str) -> StoredBound:
-    """Read a stored bound; raises InputError for any other file, or one whose inputs are not those of its hash."""
+    """Return a stored bound. Raises InputError for any other file, or one whose hash does not match its inputs."""
     remedy = "store it again with perilune design bound"
     try:
         document = json.loads(content)
@@ -97,7 +100,7 @@ def read_bound(content: bytes, file: str) -> StoredBound:
 
 
 def write_bound(bound: StoredBound, folder: Path) -> Path:
-    """Write it to its place in a system's folder; returns the path."""
+    """Write the bound to its place in a system's folder, and return the path."""
     path = folder / PLACE
     document = asdict(bound) | {"inputs": _plain(bound.inputs)}
     write_atomically(path, (json.dumps(document, indent=1, allow_nan=False) + "\n").encode())

@@ -1,4 +1,4 @@
-"""The lander of a plan, and the control margins that a plan leaves it."""
+"""Lander of a plan, and the control margins that a plan leaves it."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from ....fmus_src.mathlib.lunar.gravity import STANDARD_GRAVITY
 
 @dataclass(frozen=True)
 class Vehicle:
-    """``mass`` at the start and ``dry_mass`` (kg), ``specific_impulse`` (s), thrust limits (N) and the largest
-    ``angular_acceleration`` (rad/s2).
+    """Lander: initial ``mass`` and ``dry_mass`` (kg), ``specific_impulse`` (s), thrust limits (N).
+
+    ``angular_acceleration`` (rad/s2) is the largest one.
     """
 
     mass: float
@@ -24,7 +25,7 @@ class Vehicle:
 
     @property
     def exhaust_speed(self) -> float:
-        """In m/s."""
+        """Exhaust speed, m/s."""
         return self.specific_impulse * STANDARD_GRAVITY
 
     @property
@@ -48,7 +49,7 @@ class Margins:
     angular_acceleration: float
 
     def of(self, vehicle: Vehicle) -> Vehicle:
-        """Return the vehicle as the plan may use it."""
+        """Return the vehicle with the capability that the plan may use."""
         return replace(
             vehicle,
             maximum_thrust=self.maximum_throttle * vehicle.maximum_thrust,
@@ -58,7 +59,7 @@ class Margins:
 
 
 def limits_document(limits: Vehicle | Margins) -> dict[str, float]:
-    """Return a vehicle or margins for other programs: kg, s, N, and deg/s2 unless there is no such limit."""
+    """Return a vehicle or margins as JSON: kg, s, N, and deg/s2 if that is limited."""
     values = asdict(limits)
     turn = math.degrees(values.pop("angular_acceleration"))
     return values | ({"angular_acceleration_deg_s2": turn} if math.isfinite(turn) else {})
@@ -66,7 +67,7 @@ def limits_document(limits: Vehicle | Margins) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class Transfer:
-    """From hover to hover: ``distance`` along and ``descent`` down (m) in uniform ``gravity`` (m/s2)."""
+    """Transfer from hover to hover: ``distance`` along and ``descent`` down (m) in uniform ``gravity`` (m/s2)."""
 
     distance: float
     descent: float
@@ -91,7 +92,7 @@ def check_vehicle(vehicle: Vehicle) -> Vehicle:
 
 
 def check_hover(planned: Vehicle, transfer: Transfer) -> None:
-    """Refuse a vehicle that cannot hover, or cannot sink, as the plan uses it."""
+    """Reject a vehicle that cannot hover, or cannot descend, with the capability that the plan uses."""
     check_vehicle(planned)
     full, minimum = f"{planned.maximum_thrust:g} N", f"{planned.minimum_thrust:g} N"
     if not planned.full > transfer.gravity:
@@ -108,10 +109,10 @@ def check_hover(planned: Vehicle, transfer: Transfer) -> None:
 
 @dataclass(frozen=True)
 class Landing:
-    """Single-burn braking and landing: from orbit to rest over the site, around a Moon that does not turn.
+    """Single-burn braking and landing: from orbit to rest over the site, around a Moon that does not rotate.
 
-    The start, in the plane of flight: ``range`` (m) from the site along the ground, ``altitude`` (m), ``speed`` (m/s)
-    at an angle ``climb`` (rad) above the local horizontal, towards the site. The end: ``target_altitude`` (m) above it.
+    Start, in the plane of flight: ``range`` (m) from the site along the ground, ``altitude`` (m), ``speed`` (m/s) at an
+    angle ``climb`` (rad) above the local horizontal, towards the site. End: ``target_altitude`` (m) above the site.
     ``radius`` (m) and ``gravitational_parameter`` (m3/s2) are the Moon's.
     """
 

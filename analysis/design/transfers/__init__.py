@@ -1,1 +1,1 @@
-"""Transfers between two hovers: simplified programme and its rivals, true optimum and its adjoint system."""
+"""Transfers between two hovers: simplified programme and alternatives, true optimum and its adjoint system."""

@@ -1,9 +1,9 @@
-"""The best profile whose angular acceleration switches a finite number of times: equation (3) as the paper has it.
+"""Best profile whose angular acceleration switches a finite number of times: equation (3) as in the paper.
 
 Pitch accelerates at its limit, -, +, follows the tangent law (2) from t3 to t4, then accelerates at its limit, -, +;
-thrust is full in two burns. The constants c1 to c4 of the law count for three: along it pitch is
-direction + atan((t - nearest)/scale), the angle from a point to one that moves on a straight line. Source: Huang 2017,
-equation (3) and the programme of pitch after it, before its simplification.
+thrust is full in two burns. The constants c1 to c4 of the law count as three: along it pitch is direction + atan((t -
+nearest)/scale), the angle from a point to one that moves on a straight line. Source: Huang 2017, equation (3) and the
+programme of pitch that follows it, before its simplification.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ HALF = math.pi / 2.0
 
 @dataclass(frozen=True)
 class FiniteProfile:
-    """``times``: t2, t3, t4, t5 and t7 (s); ``tangent``: direction (rad), nearest and scale (s) of the tangent law;
+    """Profile: ``times`` t2, t3, t4, t5 and t7 (s); ``tangent``: direction (rad), nearest and scale (s) of the law.
+
     ``burns``: begin and duration of the first and duration of the last (s); ``propellant_fraction`` of all.
     """
 
@@ -39,7 +40,7 @@ class FiniteProfile:
 
     @property
     def duration(self) -> float:
-        """In s."""
+        """Duration, s."""
         return self.times[-1]
 
     @property
@@ -51,7 +52,7 @@ class FiniteProfile:
 
 
 def find_finite_switches(near: Programme) -> FiniteProfile | None:
-    """Return the profile of least propellant near a simplified programme with two burns; None without one."""
+    """Return the profile of least propellant near a simplified programme with two burns, None without one."""
     vehicle, transfer, shape = near.vehicle, near.transfer, near.shape()
     if not (shape.d > 0.0 and shape.t4 > shape.t3):
         return None
@@ -123,7 +124,7 @@ def _propellant(z: np.ndarray, vehicle: Vehicle) -> float:
 
 
 def _gaps(z: np.ndarray, swing: float) -> np.ndarray:
-    """Return the steps of pitch and of its rate where the tangent law begins and ends."""
+    """Return the discontinuities of pitch and of its rate where the tangent law begins and ends."""
     t2, t3, t4, t5, t7, direction, nearest, scale = z[:8]
     before = swing * ((t3 - t2) ** 2 / 2.0 - t2**2 / 4.0), swing * (t3 - t2)
     after = swing * ((t7 - t5) ** 2 / 4.0 - (t5 - t4) ** 2 / 2.0), swing * (t5 - t4)
@@ -137,7 +138,7 @@ def _gaps(z: np.ndarray, swing: float) -> np.ndarray:
 
 
 def _is_ordered(z: np.ndarray) -> bool:
-    """Return True if the times follow one another as the profile has them."""
+    """Return True if the times are in the order of the profile."""
     t2, t3, t4, t5, t7 = z[:5]
     order = [0.0, t2 / 2.0, t3, t4, (t5 + t7) / 2.0, t7]
     return bool(np.all(np.diff(order) >= 0.0) and z[8] + z[9] <= t7 - z[10])

@@ -1,9 +1,9 @@
-"""The other way of becoming vertical: at rest before, the lander turns in free fall and brakes once more.
+"""Alternative way of becoming vertical: at rest before, the lander turns in free fall and brakes once more.
 
-Pitch is that of the simplified programme, whose last turn from t5 to t7 happens with the engine off: the braking burn
-ends at t5, at rest and tilted, and after t7 a vertical burn at full thrust takes up the speed of the fall. Or the
-braking burn ends later, when the turn has begun. Source of the two ways: Huang 2017, after Likhachev, Sikharulidze and
-Fedotov 2013; the programme is ours.
+Pitch is that of the simplified programme, whose last turn from t5 to t7 takes place with the engine off: the braking
+burn ends at t5, at rest and tilted, and after t7 a vertical burn at full thrust stops the fall. Or the braking burn
+ends later, when the turn has begun. Source of the two ways: Huang 2017, after Likhachev, Sikharulidze and Fedotov 2013;
+the programme is ours.
 """
 
 from __future__ import annotations
@@ -30,10 +30,11 @@ NO_SHAPE = 1e3  # of the conditions where the times have no shape
 
 @dataclass(frozen=True)
 class FreeFallProgramme:
-    """``times``: t2, t5, w and t7 (s) as in the simplified programme, and tp, the braking burn.
+    """Programme with a free fall; ``times`` are t2, t5, w and t7 (s) of the simplified programme, and tp.
 
-    ``fall`` (s) is with the engine off, until t7; ``last_burn`` (s) follows it. ``drop`` (m) is the height lost by
-    both, ``propellant_fraction`` is of all. ``full_thrust`` has begin and end (s) of each burn.
+    tp is the duration of the braking burn. ``fall`` (s) is the time with the engine off, until t7; ``last_burn`` (s)
+    follows it. ``drop`` (m) is the height lost in both; ``propellant_fraction`` is the total. ``full_thrust`` has begin
+    and end (s) of each burn.
     """
 
     times: HoverProgramme
@@ -45,12 +46,12 @@ class FreeFallProgramme:
 
     @property
     def duration(self) -> float:
-        """In s, to rest after the last burn."""
+        """Duration until rest after the last burn, s."""
         return self.times.t7 + self.last_burn
 
 
 def find_free_fall(near: Programme, begun: float = 0.0) -> FreeFallProgramme | None:
-    """Return the programme of least propellant for the vehicle and transfer of a simplified one; None without one.
+    """Return the programme of least propellant for the vehicle and transfer of a simplified one, or None.
 
     ``begun``: fraction of the turn's duration, t7 - t5, that has passed when the braking burn ends.
     """
@@ -77,7 +78,7 @@ def find_free_fall(near: Programme, begun: float = 0.0) -> FreeFallProgramme | N
 def _fly(
     z: np.ndarray, begun: float, vehicle: Vehicle, transfer: Transfer
 ) -> tuple[FreeFallProgramme, np.ndarray] | None:
-    """Return the programme with t2, t5, w, tp and t7 - t5 (s), and how it misses the end; None without a shape."""
+    """Return the programme with t2, t5, w, tp and t7 - t5 (s), or None without a shape, and its errors at the end."""
     t2, t5, width, burn, turn = (float(each) for each in z)
     kernel = kernel_vehicle(vehicle, transfer)
     off, fall = t5 + begun * turn, (1.0 - begun) * turn
@@ -107,10 +108,11 @@ def _fly(
 
 
 def stop_falling(vehicle: Vehicle, gravity: float, spent: float, fall: float) -> tuple[float, float] | None:
-    """Return the duration (s) of the burn at full thrust that ends a fall of ``fall`` (s) from rest, and the height (m)
-    lost by both; None where the thrust does not do it. ``spent`` is the propellant fraction before.
+    """Return the duration (s) of the full-thrust burn that ends a fall from rest, and the height (m) lost in both.
 
-    With the mass ratio q = 1 - b t and b the flow over the mass left, c ln(1/q) - g t is the speed taken up.
+    ``fall`` (s) is the duration of the fall, ``spent`` the propellant fraction before. With the mass ratio q = 1 - b t
+    and b the flow over the remaining mass, c ln(1/q) - g t is the speed that the burn removes. None if the thrust is
+    too small.
     """
     speed, flow = vehicle.exhaust_speed, vehicle.full / vehicle.exhaust_speed / (1.0 - spent)
 

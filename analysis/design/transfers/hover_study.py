@@ -1,4 +1,4 @@
-"""A hover transfer planned: its programme, and what it is held against, as far as that is asked for."""
+"""Planned hover transfer: its programme, and the requested comparisons with it."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class PropellantCurve:
 
 @dataclass(frozen=True)
 class ProgrammeComparison:
-    """Least propellant fractions to one ``distance`` (m) of both programmes; nan where there is none."""
+    """Least propellant fractions of both programmes over a ``distance`` (m); nan where there is none."""
 
     distance: float
     programme: float
@@ -46,12 +46,13 @@ class ProgrammeComparison:
 
 @dataclass(frozen=True)
 class HoverStudy:
-    """``vehicle`` is the lander itself, which the bound is of; programme and optimum keep the ``margins``, if any.
+    """Planned hover transfer.
 
+    ``vehicle`` is the lander itself, for which the bound is; programme and optimum respect the ``margins``, if any.
     ``vertical`` is the programme straight down from the same height. ``durations``: the programmes of other t7 (s);
-    ``distances``: the best programmes to other places (m). ``adjoint`` is integrated along the optimum; ``finite`` is
-    the profile with a finite number of switches, ``free_fall`` the programme that becomes vertical in free fall, and
-    ``comparisons`` are of it and the simplified programme at several distances.
+    ``distances``: the best programmes over other distances (m). ``adjoint`` is integrated along the optimum; ``finite``
+    is the profile with a finite number of switches, ``free_fall`` the programme that becomes vertical in free fall;
+    ``comparisons`` are between it and the simplified programme over several distances.
     """
 
     vehicle: Vehicle
@@ -103,11 +104,11 @@ def hover_study(
     distances: Sequence[float] = (),
     intervals: int | None = None,
 ) -> HoverStudy:
-    """Plan a transfer; ``duration`` (s) is the programme's t7, the best where it is None.
+    """Plan a transfer; ``duration`` (s) is the programme's t7, by default the best.
 
-    ``optimum``, ``bound`` and ``curves`` request more than the programme, the first two on a number of ``intervals``,
-    of solvers that need to be installed; ``adjoint`` is of the optimum, ``turn_begun``, a fraction of the turn, and
-    ``distances`` (m) are of the programme with ``free_fall``. Raises `PlanError`, and InputError for a missing solver.
+    ``optimum``, ``bound`` and ``curves`` request further results, the first two on a number of ``intervals`` and with
+    solvers that must be installed; ``adjoint`` is for the optimum; ``turn_begun``, a fraction of the turn, and
+    ``distances`` (m) are for the programme with ``free_fall``. Raises `PlanError`, and InputError for a missing solver.
     """
     planned = vehicle if margins is None else margins.of(vehicle)
     programme = find_programme(planned, transfer, duration)
@@ -165,7 +166,7 @@ def _require(plan: Plan | None, what: str, transfer: Transfer) -> Plan:
 
 
 def _compare(planned: Vehicle, transfer: Transfer, turn_begun: float) -> ProgrammeComparison:
-    """Return both programmes to one distance."""
+    """Return the comparison of both programmes over one distance."""
     programme = find_programme(planned, transfer)
     free_fall = None if programme is None else find_free_fall(programme, turn_begun)
     fractions = (math.nan if plan is None else plan.propellant_fraction for plan in (programme, free_fall))

@@ -1,4 +1,4 @@
-"""Small smooth problems with equalities: a function of a few times minimised by sequential quadratic programming.
+"""Small smooth problems with equality constraints: a function of a few times, minimised by SQP.
 
 Source: Kraft 1988, SLSQP, in scipy.
 """
@@ -21,7 +21,7 @@ Conditions = Callable[[np.ndarray], np.ndarray]
 def minimise(
     cost: Function, conditions: Conditions, guess: Sequence[float], lowest: Sequence[float]
 ) -> np.ndarray | None:
-    """Return the point near a guess of least ``cost`` at which all ``conditions`` are 0; None where none is reached.
+    """Return the point near a guess with least ``cost`` at which all ``conditions`` are 0, None if none is found.
 
     ``cost`` and ``conditions`` are of the order of 1 to 100; ``lowest`` are lower bounds (-inf: none).
     """

@@ -1,4 +1,4 @@
-"""The simplified programme of a hover transfer for people: found by the kernels that fly, its path and its sweeps."""
+"""Simplified programme of a hover transfer, found by the kernels of the FMUs, with its path and parameter sweeps."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ DISTANCES = (1.6, 25)  # of the one that is asked for: to, how many
 
 @dataclass(frozen=True)
 class Programme:
-    """A programme with its vehicle, as the plan may use it."""
+    """Programme with the vehicle's capability that the plan may use."""
 
     vehicle: Vehicle
     transfer: Transfer
@@ -32,12 +32,12 @@ class Programme:
 
     @property
     def times(self) -> tuple[float, ...]:
-        """t2, t5, w, tp and t7, s."""
+        """Times t2, t5, w, tp and t7, s."""
         return self.programme.elements()
 
     @property
     def duration(self) -> float:
-        """t7, s."""
+        """Duration t7, s."""
         return self.programme.t7
 
     @property
@@ -72,8 +72,7 @@ class Programme:
         return hover_shape.shape_of(self.programme, self.vehicle.angular_acceleration).shape
 
     def states(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return at times (s) rows of x, x', y, y' (m, m/s), and rows of pitch, its rate (rad, rad/s) and
-        propellant."""
+        """Return rows of x, x', y, y' (m, m/s) at times (s), and rows of pitch, its rate (rad, rad/s) and propellant."""
         shape, vehicle = self.shape(), kernel_vehicle(self.vehicle, self.transfer)
         motion, remainder = np.zeros((time.size, 4)), np.zeros((time.size, 3))
         for index, value in enumerate(map(float, time)):
@@ -84,14 +83,13 @@ class Programme:
         return motion, remainder
 
     def thrust(self, time: np.ndarray) -> np.ndarray:
-        """Return thrust at times (s), N."""
+        """Return the thrust (N) at times (s)."""
         shape = self.shape()
         full = np.array([hover_shape.full_thrust(shape, float(value)) for value in time])
         return np.where(full, self.vehicle.maximum_thrust, self.vehicle.minimum_thrust)
 
     def path(self, engine: float) -> PlannedPath:
-        """Return its path; ``engine`` is the thrust (N) that counts as full throttle. Every switch is one of its
-        times."""
+        """Return the path, with every switch among its times; ``engine`` is the thrust (N) of full throttle."""
         even = np.linspace(0.0, self.duration, max(2, math.ceil(self.duration / STEP)) + 1)
         switches = [time for burn in self.burns for time in burn]
         time = np.unique(np.clip([*even, *switches], 0.0, self.duration))
@@ -108,7 +106,7 @@ class Programme:
 
 
 def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None = None) -> Programme | None:
-    """Return the programme on least propellant, or the one of a ``duration`` (s); None where there is none."""
+    """Return the programme of least propellant, or with a ``duration`` (s), or None."""
     kernel = kernel_vehicle(vehicle, transfer)
     if duration is None:
         planned = hover_programme.programme(transfer.distance, -transfer.descent, kernel)
@@ -121,7 +119,7 @@ def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None 
 
 
 def over_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
-    """Return durations (s) about the best programme's and the propellant fraction of each, nan where there is none."""
+    """Return durations (s) around the best programme's and the propellant fraction of each, nan without one."""
     low, high, count = DURATIONS
     durations = np.unique([*(best.duration * np.linspace(low, high, count)), best.duration])
     programmes = [find_programme(best.vehicle, best.transfer, float(value)) for value in durations]

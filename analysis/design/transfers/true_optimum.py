@@ -1,7 +1,7 @@
-"""The hover transfer without the simplified programme's form: throttle and angular acceleration free in their limits.
+"""Optimal hover transfer without the simplified programme's form: free throttle and angular acceleration in limits.
 
 Direct multiple shooting, started from the simplified programme. The tangent law is a singular arc of second order in
-the angular acceleration, which is therefore bang-bang at the ends of the arcs, in a way that follows the grid.
+the angular acceleration, which is therefore bang-bang at the ends of the arcs, in a way that depends on the grid.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ SPENT = 0.05  # the scale of the propellant over the initial mass
 
 @dataclass(frozen=True)
 class OptimalPath(PlannedPath):
-    """An optimum with what its adjoint system needs.
+    """Optimum with the data that its adjoint system needs.
 
-    At the N + 1 times ``attitude``: rows of pitch (rad) and its rate (rad/s); over the N intervals ``acceleration``,
-    that of pitch (rad/s2). ``costates``, a row for each time but the first: derivatives of the propellant fraction by
-    x, x', y, y', pitch, its rate and propellant fraction there (SI).
+    At the N + 1 times ``attitude``: rows of pitch (rad) and its rate (rad/s); over the N intervals ``acceleration`` of
+    pitch (rad/s2). ``costates``, a row for each time but the first: derivatives of the propellant fraction with respect
+    to x, x', y, y', pitch, its rate and propellant fraction there (SI).
     """
 
     attitude: np.ndarray
@@ -35,7 +35,7 @@ class OptimalPath(PlannedPath):
 
 
 def find_true_optimum(programme: Programme, intervals: int, engine: float) -> OptimalPath:
-    """Find the optimum with the programme's vehicle, on a number of equal intervals; raises `PlanError`.
+    """Return the optimum for the programme's vehicle, on a number of equal intervals. Raises `PlanError`.
 
     ``engine`` is the thrust (N) that counts as full throttle. Source of the problem: Huang 2017.
     """
@@ -81,7 +81,7 @@ def find_true_optimum(programme: Programme, intervals: int, engine: float) -> Op
 
 
 def _guess(programme: Programme, intervals: int, scale: np.ndarray) -> Shooting:
-    """Return the programme at equal times."""
+    """Return the programme at equally spaced times."""
     time = np.linspace(0.0, programme.duration, intervals + 1)
     motion, remainder = programme.states(time)
     throttle = programme.thrust((time[1:] + time[:-1]) / 2.0) / programme.vehicle.maximum_thrust

@@ -115,7 +115,7 @@ class _NoiseMoves:
         return self._random.random(chains.size) < max(0.5, noise / (noise + 1.0 / max(draws, 0.01)))
 
     def candidates(self, streams: np.ndarray, noise: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return streams of the next candidates, with one source renewed where ``noise``, and these sources (moves,)."""
+        """Return streams of the next candidates, with one source renewed where ``noise``, and which one (moves,)."""
         rows = np.flatnonzero(noise)
         chosen = (
             self._random.choice(self._active, rows.size, p=self._weights / self._weights.sum()) if rows.size else rows

@@ -73,12 +73,13 @@ def chain_correlation(inside: np.ndarray) -> float:
 
 
 def family_interval(probability: float, families: np.ndarray, first: int, confidence: float) -> ConfidenceInterval:
-    """Return the interval of a probability by levels; failed points belong to ``families`` of ``first`` first points.
+    """Return the interval of a probability by levels; failed points belong to ``families`` of ``first`` points.
 
-    The failed descendants of each first point count as one draw, independent of the others: the relative variance of
-    their mean is that of the estimate, including all correlation in chains, between chains of one origin and from level
-    to level (the genealogical estimator: Chan and Lai 2013; Lee and Whiteley 2018, section 2.3). The interval is
-    log-normal, with Student's t for the degrees of freedom of the sum of squares (Satterthwaite).
+    The failed descendants of each of the ``first`` points of the first level count as one draw, independent of the
+    others: the relative variance of their mean is that of the estimate, including all correlation in chains, between
+    chains of one origin and from level to level (the genealogical estimator: Chan and Lai 2013; Lee and Whiteley 2018,
+    section 2.3). The interval is log-normal, with Student's t for the degrees of freedom of the sum of squares
+    (Satterthwaite).
     """
     _, sizes = np.unique(families, return_counts=True)
     fractions = sizes / sizes.sum()
