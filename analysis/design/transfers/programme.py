@@ -72,7 +72,7 @@ class Programme:
         return hover_shape.shape_of(self.programme, self.vehicle.angular_acceleration).shape
 
     def states(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return rows of x, x', y, y' (m, m/s) at times (s), and rows of pitch, its rate (rad, rad/s) and propellant."""
+        """Return rows of x, x', y, y' (m, m/s) at times (s), and of pitch, its rate (rad, rad/s) and propellant."""
         shape, vehicle = self.shape(), kernel_vehicle(self.vehicle, self.transfer)
         motion, remainder = np.zeros((time.size, 4)), np.zeros((time.size, 3))
         for index, value in enumerate(map(float, time)):
