@@ -86,7 +86,7 @@ class TrialTable:
         return int(self._table.num_rows)
 
     def tables(self, names: Sequence[str]) -> Iterator[pyarrow.Table]:
-        """Yield some columns, consecutive trials at a time."""
+        """Yield some columns for blocks of consecutive trials."""
         yield self._table.select(names)
 
     def traced(self) -> list[int]:
@@ -188,7 +188,7 @@ class TrialTable:
 
     @property
     def traces(self) -> dict[int, Trace]:
-        """All traces, by trial."""
+        """Traces in memory, by trial."""
         return self._traces
 
     @property

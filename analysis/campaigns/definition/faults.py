@@ -109,7 +109,7 @@ class DrawnFault:
         return Fault(name, kind, value, float(self.start[trial]), float(self.end[trial]))
 
     def columns_of(self, rows: slice) -> FaultColumns:
-        """Return the fault in some of the trials."""
+        """Return the fault in a range of the trials."""
         value = np.zeros(self.flies.size) if self.value is None else self.value.astype(np.float64)
         return FaultColumns(self.flies[rows], value[rows], self.start[rows], self.end[rows])
 

@@ -64,7 +64,7 @@ class OpenedResults:
 
     @cached_property
     def columns(self) -> dict[str, Column]:
-        """Unit and meaning of every column, in their order."""
+        """Unit and meaning of every column, in order."""
         names = self._stored_schema.names
         return {name: describe_column(name, self.provenance) for name in names}
 

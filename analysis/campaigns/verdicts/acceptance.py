@@ -42,7 +42,7 @@ class Decision:
 
 
 def risk_limit(confidence: float) -> float:
-    """Return the probability of a wrong verdict that a confidence permits."""
+    """Return the probability of a wrong verdict that corresponds to a confidence."""
     return (1.0 - confidence) * (1.0 + ROUNDING)
 
 

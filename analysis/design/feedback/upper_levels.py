@@ -1,24 +1,24 @@
-"""Output feedback through the upper levels: what they leave free makes the zeroth level reach its poles.
+"""Output feedback by the freedom of the upper levels, which is used to give the zeroth level its poles.
 
-F C = Phi_0 B^- - B^- A with B^- = B^+ - K_1 P (`poles/zeroth_level.py`) exists where Phi_0 X = Y, X = B^- C^perp and
-Y = B^- A C^perp (m, n - p), and Phi_0 has its poles. A fixed K_1 on the upper level grants that to generic plants with
-m + p > n. Here K_1 is every gain that gives the upper level its n - m poles:
+F C = Phi_0 B^- - B^- A with B^- = B^+ - K_1 P (`poles/zeroth_level.py`) exists if Phi_0 X = Y, X = B^- C^perp and Y =
+B^- A C^perp (m, n - p), and Phi_0 has its poles. For generic plants with m + p > n any K_1 on the upper level satisfies
+this. Here K_1 is any gain that gives the upper level its n - m poles:
 
     K_1 = K(theta) + N W,    B_1 N = 0,
 
-theta the eigenvectors of the upper level's closed loop, so the matrices Phi_1, Phi_2 .. with these spectra, and the
-factors and one-sided inverses in which they are assembled; W any matrix on the divisors of zero N of B_1 = P A B, which
-the upper level does not notice and X and Y do. Of (m - 1)(n - m) numbers in all
+with theta the eigenvectors of the upper level's closed loop, that is the matrices Phi_1, Phi_2 .. with these spectra,
+and the factors and one-sided inverses from which they are assembled; and W any matrix on the divisors of zero N of B_1
+= P A B, which affects X and Y but not the upper level. There are (m - 1)(n - m) free numbers:
 
-    m + p > n:  none is needed, and one that makes (Y X^+, Q) observable serves where a diagonal Phi_1 does not;
-    m + p = n:  Phi_0 = Y X^-1 has m coefficients to be met;
-    m + p < n:  Phi_0 = Y X^+ has, and the m (n - p - m) equations Y (I - X^+ X) = 0 are to be met:
+    m + p > n:  none is needed; one that makes (Y X^+, Q) observable helps if a diagonal Phi_1 does not;
+    m + p = n:  Phi_0 = Y X^-1 has m coefficients to be satisfied;
+    m + p < n:  Phi_0 = Y X^+ has, too, and so do the m (n - p - m) equations Y (I - X^+ X) = 0.
 
-m p - n are left over, so that m p >= n is the class. Over complex numbers a generic plant of it has solutions (Brockett
-and Byrnes 1981), over real ones for m p > n (Wang, "Pole placement by static output feedback", Journal of Mathematical
+m p - n numbers remain, so that m p >= n is the class of plants. A generic plant of it has complex solutions (Brockett
+and Byrnes 1981), and real ones for m p > n (Wang, "Pole placement by static output feedback", Journal of Mathematical
 Systems, Estimation, and Control 2 (1992)); the equations are solved by least squares from random starts. Lapin's
-thesis, section 2.3.1.3, has the aim: controllability by outputs through matrices of desired spectra, divisors of zero
-and of one, and factors on the upper levels. The parametrisation is ours.
+thesis, section 2.3.1.3, states the aim: controllability by outputs through matrices of desired spectra, divisors of
+zero and of one, and factors on the upper levels. The parametrisation is ours.
 """
 
 from __future__ import annotations

@@ -1,19 +1,19 @@
-"""Generalised Ackermann and Bass-Gura formulas: several inputs, without canonical forms.
+"""Generalised Ackermann and Bass-Gura formulas for several inputs, without canonical forms.
 
 For n = p m states and U = [B AB .. A^(p-1) B] nonsingular, T = [0 .. 0 I] U^-1, u = -K x with
 
     K = T A^p + sum N_i T A^i    gives    det(s I - A + B K) = det(I s^p + N_(p-1) s^(p-1) + .. + N_0).
 
-The m x m matrices N_i are free apart from that determinant: a parametrised set that contains every K.
-Ackermann, "Der Entwurf linearer Regelungssysteme im Zustandsraum", Regelungstechnik 20 (1972), for m = 1; for several
-inputs Lapin's thesis (2.1.2.3) and Zubov, Mikrin and Ryabchenko; the formulas were derived here, T' U' = ..
-by T A^i B = 0 for i < p - 1 and T A^(p-1) B = I.
+The m x m matrices N_i are arbitrary apart from that determinant: a parametrised set that contains every K. Ackermann,
+"Der Entwurf linearer Regelungssysteme im Zustandsraum", Regelungstechnik 20 (1972), for m = 1; for several inputs
+Lapin's thesis (2.1.2.3) and Zubov, Mikrin and Ryabchenko. The formulas were derived here, from T A^i B = 0 for i < p -
+1 and T A^(p-1) B = I.
 
-Bass and Gura take the gain from the coefficients that a plant has and those that it should have. With
-V = [T; T A; ..; T A^(p-1)], -T A^p V^-1 = [a_0 .. a_(p-1)], it is K = [N_0 - a_0 .. N_(p-1) - a_(p-1)] V. The a_i are
-left coefficients; the right ones, of A^p B = -sum A^i B b_i, differ for several inputs.
-Bass and Gura, "High order system design via state-space considerations", JACC (1965), for m = 1; for several inputs
-Lapin's thesis (2.1.2.2), the formulas derived here.
+Bass and Gura compute the gain from the actual and the required coefficients of the characteristic polynomial. With V =
+[T; T A; ..; T A^(p-1)], -T A^p V^-1 = [a_0 .. a_(p-1)], it is K = [N_0 - a_0 .. N_(p-1) - a_(p-1)] V. The a_i are left
+coefficients; the right ones, of A^p B = -sum A^i B b_i, differ for several inputs. Bass and Gura, "High order system
+design via state-space considerations", JACC (1965), for m = 1; for several inputs Lapin's thesis (2.1.2.2), with the
+formulas derived here.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def split(side_by_side: np.ndarray, inputs: int) -> np.ndarray:
 
 
 def bass_gura(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback:
-    """Place the spectrum with the N_i that the Ackermann formula takes. Raises PlacementError."""
+    """Place the spectrum with the same N_i as the Ackermann formula. Raises PlacementError."""
     stack, power, condition = row_stack(a, b, "generalised Bass-Gura")
     inputs = b.shape[1]
     own = np.linalg.solve(stack.T, -power.T).T

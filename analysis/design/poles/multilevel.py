@@ -1,15 +1,15 @@
 """Exact placement by multilevel decomposition: any controllable pair, any multiplicity.
 
-Level 0 is the pair (A, B). On every level B = Bt R, full-rank factors, and P with orthonormal rows and P Bt = 0; the
-next level is (P A P', P A Bt), until B has full row rank. Back from there, the last level with B^- = Bt^+, the others
-with B^- = Bt^+ - K P, where K is the gain of the level above,
+Level 0 is the pair (A, B). On every level B = Bt R with full-rank factors, and P with orthonormal rows and P Bt = 0;
+the next level is (P A P', P A Bt), until B has full row rank. Going back, the last level has B^- = Bt^+, the others B^-
+= Bt^+ - K P, where K is the gain of the level above, and
 
     K = R^+ (Phi B^- - B^- A),    u = K x,
 
-which makes B^- (A + B K) = Phi B^-: each level's Phi keeps its poles, and the closed loop has all of them.
-Zubov, Mikrin, Misrikhanov and Ryabchenko, "Modification of the exact pole placement method and its application for the
-control of spacecraft motion", Journal of Computer and Systems Sciences International 52 (2013); the formulas were
-derived here. Inside of this file u = K x as in the source; the result's gain has the other sign.
+gives B^- (A + B K) = Phi B^-: each level's Phi keeps its poles, and the closed loop has all of them. Zubov, Mikrin,
+Misrikhanov and Ryabchenko, "Modification of the exact pole placement method and its application for the control of
+spacecraft motion", Journal of Computer and Systems Sciences International 52 (2013); the formulas were derived here. In
+this file u = K x as in the source; the result's gain has the opposite sign.
 """
 
 from __future__ import annotations
@@ -83,8 +83,8 @@ def assemble(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return K of u = K x and B^-, both of level 0, for Phi_i = ``wanted``, real or complex, level 0 first.
 
-    ``above`` has, for each level, the required gain of the level above, from which the part in the null space of R is
-    taken, since Phi does not determine it. By default that part is 0.
+    ``above`` has, for each level, the required gain of the level above, from which the component in the null space of R
+    is taken, since Phi does not determine it. By default that component is 0.
     """
     gain = inverse = np.zeros((0, 0))
     for i in reversed(range(len(levels))):

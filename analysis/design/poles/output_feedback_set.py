@@ -10,7 +10,7 @@ k
     T_k A_k^p + sum_i N_i,k T_k A_k^i = -F C
 
 is linear in the unknowns, each row separately, and solved by least squares. If it has a solution the regulator does not
-depend on q, and neither does the prescribed part of the closed loop. Lapin's thesis (2.3.2) states the aim; the
+depend on q, and neither do the prescribed coefficients of the closed loop. Lapin's thesis (2.3.2) states the aim; the
 equations are ours.
 """
 

@@ -33,7 +33,7 @@ _ORTHONORMAL = 1e-9
 
 
 class FreedomUse(StrEnum):
-    """Use of the freedom that several inputs leave."""
+    """Criterion for the freedom that several inputs leave."""
 
     DIAGONAL = "diagonal"  # nothing: diagonal matrices, blocks for pairs
     LEAST_CONDITION = "least_condition"  # of the eigenvectors

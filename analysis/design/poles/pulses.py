@@ -57,7 +57,7 @@ class PulsedPlant:
         return propagated
 
     def by_lengths(self, lengths: ArrayLike, values: ArrayLike) -> np.ndarray:
-        """Return dx+/dtau (n, m). Raises InputError."""
+        """Return the derivative of x after a tick with respect to the pulse lengths, (n, m). Raises InputError."""
         lengths, values = self._pulses(lengths, values)
         columns = [
             expm(self.a * (self.period - length)) @ column for column, length in zip(self.b.T, lengths, strict=True)

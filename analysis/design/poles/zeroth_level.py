@@ -1,18 +1,18 @@
 """Output feedback on the zeroth level of the decomposition.
 
 K_1 places n - m poles on (A_1, B_1) = (P A P', P A B), P B = 0. With B^- = B^+ - K_1 P, X = B^- C^perp and Y = B^- A
-C^perp (m x (n - p)) the other m are those of
+C^perp (m x (n - p)) the other m poles are those of
 
     Phi_0 = Y X^+ + Z Q,    Q X = 0,    F = (Phi_0 B^- - B^- A) C^+,    u = F y,
 
-Z by the dual placement on (Y X^+, Q): then F C = Phi_0 B^- - B^- A, the state feedback of the multilevel placement.
-Generic for m + p > n. After Van der Woude, "A note on pole placement by static output feedback for single-input
-systems" (1988) and the thesis of Lapin (2.3.1.1); the formulas are ours.
+with Z from the dual placement on (Y X^+, Q): then F C = Phi_0 B^- - B^- A, the state feedback of the multilevel
+placement. This works for generic plants with m + p > n. After Van der Woude, "A note on pole placement by static output
+feedback for single-input systems" (1988) and the thesis of Lapin (2.3.1.1); the formulas are ours.
 
-With m + p = n Phi_0 = Y X^-1 is fixed by K_1, and K_1 is the choice. The eigenvectors of the upper level's poles are
-free (Phi_1 = S D S^-1); the m equations "characteristic polynomial of Phi_0 as required" are solved for them by least
-squares from random starts. Ours; for m p > n solutions are generic over complex numbers (Brockett and Byrnes 1981),
-real ones not.
+For m + p = n K_1 determines Phi_0 = Y X^-1, and has to be chosen. The eigenvectors of the upper level's poles are free
+(Phi_1 = S D S^-1); the m equations for the characteristic polynomial of Phi_0 are solved for them by least squares from
+random starts. The method is ours; for m p > n complex solutions are generic (Brockett and Byrnes 1981), real ones are
+not.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class ZerothLevel:
 
     @property
     def meets(self) -> bool:
-        """True if m + p = n."""
+        """True if m + p = n, so that the gain of the upper level determines the poles of the zeroth."""
         return self.b.shape[1] + len(self.c) == len(self.a)
 
     def lower_matrices(self, upper_gain: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -71,7 +71,7 @@ class ZerothLevel:
     def feedback(
         self, inverse: np.ndarray, phi: np.ndarray, upper: Spectrum, lower: Spectrum, condition: float
     ) -> OutputFeedback:
-        """Return F from B^- and Phi_0; ``condition`` is cond X."""
+        """Return F from B^- and Phi_0; ``condition`` is the condition number of X."""
         gain = (phi @ inverse - inverse @ self.a) @ self.seen
         return OutputFeedback(
             "direct",

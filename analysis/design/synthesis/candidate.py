@@ -119,7 +119,7 @@ def cross(random: np.random.Generator, first: Genes, second: Genes, coding: Codi
     """Return four children of two parents: both crossings of the variations, each with both crossings of the codes.
 
     Variations and codes are each cut at one random place. A child's variations belong to the basis of the parent that
-    contributes the first part.
+    contributes the first segment.
     """
     cut = int(random.integers(1, max(len(first.variations), 2)))
     low = 2 ** int(random.integers(1, max(coding.bits, 2))) - 1

@@ -63,7 +63,7 @@ class PointMassProblem:
     Positions (m) and velocities (m/s) are along and up, or along three axes of which the last is up. ``exhaust_speed``
     is in m/s; ``least`` and ``most`` are the engine's thrust limits over the initial mass, m/s2. ``length`` (m) and
     ``speed`` (m/s) are the scales of the solution. ``largest_tilt`` (rad) limits the angle of thrust from up;
-    ``glide_slope`` (rad) is the least elevation of the path, seen from an apex ``glide_offset`` (m) below the end;
+    ``glide_slope`` (rad) is the least elevation of the path, measured from an apex ``glide_offset`` (m) below the end;
     None: no such limit.
     """
 

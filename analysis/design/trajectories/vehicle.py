@@ -41,8 +41,10 @@ class Vehicle:
 
 @dataclass(frozen=True)
 class Margins:
-    """Fractions of a vehicle's capability that a plan uses: least and largest throttle as shares of its maximum thrust,
-    and the angular acceleration (rad/s2); the rest is left to feedback."""
+    """Shares of a vehicle's capability that a plan uses; the rest is left to feedback.
+
+    They are the least and largest throttle as fractions of its maximum thrust, and the angular acceleration (rad/s2).
+    """
 
     maximum_throttle: float
     minimum_throttle: float

@@ -52,7 +52,7 @@ class Programme:
 
     @property
     def burns(self) -> list[tuple[float, float]]:
-        """Begin and end of full thrust, s."""
+        """Begin and end (s) of each burn at full thrust."""
         shape = self.shape()
         burns = [(shape.first_burn_begin, shape.first_burn_end), (shape.last_burn_begin, shape.t7)]
         return [(begin, end) for begin, end in burns if end > begin]

@@ -74,7 +74,7 @@ class FlightGroup:
 
     @property
     def starts(self) -> np.ndarray:
-        """The first row of each flight."""
+        """First row of each flight."""
         return np.concatenate([[0], self.ends[:-1]])
 
     def last(self, values: np.ndarray) -> np.ndarray:

@@ -147,7 +147,7 @@ class FlightResult(Flight):
         return cls(**vars(flight), **more)
 
     def table(self) -> pyarrow.Table:
-        """Return the flight as an Arrow table: time first, units and provenance in the metadata."""
+        """Return the signals as an Arrow table: time first, units and provenance in the metadata."""
         import pyarrow
 
         from ....common.machine.arrow import numbers_of

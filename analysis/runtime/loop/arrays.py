@@ -11,7 +11,7 @@ import numpy as np
 
 
 class Program(NamedTuple):
-    """A system as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
+    """System as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
 
     instructions: np.ndarray  # uint64 [i, codes.COLUMNS]
     reset_end: int  # instructions before this one end a flight and reset the FMUs; a fresh instance skips them
@@ -150,5 +150,5 @@ class Run(NamedTuple):
 
     @property
     def has_fmi3(self) -> bool:
-        """True for a system with FMUs of FMI 3.0."""
+        """True if the system has FMUs of FMI 3.0."""
         return self.fmi3 is not None

@@ -213,7 +213,7 @@ class Refused(msgspec.Struct, tag=True, forbid_unknown_fields=True):
 
     @classmethod
     def of(cls, error: InputError) -> Refused:
-        """Return the answer that carries an error."""
+        """Return the answer that reports an error."""
         return cls(error.file, error.element, error.problem, error.remedy)
 
     def as_error(self) -> InputError:

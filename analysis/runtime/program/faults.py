@@ -1,4 +1,4 @@
-"""Faults as the reference loop applies them to values, by the names of connectors."""
+"""Faults applied by the reference loop to values, by connector name."""
 
 from __future__ import annotations
 

@@ -80,6 +80,6 @@ def find_starts(network: Network, settings: SystemSettings, component: str, tune
 
 
 def solver_tolerance(fmu: Fmu) -> float | None:
-    """Return the relative tolerance that an FMU proposes for its own solver."""
+    """Return the relative tolerance that an FMU proposes for its own solver, or None."""
     experiment = fmu.description.defaultExperiment
     return None if experiment is None or experiment.tolerance is None else float(experiment.tolerance)

@@ -78,7 +78,7 @@ class Binding:
 
 @dataclass
 class Element:
-    """Fields of all elements of a system."""
+    """Fields common to all elements of a system."""
 
     name: str
     connectors: dict[str, Connector]

@@ -133,7 +133,7 @@ class Unstudied:
 
     @property
     def text(self) -> str:
-        """Reason with its verdict."""
+        """Reason, with its verdict."""
         if self.verdict is MarginVerdict.FAIL:
             return self.reason
         if self.verdict is MarginVerdict.WITHHELD:

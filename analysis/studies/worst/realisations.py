@@ -99,7 +99,7 @@ class Fresh:
         return float(quantiles(self.values, (self.quantile,))[0])
 
     def document(self, fact: Callable[[float], float | str | None]) -> FreshDocument:
-        """Return it as JSON; ``fact`` maps a value to JSON."""
+        """Return the result as JSON; ``fact`` converts a value to JSON."""
         return {
             "realisations": int(self.values.size),
             "worst": fact(self.worst),

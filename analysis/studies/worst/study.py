@@ -105,7 +105,7 @@ def worst_margin(
 
 
 class _Search:
-    """Search region and budget. Raises InputError."""
+    """Region and budget of a search. Raises InputError."""
 
     def __init__(
         self,

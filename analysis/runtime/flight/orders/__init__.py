@@ -1,1 +1,1 @@
-"""Calls of a component's FMU, written as instructions: for FMI 2.0 and FMI 3.0 by the same methods."""
+"""Writers of the calls of a component's FMU as instructions, with one interface for FMI 2.0 and FMI 3.0."""
