@@ -1,1 +1,1 @@
-"""The language of kernels: its values and its elementary functions."""
+"""Kernel language: its types and elementary functions."""

@@ -14,7 +14,7 @@ from typing import Any, ClassVar
 
 
 def member(meaning: str) -> int:
-    """Declare a member of an `Enumeration`, with its meaning."""
+    """Declare a member of an `Enumeration` with its meaning."""
     made: Any = _Member(meaning)
     return made
 
@@ -25,7 +25,9 @@ class _Member:
 
 
 class Enumeration:
-    """Values numbered in the order of declaration, from 0 or ``class RendezvousPhase(Enumeration, first=1)``."""
+    """Base of enumerations; members are numbered in order from 0, or from n with ``class Phase(Enumeration,
+    first=n)``.
+    """
 
     meanings: ClassVar[dict[int, str]] = {}  # by number
     names: ClassVar[dict[int, str]] = {}
@@ -41,7 +43,9 @@ class Enumeration:
 
     @classmethod
     def describe(cls, about: str) -> str:
-        """Return ``about: 0 good, 1 rate limited``, with the docstring's first line for an empty ``about``."""
+        """Return a description with all members, ``about: 0 good, 1 rate limited``; an empty ``about`` means the
+        docstring.
+        """
         members = ", ".join(f"{number} {meaning}" for number, meaning in cls.meanings.items())
         summary = (cls.__doc__ or "").partition("\n")[0].rstrip(".")
         about = about or summary[:1].lower() + summary[1:]

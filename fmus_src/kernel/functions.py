@@ -1,8 +1,8 @@
-"""The elementary functions as kernels and users call them: those of `elementary`, with the errors of Python's `math`.
+"""Elementary functions for kernels and users: those of `elementary`, with the exceptions of Python's `math`.
 
-A result that is NaN although no argument is raises ValueError, an infinite one of finite arguments OverflowError, or
-ValueError at a pole. Errors are below one unit in the last place, and the bits are those of every processor, in Python
-and in C.
+A NaN result of arguments without NaN raises ValueError; an infinite result of finite arguments raises OverflowError, or
+ValueError at a pole. Errors are below one unit in the last place, and results have identical bits on every processor,
+in Python and in C.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ FAULTS: dict[Any, str | None] = {}
 
 
 def _refuse(y: float, if_infinite: str) -> None:
-    """Raise for a result that is not finite."""
+    """Raise the exception for a result that is not finite."""
     if y == y and if_infinite == RANGE_ERROR:
         raise OverflowError(RANGE_ERROR)
     raise ValueError(DOMAIN_ERROR)
 
 
 def _check_result(function: Callable[[float], float], if_infinite: str) -> Callable[[float], float]:
-    """Return a function of one argument that raises where its result is NaN, or infinite, of a finite argument."""
+    """Return a function of one argument with a check that raises if the result for a finite argument is not finite."""
 
     @functools.wraps(function)
     def call(x: float) -> float:
@@ -48,7 +48,7 @@ def _check_result(function: Callable[[float], float], if_infinite: str) -> Calla
 
 
 def _check_power(function: Callable[[float, float], float]) -> Callable[[float, float], float]:
-    """Return x^y, which raises where it is NaN, or infinite, of finite arguments."""
+    """Return x^y; raises if the result for finite arguments is not finite."""
 
     @functools.wraps(function)
     def call(x: float, y: float) -> float:
@@ -62,7 +62,7 @@ def _check_power(function: Callable[[float, float], float]) -> Callable[[float, 
 
 
 def _without_faults(function: F) -> F:
-    """Register a function whose result is NaN of NaN alone, and never infinite of finite arguments."""
+    """Register a function that needs no check: its result is NaN only for NaN and finite for finite arguments."""
     FAULTS[function] = None
     return function
 

@@ -1,7 +1,7 @@
-"""One step of an integrator for x' = f(t, x, inputs): a function of the rates, for any float, vector or record.
+"""Integrators: one step of x' = f(t, x, inputs) for a state that is a float, vector or record.
 
-`derivatives` is a method of a block, or a function, of the time (s), the state and the inputs, which are held over the
-step; it changes nothing. The translator writes each integrator again for every `derivatives` and state.
+`derivatives` is a method of a block, or a function, of time (s), state and inputs; it has no side effects. The inputs
+are constant over the step. The C translator generates each integrator separately for every `derivatives` and state.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Derivatives = Callable[..., Any]  # (t, state, *inputs) -> rate of the state
 
 
 def runge_kutta_4(derivatives: Derivatives, t: float, state: State, h: float, *inputs: Any) -> State:
-    """Return the state at t + h: the classical method of fourth order (Kutta 1901).
+    """Return the state at t + h by the classical Runge-Kutta method of fourth order (Kutta 1901).
 
     Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 1993, table II.1.2.
     """
@@ -28,7 +28,7 @@ def runge_kutta_4(derivatives: Derivatives, t: float, state: State, h: float, *i
 
 
 def runge_kutta_4_from(k1: Any, derivatives: Derivatives, t: float, state: State, h: float, *inputs: Any) -> State:
-    """Return the state at t + h, where the rate k1 at the start is known already."""
+    """Return the state at t + h by `runge_kutta_4` with a known rate k1 at the start."""
     half = 0.5 * h
     k2 = derivatives(t + half, state + half * k1, *inputs)
     k3 = derivatives(t + half, state + half * k2, *inputs)
@@ -37,7 +37,7 @@ def runge_kutta_4_from(k1: Any, derivatives: Derivatives, t: float, state: State
 
 
 def count_steps(h: float, longest: float) -> int:
-    """Return the number of equal steps in h (s), none longer than ``longest`` (s) but for rounding."""
+    """Return the number of equal steps in h (s) that are not longer than ``longest`` (s) apart from rounding."""
     return int(h / longest - STEP_ROUNDING) + 1
 
 
@@ -49,7 +49,7 @@ class Translation(Record):
 
 
 def simpson(acceleration: Derivatives, t: float, s: Translation, h: float) -> Translation:
-    """Return the motion at t + h under x'' = acceleration(t): Simpson's rule, to which `runge_kutta_4` reduces then."""
+    """Return the motion at t + h under x'' = acceleration(t) by Simpson's rule (`runge_kutta_4` reduces to it)."""
     a1 = acceleration(t)
     a2 = acceleration(t + 0.5 * h)
     a4 = acceleration(t + h)
@@ -60,7 +60,7 @@ def simpson(acceleration: Derivatives, t: float, s: Translation, h: float) -> Tr
 
 
 class Forcing(Record):
-    """An acceleration over a step that does not depend on the motion."""
+    """Acceleration over a step that does not depend on the motion."""
 
     start = Field(Vector3, unit="m/s2", description="acceleration at the start of the step")
     middle = Field(Vector3, unit="m/s2", description="acceleration in the middle of the step")
@@ -68,7 +68,7 @@ class Forcing(Record):
 
 
 def runge_kutta_nystrom(field: Derivatives, s: Translation, forcing: Forcing, h: float) -> Translation:
-    """Return the motion h (s) later under x'' = field(x) + forcing: Nystrom's method of fourth order (1925).
+    """Return the motion after h (s) under x'' = field(x) + forcing by Nystrom's method of fourth order (1925).
 
     Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 1993, section II.14.
     """

@@ -1,4 +1,4 @@
-"""Functions of matrices. Kernel functions; sums run in order of the index that is summed over."""
+"""Functions of matrices. Kernel functions; sums run in the order of the summation index."""
 
 import math
 
@@ -16,7 +16,7 @@ TERMS = 16  # of the exponential's series: at a norm of 1/2 what is left out is 
 
 
 def diagonal(v: Vector) -> Matrix:
-    """Return the matrix with v on its diagonal and 0 elsewhere."""
+    """Return the diagonal matrix with v on its diagonal."""
     a = zeros(len(v), len(v))
     for i in range(len(v)):
         a[i, i] = v[i]
@@ -33,7 +33,7 @@ def outer(v: Vector, w: Vector) -> Matrix:
 
 
 def mirror(a: Matrix, size: int) -> None:
-    """Mirror the upper triangle of the first ``size`` rows and columns below the diagonal."""
+    """Copy the upper triangle of the first ``size`` rows and columns to the lower triangle."""
     for i in range(size):
         for j in range(i + 1, size):
             a[j, i] = a[i, j]
@@ -53,9 +53,9 @@ def is_positive_definite(a: Matrix) -> bool:
 
 
 def largest_eigenvalue(a: Matrix) -> float:
-    """Return the largest eigenvalue of a symmetric matrix without negative ones.
+    """Return the largest eigenvalue of a positive semidefinite symmetric matrix a; 0 for a = 0.
 
-    It is the limit of trace(a^n)^(1/n), whose relative error at n = 2^SQUARINGS is below log(len(a))/n. 0 where a is 0.
+    It is the limit of trace(a^n)^(1/n), whose relative error at n = 2^SQUARINGS is below log(len(a))/n.
     """
     power = a.copy()
     exponent = 1.0
@@ -73,9 +73,9 @@ def largest_eigenvalue(a: Matrix) -> float:
 
 
 def inverse_quadratic_form(p: Matrix, e: Matrix) -> float:
-    """Return e' p^-1 e by a factorisation p = l d l'; -1 where p is not positive definite.
+    """Return e' p^-1 e by a factorisation p = l d l'; -1 if p is not positive definite.
 
-    ``e`` is a column, ``p`` a symmetric matrix, of which the lower triangle is read. Source: Golub and Van Loan 2013,
+    ``e`` is a column and ``p`` a symmetric matrix whose lower triangle is read. Source: Golub and Van Loan 2013,
     section 4.1.2.
     """
     lower = zeros(len(p), len(p))
@@ -102,7 +102,7 @@ def inverse_quadratic_form(p: Matrix, e: Matrix) -> float:
 def inverse(a: Matrix) -> tuple[Matrix, bool]:
     """Return a^-1 by elimination with row exchanges, and True if it exists: a is finite and no pivot is 0.
 
-    Without one the matrix is not to be used. Source: Golub and Van Loan 2013, section 3.4.
+    With False the matrix must not be used. Source: Golub and Van Loan 2013, section 3.4.
     """
     rest = a.copy()
     b = identity(len(a))
@@ -132,7 +132,7 @@ def inverse(a: Matrix) -> tuple[Matrix, bool]:
 
 
 def exponential(a: Matrix, t: float) -> Matrix:
-    """Return exp(a t), a finite: the series of a t/2^k, whose norm is below 1/2, squared k times.
+    """Return exp(a t) for a finite a: the series for a t/2^k, whose norm is below 1/2, squared k times.
 
     Source: Moler and Van Loan 2003, method 3.
     """
@@ -160,5 +160,5 @@ def exponential(a: Matrix, t: float) -> Matrix:
 
 
 def cross_matrix(v: Vector3) -> Matrix:
-    """Return the 3 x 3 matrix of u -> v x u."""
+    """Return the 3 x 3 matrix of the linear map u -> v x u."""
     return matrix([0.0, -v.z, v.y], [v.z, 0.0, -v.x], [-v.y, v.x, 0.0])

@@ -1,16 +1,17 @@
-"""Matrices of fixed size: the result of `f @ p` or `p.T` is new; a variable's elements and blocks can be assigned.
+"""Matrices of fixed size; operators return new matrices, and elements and blocks can be assigned.
 
     POSITION, VELOCITY = block(0, 3), block(3, 3)
     p = zeros(6, 6)
     p[POSITION, VELOCITY] = h * identity(3)
     p = f @ p @ f.T + q
 
-`+`, `-` of equal sizes, `@` with a matrix or a vector, `*` and `/` by a number, `-a`, `a.T`. `p[i, j]` is a number; an
-index and a block, or a slice, give a vector of two to four, or a matrix of one row or column of more; two blocks give a
-matrix. `len(p)` is the number of rows. Sums of a product run from left to right from the first product.
+Operators are `+` and `-` of equal sizes, `@` with a matrix or vector, `*` and `/` by a number, `-a` and `a.T`.
+`p[i, j]` is a number; an index with a block or slice gives a vector of two to four components, or a matrix of one row
+or column if there are more; two blocks give a matrix. `len(p)` is the number of rows. The sums of a product run from
+left to right, starting from the first product.
 
-No matrix has two names: `b = a` is refused in kernels, `b = a.copy()` and `self.p = a` copy. A function receives the
-matrix itself, as it does a list, and may change its elements. In C a matrix is a struct, and operators are loops.
+A matrix cannot have two names: kernels reject `b = a`; `b = a.copy()` and `self.p = a` copy. A function receives the
+matrix itself, like a list, and may change its elements. In C a matrix is a struct, and operators are loops.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from .vector_types import VECTORS, Vector, Vector3, vector
 
 
 class Matrix:
-    """Floats, or ints, in rows of one length."""
+    """Matrix of floats or ints."""
 
     __slots__ = ("rows",)
     __array_ufunc__ = None  # a number of numpy's times a matrix is ours
@@ -45,7 +46,7 @@ class Matrix:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rows and columns."""
+        """Numbers of rows and columns."""
         return len(self.rows), len(self.rows[0])
 
     @property
@@ -54,7 +55,7 @@ class Matrix:
         return Matrix([list(column) for column in zip(*self.rows, strict=True)])
 
     def copy(self) -> Matrix:
-        """Return a matrix with the same elements."""
+        """Return a copy of the matrix."""
         return Matrix([row[:] for row in self.rows])
 
     def __len__(self) -> int:
@@ -162,29 +163,31 @@ class Matrix:
 
 
 def matrix(*rows: list) -> Matrix:
-    """Return the matrix of some rows: ``matrix([1.0, h], [0.0, 1.0])``."""
+    """Return the matrix of these rows: ``matrix([1.0, h], [0.0, 1.0])``."""
     return Matrix([[float(element) for element in row] for row in rows])
 
 
 def zeros(rows: int, columns: int) -> Matrix:
-    """Return the matrix of 0."""
+    """Return a matrix of zeros."""
     return Matrix([[0.0] * columns for _ in range(rows)])
 
 
 def identity(n: int) -> Matrix:
-    """Return the square matrix with 1 on its diagonal and 0 elsewhere."""
+    """Return the identity matrix."""
     return Matrix([[1.0 if i == j else 0.0 for j in range(n)] for i in range(n)])
 
 
 def add_product(q: Matrix, a: Matrix, b: Matrix) -> Matrix:
-    """Return q + a @ b, each sum starting from q's element."""
+    """Return q + a @ b, where each sum starts from the element of q."""
     columns = list(zip(*b.rows, strict=True))
     return Matrix(_sums_from(len(columns[0]))(q.rows, a.rows, columns))
 
 
 def block(first: int, size: int) -> slice:
-    """Return some rows or columns, as a constant of a module: ``POSITION = block(0, 3)``, then
-    ``p[POSITION, VELOCITY]``."""
+    """Return an index of consecutive rows or columns, a module constant: ``POSITION = block(0, 3)``.
+
+    It is used as in ``p[POSITION, VELOCITY]``.
+    """
     return slice(first, first + size)
 
 
@@ -193,8 +196,9 @@ def _refuse_size(given: Any, wanted: Any) -> NoReturn:
 
 
 def _of_three(x: float, y: float, z: float) -> Vector3:
-    """Return `vector` without its choice of a size: columns of three are most of the time of
-    filters and of rigid bodies."""
+    """Return a vector of three components without the choice of size in `vector`, for speed in filters and rigid
+    bodies.
+    """
     made = Vector3()
     made.x = x
     made.y = y
@@ -211,14 +215,14 @@ def _narrow(elements: list, across: bool) -> Any:
 
 @cache
 def _sums(inner: int) -> Callable[[list[list], list[tuple]], list[list]]:
-    """Return a function that multiplies rows with columns of ``inner`` elements, its sums written out."""
+    """Return an unrolled function for the products of rows with columns of ``inner`` elements."""
     a, b = (", ".join(f"{name}{k}" for k in range(inner)) for name in "ab")
     return eval(f"lambda rows, columns: [[{_terms(inner)} for {b}, in columns] for {a}, in rows]")
 
 
 @cache
 def _sums_of_one(inner: int) -> Callable[[list[list], tuple], list]:
-    """Return a function that multiplies rows with one column."""
+    """Return an unrolled function for the products of rows with one column."""
     a, b = (", ".join(f"{name}{k}" for k in range(inner)) for name in "ab")
     namespace: dict[str, Any] = {}
     exec(f"def multiply(rows, column):\n {b}, = column\n return [{_terms(inner)} for {a}, in rows]", namespace)
@@ -227,7 +231,7 @@ def _sums_of_one(inner: int) -> Callable[[list[list], tuple], list]:
 
 @cache
 def _sums_from(inner: int) -> Callable[[list[list], list[list], list[tuple]], list[list]]:
-    """Return a function that multiplies rows with columns, each sum starting from another matrix's element."""
+    """Return an unrolled function for the products of rows with columns, each added to an element of another matrix."""
     a, b = (", ".join(f"{name}{k}" for k in range(inner)) for name in "ab")
     inside = f"[q + {_terms(inner)} for q, ({b},) in zip(starts, columns)]"
     return eval(f"lambda q, rows, columns: [{inside} for starts, ({a},) in zip(q, rows)]")

@@ -1,7 +1,7 @@
-"""Operators of vectors and records, written out component by component and compiled once per class.
+"""Operators of vectors and records, unrolled by component and compiled once per class.
 
-For vectors in the Python FMUs that takes 1.5 times as long as loops over plain lists, a subclass of tuple 2.2 times,
-a class of any size 2.6 times; for records it takes half the time of a loop over fields.
+For vectors in Python FMUs these take 1.5 times as long as loops over plain lists; a subclass of tuple takes 2.2 times
+as long, a class of any size 2.6 times. For records they take half the time of a loop over fields.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ OPERATIONS = (  # name, arguments, expression of a component
 
 
 def add_operators(owner: type, components: Sequence[str], make: str) -> None:
-    """Give a class ``+`` and ``-`` with its own kind, ``*`` and ``/`` with a number.
+    """Add to a class the operators ``+`` and ``-`` with its own kind, and ``*`` and ``/`` with a number.
 
     ``make`` is an expression for an empty instance of the class ``Own``.
     """
@@ -31,14 +31,14 @@ def add_operators(owner: type, components: Sequence[str], make: str) -> None:
 
 
 def fill(components: Sequence[str], expression: str) -> list[str]:
-    """Return statements that fill ``made``: ``made.x = self.x * factor`` and so on."""
+    """Return the statements that assign all components of a result, such as ``made.x = self.x * factor``."""
     return [f"made.{component} = {expression.format(component)}" for component in components]
 
 
 def add_method(
     owner: type, name: str, arguments: str, lines: Sequence[str], names: Mapping[str, Any] | None = None
 ) -> None:
-    """Give a class a method with these statements, which see ``Own``, the class, ``new`` and other ``names``."""
+    """Add a method with these statements to a class; they can use ``Own``, the class, ``new`` and other ``names``."""
     namespace: dict[str, Any] = {"new": object.__new__, "Own": owner, **(names or {})}
     text = "\n    ".join([f"def {name}({arguments}):", *lines])
     exec(compile(text, __file__, "exec"), namespace)

@@ -1,15 +1,15 @@
 """Records: named values of a fixed layout, immutable, with the operations of a vector space.
 
     class Motion(Record):
-        position = Field(Vector3, unit="m", description="of the centre of mass")
-        speed = Field(unit="m/s")
+        position = Field(Vector3, unit="m", description="position of the centre of mass")
+        speed = Field(unit="m/s", description="speed relative to the ground")
 
     s = Motion(position=vector(0.0, 0.0, 0.0), speed=3.0)
     t = replace(s, speed=s.speed + 1.0)
 
-`+`, `-`, and `*` and `/` by a number work field by field, in the order of declaration, where all fields are floats,
-vectors or records of these; a record with an int or a bool has no use for them. In C a record is a struct that is
-passed and returned by value.
+`+`, `-`, and `*` and `/` by a number operate field by field, in the order of declaration, if all fields are floats,
+vectors or records of these; a record with an int or a bool has no operators. In C a record is a struct that is passed
+and returned by value.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ SCALARS = (float, int, bool)
 
 @dataclass(frozen=True)
 class Field:
-    """One value of a record: its type, and what it means.
+    """Field of a record: type, unit, frame and description.
 
-    ``kind`` is float, int, bool, Vector2, Vector3, Vector4 or a record; ``frame`` is that of a vector's components,
-    ``frozen`` as a block's `State` has it.
+    ``kind`` is float, int, bool, Vector2, Vector3, Vector4 or a record; ``frame`` is the frame of a vector's
+    components; ``frozen`` has the meaning that it has for a block's `State`.
     """
 
     kind: Any = float
@@ -44,7 +44,7 @@ class Field:
 
 
 class _RecordType(type):
-    """Takes the fields out of a record's class, whose instances have slots in their places."""
+    """Metaclass that replaces the declared fields of a record class by slots of its instances."""
 
     def __new__(cls, name: str, bases: tuple[type, ...], namespace: dict[str, Any]) -> _RecordType:
         fields = {key: value for key, value in namespace.items() if isinstance(value, Field)}
@@ -62,12 +62,12 @@ class _RecordType(type):
 
 
 class Record(metaclass=_RecordType):
-    """Base of all records."""
+    """Base of record classes."""
 
     fields: ClassVar[dict[str, Field]]
 
     def elements(self) -> tuple[Any, ...]:
-        """Return the numbers of all fields, one after another."""
+        """Return the numbers of all fields in order."""
         return tuple(_flatten(getattr(self, name) for name in self.fields))
 
     @classmethod
@@ -108,7 +108,7 @@ R = TypeVar("R", bound=Record)
 
 
 def replace(record: R, **changes: Any) -> R:
-    """Return the record with other values of some fields."""
+    """Return a copy of the record with other values of some fields."""
     made = object.__new__(type(record))
     for name in record.fields:
         setattr(made, name, changes.pop(name) if name in changes else getattr(record, name))
@@ -118,21 +118,21 @@ def replace(record: R, **changes: Any) -> R:
 
 
 def is_space(kind: Any) -> bool:
-    """Return True if values of a field's type can be added and scaled."""
+    """Return True if values of a field type can be added and scaled."""
     if isinstance(kind, _RecordType):
         return all(is_space(field.kind) for field in kind.fields.values())  # type: ignore[attr-defined]
     return kind is float or kind in VECTORS.values()
 
 
 def count_numbers(kind: Any) -> int:
-    """Count the numbers of a value of a field's type."""
+    """Return the number of scalars in a value of a field type."""
     if isinstance(kind, _RecordType):
         return sum(count_numbers(field.kind) for field in kind.fields.values())  # type: ignore[attr-defined, misc]
     return 1 if kind in SCALARS else len(kind.names)
 
 
 def flat_fields(record: type[Record], prefix: str = "") -> list[tuple[str, Field]]:
-    """Name and field of each number: ``attitude[1]``, ``motion.speed``."""
+    """Return name and field of each number: ``attitude[1]``, ``motion.speed``."""
     numbers: list[tuple[str, Field]] = []
     for name, field in record.fields.items():
         if isinstance(field.kind, _RecordType):
@@ -145,7 +145,7 @@ def flat_fields(record: type[Record], prefix: str = "") -> list[tuple[str, Field
 
 
 def _write_methods(record: Any) -> None:
-    """Give a record's class what makes it, and its operators where it has a use for them."""
+    """Add constructor and, if its fields form a vector space, operators to a record class."""
     assigned = [f"self.{name} = {name}" for name in record.fields]
     add_method(record, "__init__", f"self, *, {', '.join(record.fields)}", assigned)
     if is_space(record):
@@ -161,7 +161,7 @@ def _flatten(values: Any) -> Iterator[Any]:
 
 
 def _take(kind: Any, elements: Iterator[Any]) -> Any:
-    """Return a value of a field's type from the next elements."""
+    """Return a value of a field type built from the next elements."""
     if isinstance(kind, _RecordType):
         made: Any = object.__new__(kind)  # type: ignore[arg-type]
         for name, field in kind.fields.items():  # type: ignore[attr-defined]

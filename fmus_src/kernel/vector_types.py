@@ -1,11 +1,11 @@
-"""Vectors of two, three or four floats, as values: what `a + b` or `h * v` makes is new, and none ever changes.
+"""Vectors of two, three or four floats. Vectors are immutable values: operators return new ones.
 
-`vector(x, y, z)` makes one. `+`, `-`, and `*` and `/` by a number or by another vector, component by
-component; the scalar product is `vectors.dot`. `v[k]`, `v.x` (w, x, y, z of four, as of a quaternion, scalar
-first), `v[1:4]` and `x, y, z = v` read components; to change one, make a new vector. In C a vector is a struct
-that is passed and returned by value, with the same operations in kernel_vectors.h.
+`vector(x, y, z)` creates one. `+`, `-`, and `*` and `/` by a number or another vector operate component by component;
+the scalar product is `vectors.dot`. `v[k]`, `v.x` (w, x, y, z for four, as for a quaternion, scalar first), `v[1:4]`
+and `x, y, z = v` read components. In C a vector is a struct that is passed and returned by value, with the same
+operations in kernel_vectors.h.
 
-Every operator is written out for each size (`operations.py`).
+The operators are unrolled for each size (`operations.py`).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .operations import add_method, add_operators, fill
 
 
 class Vector:
-    """Base of vectors of all sizes; in a kernel's declaration, a vector of any size."""
+    """Base of vectors of all sizes; in a kernel's annotation, a vector of any size."""
 
     __slots__ = ()
     names: ClassVar[str]
@@ -42,7 +42,7 @@ class Vector:
         return f"vector{self.elements()}"
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        """Return arrays of numpy's functions, but a vector of one of its numbers times a vector."""
+        """Return an array from numpy's functions, except for a numpy number times a vector, which gives a vector."""
         result = getattr(ufunc, method)(
             *[list(each) if isinstance(each, Vector) else each for each in inputs], **options
         )
@@ -75,7 +75,7 @@ class Vector:
 
 
 def _write_methods(kind: type[Vector]) -> None:
-    """Give a size of vectors its operators and what reads its components."""
+    """Add operators and component access to the vector class of one size."""
     names = tuple(kind.names)
     components = ", ".join(f"self.{name}" for name in names)
     known = {"Vector": Vector, "vector": vector}
@@ -95,7 +95,7 @@ def _write_methods(kind: type[Vector]) -> None:
 
 
 def vector(first: float, second: float, third: float | None = None, fourth: float | None = None) -> Any:
-    """Return the vector of two, three or four components."""
+    """Return a vector of two, three or four components."""
     if third is None:
         two = Vector2()
         two.x = first
@@ -116,7 +116,7 @@ def vector(first: float, second: float, third: float | None = None, fourth: floa
 
 
 class Vector2(Vector):
-    """Two floats."""
+    """Vector of two floats."""
 
     __slots__ = ("x", "y")
     x: float
@@ -124,7 +124,7 @@ class Vector2(Vector):
 
 
 class Vector3(Vector):
-    """Three floats."""
+    """Vector of three floats."""
 
     __slots__ = ("x", "y", "z")
     x: float
@@ -133,7 +133,7 @@ class Vector3(Vector):
 
 
 class Vector4(Vector):
-    """Four floats: a quaternion, scalar first, or what else there are four of."""
+    """Vector of four floats, such as a quaternion with its scalar first."""
 
     __slots__ = ("w", "x", "y", "z")
     w: float

@@ -1,7 +1,8 @@
-"""Cubic splines through tabulated values at even steps. Kernel functions.
+"""Cubic splines through values at equidistant knots. Kernel functions.
 
-Each row of a matrix is a curve of n values. The second derivative is 0 at the last knot, and at the first one it is 0
-or, clamped, the slope is.
+Each row of a matrix is a curve of n values. The second derivative is 0 at the last knot; at the first knot either the
+second derivative or, for a clamped spline, the slope is 0.
+
 Source: Press, Teukolsky, Vetterling and Flannery 2007, section 3.3.
 """
 
@@ -9,7 +10,7 @@ from ..kernel.matrices import Matrix
 
 
 def curvatures(values: Matrix, row: int, n: int, step: float, clamped: bool, result: Matrix) -> None:
-    """Set result[row, :] to second derivatives at the knots of one curve, by Thomas's elimination; n <= 20."""
+    """Set result[row, :] to the second derivatives at the knots of one curve, by Thomas's algorithm; n <= 20."""
     upper = [0.0] * 20
     right = [0.0] * 20
     if clamped:
@@ -27,7 +28,7 @@ def curvatures(values: Matrix, row: int, n: int, step: float, clamped: bool, res
 
 
 def cubic_value(values: Matrix, second: Matrix, row: int, n: int, step: float, x: float) -> float:
-    """Return a curve at x, counted from its first knot; the end values beyond the ends, the first for NaN."""
+    """Return the value of a curve at x, counted from its first knot; constant outside, the first value for NaN."""
     if not x > 0.0:
         return values[row, 0]
     if x >= step * float(n - 1):

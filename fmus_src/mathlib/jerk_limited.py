@@ -1,8 +1,10 @@
-"""Least time about one axis within limits of rate, acceleration and jerk, between two rates. Kernel functions.
+"""Time-optimal rotation about an axis between two rates, within limits of rate, acceleration and jerk. Kernel
+functions.
 
 A profile begins and ends without acceleration: a ramp from the first rate to a peak rate, a coast, and a ramp to the
-last rate, up to seven arcs of constant jerk. The peak is above both rates where the angle is larger than that of the
-ramp from the first rate to the last, and below both where it is smaller; a coast is at the limit of rate.
+last rate, up to seven arcs of constant jerk. The peak is above both rates if the angle is larger than that of the ramp
+from the first rate to the last, and below both if it is smaller; a coast is at the rate limit.
+
 Source: Biagiotti and Melchiorri 2008, section 3.4 (double S); proof: docs/systems/satellite_pointing.md.
 """
 
@@ -15,7 +17,7 @@ HALVINGS = 200  # more than a double needs
 
 
 class JerkLimits(Record):
-    """Limits of a rotation."""
+    """Limits of rate, acceleration and jerk of a rotation."""
 
     rate = Field(unit="rad/s", description="largest angular rate, positive")
     acceleration = Field(unit="rad/s2", description="largest angular acceleration, positive")
@@ -23,7 +25,7 @@ class JerkLimits(Record):
 
 
 class AxisMotion(Record):
-    """Motion about an axis."""
+    """Angle, rate and acceleration about an axis."""
 
     angle = Field(unit="rad", description="rotation angle since the start")
     rate = Field(unit="rad/s", description="angular rate")
@@ -31,7 +33,7 @@ class AxisMotion(Record):
 
 
 class RateProfile(Record):
-    """Two ramps of the rate with a coast between them."""
+    """Profile of the angular rate: two ramps with a coast between them."""
 
     angle = Field(unit="rad", description="angle covered by the whole profile")
     first_rate = Field(unit="rad/s", description="angular rate at the start of the profile")
@@ -43,7 +45,7 @@ class RateProfile(Record):
 
 
 def ramp_time(change: float, acceleration: float, jerk: float) -> float:
-    """Return the least time (s) of a change of rate (rad/s) that begins and ends without acceleration."""
+    """Return the least time (s) for a change of rate (rad/s) that begins and ends without acceleration."""
     size = abs(change)
     if size * jerk >= acceleration * acceleration:
         return size / acceleration + acceleration / jerk
@@ -51,7 +53,7 @@ def ramp_time(change: float, acceleration: float, jerk: float) -> float:
 
 
 def ramp_angle(first: float, last: float, acceleration: float, jerk: float) -> float:
-    """Return the angle (rad) of the ramp between two rates (rad/s), which is symmetric."""
+    """Return the angle (rad) of the symmetric ramp between two rates (rad/s)."""
     return 0.5 * (first + last) * ramp_time(last - first, acceleration, jerk)
 
 
@@ -85,15 +87,16 @@ def follow_ramp(first: float, last: float, acceleration: float, jerk: float, tim
 
 
 def both_ramps(first: float, peak: float, last: float, acceleration: float, jerk: float) -> float:
-    """Return the angle (rad) of a ramp to a peak rate and one from there on, without a coast."""
+    """Return the angle (rad) of the ramps to and from a peak rate (rad/s) without a coast."""
     return ramp_angle(first, peak, acceleration, jerk) + ramp_angle(peak, last, acceleration, jerk)
 
 
 def reach_peak(angle: float, first: float, last: float, limits: JerkLimits) -> float:
-    """Return the peak rate (rad/s), above both others, whose ramps without a coast turn by an angle (rad).
+    """Return the peak rate (rad/s), above both others, whose ramps without a coast cover an angle (rad).
 
-    The angle lies between that of the ramp from first to last and that with the peak at the limit. The ramps' angle
-    either grows with the peak, or falls and then grows, from the first of these angles on: one root.
+    The angle must lie between that of the ramp from first to last and that with the peak at the limit. As a function of
+    the peak, the angle of the ramps either grows, or falls and then grows, from the first of these angles on, so there
+    is one root.
     """
     low = first
     if last > low:
@@ -111,7 +114,7 @@ def reach_peak(angle: float, first: float, last: float, limits: JerkLimits) -> f
 
 
 def plan_ramp(first: float, last: float, limits: JerkLimits) -> RateProfile:
-    """Return the change between two rates (rad/s) in the least time, whatever its angle."""
+    """Return the profile of least time for a change between two rates (rad/s) with any angle."""
     return RateProfile(
         angle=ramp_angle(first, last, limits.acceleration, limits.jerk),
         first_rate=first,
@@ -124,7 +127,7 @@ def plan_ramp(first: float, last: float, limits: JerkLimits) -> RateProfile:
 
 
 def plan_axis(angle: float, first: float, last: float, limits: JerkLimits) -> RateProfile:
-    """Return the profile of least time that turns by an angle (rad) between two rates (rad/s) within their limit."""
+    """Return the profile of least time for an angle (rad) between two rates (rad/s) within their limit."""
     direct = plan_ramp(first, last, limits)
     if angle == direct.angle:
         return direct
@@ -153,9 +156,10 @@ def plan_axis(angle: float, first: float, last: float, limits: JerkLimits) -> Ra
 
 
 def plan_turn(angle: float, first: float, last: float, limits: JerkLimits) -> RateProfile:
-    """Return the profile of least time to an angle (rad) or any that differs from it by whole turns.
+    """Return the profile of least time for an angle (rad) modulo whole turns.
 
-    Time grows with the distance from the angle of the ramp between both rates, so that one of its two neighbours is it.
+    The time grows with the distance from the angle of the ramp between both rates, so only its two neighbours are
+    compared.
     """
     direct = ramp_angle(first, last, limits.acceleration, limits.jerk)
     turns = (direct - angle) / TURN
@@ -171,7 +175,7 @@ def plan_turn(angle: float, first: float, last: float, limits: JerkLimits) -> Ra
 
 
 def follow_profile(profile: RateProfile, time: float) -> AxisMotion:
-    """Return the motion at a time (s) of 0 to the profile's duration."""
+    """Return the motion at a time (s) between 0 and the profile's duration."""
     begin = ramp_time(profile.peak_rate - profile.first_rate, profile.acceleration, profile.jerk)
     end = ramp_time(profile.peak_rate - profile.last_rate, profile.acceleration, profile.jerk)
     to_go = profile.duration - time

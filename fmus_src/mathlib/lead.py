@@ -1,6 +1,6 @@
-"""Lead compensator in discrete time by Tustin's rule, for three axes. Kernel functions.
+"""Lead compensator for three axes, discretised by Tustin's rule. Kernel functions.
 
-gain (lead s + 1)/(lag s + 1), sampled with a period T, is g' = decay g + e, m = state_gain g + input_gain e:
+gain (lead s + 1)/(lag s + 1), sampled with period T, becomes g' = decay g + e, m = state_gain g + input_gain e:
 
     decay = (2 lag - T)/(2 lag + T)    input_gain = gain (2 lead + T)/(2 lag + T)
     state_gain = gain ((T - 2 lead)/(2 lag + T) + decay (2 lead + T)/(2 lag + T))
@@ -15,7 +15,7 @@ NO_STATE = 1e-12  # of the gain of the input: a gain of the state below it canno
 
 
 class LeadLaw(Record):
-    """A lead compensator in discrete time."""
+    """Coefficients of a discrete-time lead compensator."""
 
     decay = Field(unit="1", description="factor of the state from one sample to the next")
     state_gain = Field(description="gain from the state to the output")
@@ -23,7 +23,7 @@ class LeadLaw(Record):
 
 
 def tustin_lead(gain: float, lead: float, lag: float, period: float) -> LeadLaw:
-    """Return the law; times in s, not both lag and period 0."""
+    """Return the compensator for times in s; lag and period must not both be 0."""
     divisor = 2.0 * lag + period
     decay = (2.0 * lag - period) / divisor
     input_gain = gain * (2.0 * lead + period) / divisor
@@ -33,22 +33,25 @@ def tustin_lead(gain: float, lead: float, lag: float, period: float) -> LeadLaw:
 
 
 def lead_output(law: LeadLaw, g: Vector3, e: Vector3) -> Vector3:
-    """Return the output from the state g and the input e."""
+    """Return the output for state g and input e."""
     return law.state_gain * g + law.input_gain * e
 
 
 def advance_lead(law: LeadLaw, g: Vector3, e: Vector3) -> Vector3:
-    """Return the state at the next tick."""
+    """Return the state at the next sample."""
     return law.decay * g + e
 
 
 def is_same(one: LeadLaw, other: LeadLaw) -> bool:
-    """Return True if two laws are one."""
+    """Return True if two compensators have equal coefficients."""
     return one.decay == other.decay and one.state_gain == other.state_gain and one.input_gain == other.input_gain
 
 
 def change_lead(old: LeadLaw, new: LeadLaw, e: Vector3, g: Vector3) -> Vector3:
-    """Return the state with which the new law has the old one's output for e; 0 where the new one has no state."""
+    """Return the state for which the new compensator has the output of the old one at input e.
+
+    It is 0 if the new compensator has no state.
+    """
     if abs(new.state_gain) > NO_STATE * abs(new.input_gain):
         return (old.state_gain * g + (old.input_gain - new.input_gain) * e) / new.state_gain
     return vector(0.0, 0.0, 0.0)

@@ -38,24 +38,24 @@ BINARY_OPERATIONS = (0, 1, 2, 3)
 
 
 def is_unary(operation: int) -> bool:
-    """Return True if a number names a unary operation."""
+    """Return True if a number identifies a unary operation."""
     return operation >= 1 and operation <= 23 and operation != 22
 
 
 def is_binary(operation: int) -> bool:
-    """Return True if a number names a binary operation."""
+    """Return True if a number identifies a binary operation."""
     return operation >= 0 and operation <= 3
 
 
 def sign(z: float) -> float:
-    """Return -1 below zero, +1 from zero on."""
+    """Return -1 for negative numbers and +1 for others."""
     if z < 0.0:
         return -1.0
     return 1.0
 
 
 def unary(operation: int, z: float, exp_saturation: float) -> float:
-    """Apply a known unary operation to z; exp takes the value exp_saturation above LOG_LARGEST."""
+    """Return the result of a known unary operation on z; exp gives exp_saturation for z above LOG_LARGEST."""
     if operation == 1:
         return z
     if operation == 2:
@@ -110,7 +110,7 @@ def unary(operation: int, z: float, exp_saturation: float) -> float:
 
 
 def binary(operation: int, a: float, b: float) -> float:
-    """Apply a known binary operation to a and b."""
+    """Return the result of a known binary operation on a and b."""
     if operation == 0:
         return a + b
     if operation == 1:
@@ -132,9 +132,9 @@ def neutral(operation: int) -> float:
 
 
 def decode(matrix: Matrix, edges: list) -> int:
-    """Fill ``edges`` with the places of a matrix's edges, counted in row order, and count them.
+    """Store the positions of a matrix's edges, in row order, in ``edges`` and return their number.
 
-    -1 where the matrix is no network operator: an unknown operation, or an entry below the diagonal.
+    Returns -1 if the matrix is not a network operator: an unknown operation, or an entry below the diagonal.
     """
     count = 0
     for row in range(SIZE):
@@ -152,7 +152,10 @@ def decode(matrix: Matrix, edges: list) -> int:
 
 
 def evaluate(matrix: Matrix, edges: list, count: int, exp_saturation: float, nodes: list) -> None:
-    """Evaluate the nodes of a decoded network; in: the sources' values and, elsewhere, the neutral elements."""
+    """Compute the values of all nodes of a decoded network.
+
+    On entry ``nodes`` contains the values of the sources and the neutral elements of all other nodes.
+    """
     for k in range(count):
         row = edges[k] // SIZE
         column = edges[k] % SIZE

@@ -1,8 +1,8 @@
 """Real roots of polynomials up to the fourth degree. Kernel functions.
 
-A polynomial is a list of five floats, c[0] + c[1] x + ... + c[4] x^4; leading coefficients may be 0.
-Roots are isolated by the turning points, the roots of the derivative, and found in between by
-Newton's method kept inside a bracket (Press et al. 2007, section 9.4), to the last bits.
+A polynomial is a list of five floats, c[0] + c[1] x + ... + c[4] x^4; leading coefficients may be 0. The turning
+points, roots of the derivative, isolate the roots, which are computed by Newton's method within a bracket (Press et al.
+2007, section 9.4) to the last bits.
 """
 
 import math
@@ -12,12 +12,12 @@ SETTLED = 1e-12  # of the root; a step of Newton's method this small leaves noth
 
 
 def evaluate(c: list, x: float) -> float:
-    """Return the polynomial at x."""
+    """Return the value of the polynomial at x."""
     return (((c[4] * x + c[3]) * x + c[2]) * x + c[1]) * x + c[0]
 
 
 def quadratic_roots(c0: float, c1: float, c2: float, roots: list) -> int:
-    """Find real roots of c0 + c1 x + c2 x^2, ascending, without cancellation; return their number, 0 to 2."""
+    """Store the real roots of c0 + c1 x + c2 x^2, ascending and without cancellation; return their number, 0 to 2."""
     discriminant = c1 * c1 - 4.0 * c2 * c0
     if not discriminant >= 0.0:
         return 0
@@ -37,9 +37,9 @@ def quadratic_roots(c0: float, c1: float, c2: float, roots: list) -> int:
 
 
 def root_between(c: list, low: float, high: float, rising: bool, guess: float) -> float:
-    """Return the root in [low, high], over which the polynomial is monotone and changes sign, rising or not.
+    """Return the root in [low, high], where the polynomial is monotone and changes sign.
 
-    Begins at ``guess`` if that is in between, else in the middle.
+    The search begins at ``guess`` if it lies between the bounds, else in the middle.
     """
     x = guess
     if not (guess > low and guess < high):
@@ -72,8 +72,7 @@ def root_between(c: list, low: float, high: float, rising: bool, guess: float) -
 
 
 def first_crossing(c: list, low: float, high: float, guess: float) -> float:
-    """Return the root beyond ``low`` and up to ``high``, between which the polynomial is
-    monotone; 0 where there is none."""
+    """Return the root above ``low`` and up to ``high``, between which the polynomial is monotone; 0 without a root."""
     value = evaluate(c, low)
     if value == 0.0:
         return 0.0
@@ -93,17 +92,17 @@ def first_crossing(c: list, low: float, high: float, guess: float) -> float:
 
 
 def crosses(rising: bool, value: float) -> bool:
-    """Return True if a function that began below 0, rising, or above it has reached 0 with this value."""
+    """Return True if a function that started below 0 and rises, or started above 0, has reached 0 with this value."""
     if rising:
         return value >= 0.0
     return value <= 0.0
 
 
 def positive_roots(c: list, turning: list, turnings: int, roots: list) -> int:
-    """Find positive roots at which the polynomial changes sign, ascending; return their number.
+    """Store the positive roots at which the polynomial changes sign, ascending; return their number.
 
-    ``turning`` holds the ``turnings`` turning points, ascending; those that are not positive are passed over. ``roots``
-    takes up to four.
+    ``turning`` contains ``turnings`` turning points, ascending; those that are not positive are skipped. ``roots`` has
+    room for four.
     """
     count = 0
     low = 0.0

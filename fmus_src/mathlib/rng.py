@@ -1,10 +1,9 @@
 """Random numbers with independent streams: MRG32k3a, exact in doubles. Kernel functions.
 
-The generator's state is a list of six floats held by the block. Source: L'Ecuyer, "Good
-parameters and implementations for combined multiple recursive random number generators",
-Operations Research 47(1), 1999; streams and jumps: L'Ecuyer, Simard, Chen and Kelton, "An
-object-oriented random-number package with many long streams and substreams", 2002. Constants
-are those of the 2002 package: streams 2^127 apart, substreams 2^76.
+The state of the generator is a list of six floats in the block. Source: L'Ecuyer, "Good parameters and implementations
+for combined multiple recursive random number generators", Operations Research 47(1), 1999; streams and jumps: L'Ecuyer,
+Simard, Chen and Kelton, "An object-oriented random-number package with many long streams and substreams", 2002. The
+constants are those of the 2002 package: streams are 2^127 numbers apart, substreams 2^76.
 """
 
 import math
@@ -21,12 +20,12 @@ STREAM = 51  # row of `JUMPS` with the distance of streams, 2^127
 
 
 def nearest(x: float) -> float:
-    """Return the nearest whole number, for x below 2^51: adding ROUND leaves no bits for the fraction."""
+    """Return the nearest integer for x below 2^51: adding ROUND leaves no bits for the fraction."""
     return x + ROUND - ROUND
 
 
 def reduce_modulo(high: float, low: float, m: float) -> float:
-    """Return (65536 high + low) mod m, the residue nearest to 0, for whole numbers below 2^52, without losing a bit."""
+    """Return (65536 high + low) mod m exactly, as the residue nearest to 0, for integers below 2^52."""
     inverse = 1.0 / m
     v = high - nearest(high * inverse) * m
     v = 65536.0 * v + low
@@ -34,13 +33,12 @@ def reduce_modulo(high: float, low: float, m: float) -> float:
 
 
 def high_words(v: Vector3) -> Vector3:
-    """Return v / 65536 in whole numbers. The rest of v has 16 bits: products of it with numbers of 32 bits are
-    exact."""
+    """Return the integer part of v / 65536; the remainder has 16 bits, so products with 32-bit numbers are exact."""
     return vector(nearest(v.x / 65536.0), nearest(v.y / 65536.0), nearest(v.z / 65536.0))
 
 
 def combine(s: Vector3, a: Vector3, b: Vector3, c: Vector3, m: float) -> Vector3:
-    """Return (s.x a + s.y b + s.z c) mod m, for whole numbers of at most 2^32."""
+    """Return (s.x a + s.y b + s.z c) mod m for integers of at most 2^32."""
     words = high_words(s)
     low_words = s - 65536.0 * words
     high = words.x * a + words.y * b + words.z * c
@@ -53,7 +51,7 @@ def combine(s: Vector3, a: Vector3, b: Vector3, c: Vector3, m: float) -> Vector3
 
 
 def advance(state: list) -> None:
-    """Replace the state by that of the next number."""
+    """Advance the state by one number."""
     p1 = 1403580.0 * state[1] - 810728.0 * state[0]
     p2 = 527612.0 * state[5] - 1370589.0 * state[3]
     state[0] = state[1]
@@ -65,14 +63,14 @@ def advance(state: list) -> None:
 
 
 def store(state: list, offset: int, v: Vector3, m: float) -> None:
-    """Set state[offset : offset + 3] to v, residues nearest to 0, as residues in [0, m)."""
+    """Store the residues v, nearest to 0, as residues in [0, m) in state[offset : offset + 3]."""
     state[offset] = v.x + m if v.x < 0.0 else v.x
     state[offset + 1] = v.y + m if v.y < 0.0 else v.y
     state[offset + 2] = v.z + m if v.z < 0.0 else v.z
 
 
 def jump(state: list, row: int) -> None:
-    """Advance the state by 2^(76 + row) numbers, in the polynomials of `JUMPS`."""
+    """Advance the state by 2^(76 + row) numbers with the polynomials of `JUMPS`."""
     a0 = vector(state[0], state[1], state[2])
     b0 = vector(state[3], state[4], state[5])
     advance(state)
@@ -96,9 +94,9 @@ def jump_times(state: list, count: int, first: int) -> None:
 
 
 def seed_streams(state: list, seed: int, stream: int) -> None:
-    """Put the generator at stream number ``seed``, substream number ``stream`` (both >= 0).
+    """Set the generator to the start of stream ``seed``, substream ``stream`` (both >= 0).
 
-    Pairs (seed, stream) with stream < 2^51 never share a number.
+    Pairs (seed, stream) with stream < 2^51 have no numbers in common.
     """
     for i in range(6):
         state[i] = 12345.0
@@ -107,7 +105,7 @@ def seed_streams(state: list, seed: int, stream: int) -> None:
 
 
 def uniform(state: list) -> float:
-    """Return the next number, in (0, 1)."""
+    """Return the next uniform random number in (0, 1)."""
     advance(state)
     p1 = state[2]
     p2 = state[5]
@@ -117,14 +115,14 @@ def uniform(state: list) -> float:
 
 
 def normal(state: list) -> float:
-    """Return the next standard normal number (Box and Muller 1958, cosine branch; uses two uniform ones)."""
+    """Return the next standard normal random number (Box and Muller 1958, cosine branch; uses two uniform numbers)."""
     radius = uniform(state)
     angle = uniform(state)
     return math.sqrt(-2.0 * log(radius)) * cos(6.283185307179586 * angle)
 
 
 def normals(state: list) -> Vector3:
-    """Return the next three standard normal numbers."""
+    """Return the next three standard normal random numbers."""
     x = normal(state)
     y = normal(state)
     z = normal(state)

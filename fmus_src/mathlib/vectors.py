@@ -1,4 +1,4 @@
-"""Vectors of three components, and their type. Kernel functions; no frame implied."""
+"""Functions of vectors of three components. Kernel functions; no particular frame is assumed."""
 
 import math
 
@@ -40,12 +40,12 @@ def cross(a: Vector3, b: Vector3) -> Vector3:
 
 
 def across(a: Vector3, direction: Vector3) -> Vector3:
-    """Return the component of a perpendicular to a unit vector."""
+    """Return the component of the vector a perpendicular to a unit vector."""
     return a - dot(a, direction) * direction
 
 
 def limit_length(a: Vector3, longest: float) -> Vector3:
-    """Return the vector, no longer than ``longest``."""
+    """Return the vector shortened to ``longest`` if it is longer."""
     length = norm(a)
     if length > longest:
         return longest / length * a
@@ -58,14 +58,14 @@ def is_finite(a: Vector3) -> bool:
 
 
 def finite_or_zero(a: Vector3) -> Vector3:
-    """Return the vector, or 0 where one component is not finite."""
+    """Return the vector, or 0 if a component is not finite."""
     if is_finite(a):
         return a
     return vector(0.0, 0.0, 0.0)
 
 
 def all_below(v: Vector, limit: float) -> bool:
-    """Return True if all components are below a limit in size; False where one is NaN."""
+    """Return True if all components are smaller in magnitude than a limit; False if one is NaN."""
     below = True
     for i in range(len(v)):
         below = below and abs(v[i]) < limit
@@ -73,7 +73,7 @@ def all_below(v: Vector, limit: float) -> bool:
 
 
 def smallest_component(a: Vector3) -> tuple[int, float]:
-    """Return number and value of the component of least size, the first of equal ones: the axis farthest from a."""
+    """Return index and value of the first component of least magnitude: the axis farthest from the vector."""
     k = 0
     for i in range(3):
         if abs(a[i]) < abs(a[k]):
@@ -91,7 +91,7 @@ def add_along(a: Vector3, k: int, amount: float) -> Vector3:
 
 
 def clip(value: float, low: float, high: float) -> float:
-    """Return the value, no less than low and no more than high."""
+    """Return the value limited to the range from low to high."""
     if value < low:
         return low
     if value > high:

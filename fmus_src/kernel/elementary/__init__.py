@@ -1,7 +1,7 @@
-"""Elementary functions in the kernel language: the same bits on every processor.
+"""Elementary functions in the kernel language, with identical bits on every processor.
 
-Published methods in +, -, *, /, sqrt and exact scaling alone, which IEEE 754 defines to the last bit. Errors are below
-one unit in the last place (`tests/kernel/test_elementary_errors.py`). Special values are those of C99, Annex F: where
-Python's `math` raises, these return infinity or NaN, and never fail themselves; `kernel.functions` raises for them.
-Since none divides by zero or leaves a list, their C has no checks.
+The published methods use only +, -, *, /, sqrt and exact scaling, which IEEE 754 defines to the last bit. Errors are
+below one unit in the last place (`tests/kernel/test_elementary_errors.py`). Special values follow C99, Annex F: where
+Python's `math` raises an exception, these functions return infinity or NaN; `kernel.functions` raises instead. They
+never divide by zero or index outside a list, so their C code needs no checks.
 """

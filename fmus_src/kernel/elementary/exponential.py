@@ -36,7 +36,7 @@ def exp_polynomial(r: float, z: float) -> float:
 
 
 def scale(y: float, n: float) -> float:
-    """Return y 2^n, infinite where that is too large."""
+    """Return y 2^n, or infinity on overflow."""
     if n > 1000.0:
         return math.ldexp(y, int(n) - 1) * 2.0
     return math.ldexp(y, int(n))

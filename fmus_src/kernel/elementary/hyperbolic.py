@@ -1,6 +1,6 @@
 """sinh, cosh, tanh. Kernel functions.
 
-Up to 1 their series; beyond, the exponential in two doubles.
+Series up to 1; above 1 the exponential in two doubles.
 """
 
 import math

@@ -1,8 +1,8 @@
 """asin, acos, atan, atan2. Kernel functions.
 
-atan about the nearest of 0, atan(1/2), pi/4, atan(3/2) and pi/2; asin and acos by their series to 1/2, beyond by that
-of half the complement (Ng, in the freely distributable mathematical library of Sun Microsystems, 1993). What square
-roots and quotients lose is carried along.
+atan uses a series about the nearest of 0, atan(1/2), pi/4, atan(3/2) and pi/2; asin and acos use their series up to
+1/2, and above 1/2 that of half the complement (Ng, in the freely distributable mathematical library of Sun
+Microsystems, 1993). Rounding errors of square roots and quotients are compensated.
 """
 
 import math
@@ -64,7 +64,7 @@ def asin_polynomial(x: float, z: float) -> float:
 
 
 def nearest_angle(q: float, tail: float) -> tuple[float, float, float]:
-    """Return high, low and t of atan(q + tail) = high + low + atan(t), q >= 0, about the nearest tabled angle."""
+    """Return high, low and t of atan(q + tail) = high + low + atan(t), q >= 0, for the nearest tabulated angle."""
     low = tail / (1.0 + q * q)
     if q < 0.4375:
         return 0.0, low, q
@@ -126,7 +126,7 @@ def atan2(y: float, x: float) -> float:
 
 
 def angle_of_edge(a: float, b: float, x: float) -> float:
-    """Return the angle of (x, a), b = |x|, where one of a and b is 0 or infinite."""
+    """Return the angle of (x, a) with b = |x|, if a or b is 0 or infinite."""
     high = HALF_PI
     if a == b:  # both 0, or both infinite
         high = 0.0 if a == 0.0 else QUARTER_PI

@@ -1,8 +1,8 @@
 """log, log2, log10, log1p. Kernel functions.
 
-x = 2^k m with m from sqrt(1/2) to sqrt(2), f = m - 1, s = f/(2 + f), and log(1 + f) = 2 atanh(s) = f - s (f - R) with
-R = s^2 L(s^2) (Ng, in the freely distributable mathematical library of Sun Microsystems, 1993). `log_two` sums the same
-series in two doubles.
+x = 2^k m with m from sqrt(1/2) to sqrt(2), f = m - 1, s = f/(2 + f), and log(1 + f) = 2 atanh(s) = f - s (f - R) with R
+= s^2 L(s^2) (Ng, in the freely distributable mathematical library of Sun Microsystems, 1993). `log_two` evaluates the
+same series in two doubles.
 """
 
 import math
@@ -43,7 +43,7 @@ def split(x: float) -> tuple[float, float]:
 
 
 def without_logarithm(x: float) -> float:
-    """Return the logarithm of numbers without a finite one: 0, negative numbers, infinity, NaN."""
+    """Return the logarithm of a number whose logarithm is not finite: 0, a negative number, infinity or NaN."""
     if x == 0.0:
         return -math.inf
     if x < 0.0:
@@ -83,7 +83,7 @@ def log1p(x: float) -> float:
 
 
 def log_two(x: float) -> tuple[float, float]:
-    """Return the logarithm of a positive finite number as a sum of two doubles, its relative error below 2^-64."""
+    """Return the logarithm of a positive finite number as a sum of two doubles with a relative error below 2^-64."""
     m, k = split(x)
     f = m - 1.0
     d = 2.0 + f

@@ -1,8 +1,8 @@
-"""The standard normal distribution and its inverse. Kernel functions.
+"""Standard normal distribution and its inverse. Kernel functions.
 
-The distribution by exp(-z^2) times a polynomial in (z - 3.75)/(z + 3.75), z = x/sqrt(2) (Shepherd and Laframboise,
+The distribution is exp(-z^2) times a polynomial in (z - 3.75)/(z + 3.75), z = x/sqrt(2) (Shepherd and Laframboise,
 "Chebyshev approximation of (1 + 2 x) exp(x^2) erfc x in 0 <= x < inf", Mathematics of Computation 36, 1981); the
-inverse by the quotients of Wichura, "Algorithm AS 241: the percentage points of the normal distribution", Applied
+inverse uses the quotients of Wichura, "Algorithm AS 241: the percentage points of the normal distribution", Applied
 Statistics 37, 1988. Errors are below four units in the last place.
 """
 
@@ -55,7 +55,7 @@ def scaled_complement(t: float) -> float:
 
 
 def normal_distribution(x: float) -> float:
-    """Return the probability that a standard normal number is below x."""
+    """Return the probability that a standard normal variable is below x."""
     if x != x:
         return x
     a = abs(x)
@@ -72,7 +72,9 @@ def normal_distribution(x: float) -> float:
 
 
 def normal_quantile(p: float) -> float:
-    """Return the x below which a standard normal number is with probability p: infinite for 0 and 1, NaN outside."""
+    """Return the x below which a standard normal variable lies with probability p: infinite for 0 and 1, NaN outside
+    [0, 1].
+    """
     if p != p or p < 0.0 or p > 1.0:
         return math.nan
     if p == 0.0 or p == 1.0:

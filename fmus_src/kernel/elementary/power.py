@@ -1,4 +1,4 @@
-"""x to the power y: exp(y log x), the logarithm and the product in two doubles. Kernel functions."""
+"""x to the power y as exp(y log x), with logarithm and product in two doubles. Kernel functions."""
 
 import math
 
@@ -10,7 +10,7 @@ WHOLE = 4503599627370496.0  # 2^52: from here on every double is a whole number,
 
 
 def is_odd(y: float) -> bool:
-    """Return True if a double is an odd whole number."""
+    """Return True if a double is an odd integer."""
     a = abs(y)
     if a >= 2.0 * WHOLE:
         return False
@@ -20,13 +20,13 @@ def is_odd(y: float) -> bool:
 
 
 def is_whole(y: float) -> bool:
-    """Return True if a double is a whole number."""
+    """Return True if a double is an integer."""
     a = abs(y)
     return a >= WHOLE or a + WHOLE - WHOLE == a
 
 
 def power_of_edge(a: float, y: float) -> float:
-    """Return a^y for a of 0 or infinity, or an infinite y."""
+    """Return a^y if a is 0 or infinite, or y is infinite."""
     if a == 1.0:
         return 1.0
     if (a > 1.0) == (y > 0.0):
@@ -35,7 +35,7 @@ def power_of_edge(a: float, y: float) -> float:
 
 
 def pow(x: float, y: float) -> float:
-    """Return x^y; of a negative x for whole y only."""
+    """Return x^y; NaN for a negative x unless y is an integer."""
     if y == 0.0 or x == 1.0:
         return 1.0
     if x != x or y != y:

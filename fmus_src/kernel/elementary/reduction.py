@@ -1,7 +1,8 @@
-"""Angles less a multiple of pi/2. Kernel functions.
+"""Reduction of angles by multiples of pi/2. Kernel functions.
 
-Up to 2^16 by pi/2 in three parts of 33 bits and a tail (Cody and Waite 1980); beyond, by as many bits of 2/pi as the
-angle's exponent demands (Payne and Hanek, "Radian reduction for trigonometric functions", SIGNUM Newsletter 18, 1983).
+Up to 2^16 with pi/2 in three parts of 33 bits and a tail (Cody and Waite 1980); above with as many bits of 2/pi as the
+exponent of the angle requires (Payne and Hanek, "Radian reduction for trigonometric functions", SIGNUM Newsletter 18,
+1983).
 """
 
 import math
@@ -77,7 +78,7 @@ TWO_OVER_PI_DIGITS = (
 
 
 def reduce_angle(x: float) -> tuple[int, float, float]:
-    """Return n, r and tail of x = n pi/2 + r + tail, |r| <= pi/4 but for rounding; n modulo 4, 0 to 3; x finite."""
+    """Return n, r and tail of x = n pi/2 + r + tail for a finite x: n modulo 4, |r| <= pi/4 apart from rounding."""
     if abs(x) >= LIMIT:
         return reduce_large(x)
     n = x * TWO_OVER_PI + ROUND - ROUND
@@ -97,7 +98,7 @@ def reduce_angle(x: float) -> tuple[int, float, float]:
 
 
 def reduce_large(x: float) -> tuple[int, float, float]:
-    """Reduce as `reduce_angle`, of any size."""
+    """Return the same as `reduce_angle` for angles of any magnitude."""
     z, exponent = math.frexp(abs(x))
     digits = [0.0] * 3
     for i in range(3):

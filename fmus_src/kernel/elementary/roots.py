@@ -1,6 +1,7 @@
-"""cbrt: a polynomial, one step of Halley, one of Newton with the exact residual; hypot: a root and one such step.
+"""cbrt and hypot. Kernel functions.
 
-Kernel functions.
+cbrt is a polynomial followed by one step of Halley's method and one of Newton's with the exact residual; hypot is a
+square root followed by one such Newton step.
 """
 
 import math
@@ -40,7 +41,7 @@ def cbrt(x: float) -> float:
 
 
 def hypot(x: float, y: float) -> float:
-    """Return sqrt(x^2 + y^2), without overflow on the way."""
+    """Return sqrt(x^2 + y^2) without intermediate overflow."""
     a = abs(x)
     b = abs(x)
     if abs(y) > abs(x):

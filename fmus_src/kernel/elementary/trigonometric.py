@@ -1,6 +1,6 @@
 """sin, cos, tan. Kernel functions.
 
-Polynomials on |r| <= pi/4 that carry the tail of the reduced angle (Ng, in the freely distributable mathematical
+Polynomials on |r| <= pi/4 that include the tail of the reduced angle (Ng, in the freely distributable mathematical
 library of Sun Microsystems, 1993).
 """
 

@@ -15,7 +15,7 @@ def sum_error(a: float, b: float, s: float) -> float:
 
 
 def product_error(a: float, b: float, p: float) -> float:
-    """Return a b - p for the double p = a b, of factors between 2^-500 and 2^500."""
+    """Return a b - p for the double p = a b, for factors between 2^-500 and 2^500."""
     c = SPLITTER * a
     a_high = c - (c - a)
     a_low = a - a_high

@@ -1,11 +1,12 @@
 """Four single-gimbal gyros in two pairs of parallel gimbal axes (2-SPE), and their steering. Kernel functions.
 
-Momenta are those of the cluster over that of one rotor, in body axes: pair 1 turns about z in the xy plane, pair 2
-about -y in the xz plane, all gimbal angles (rad) counted from x. The three components leave one of the four angles
-free. With x1 and x2 what each pair has along x, a and b the most that it could have with y and z, u = x1/a and v =
-x2/b, the distribution law u - v + rho (u v - 1) = 0 takes that freedom: the pairs bias each other and stay away from
-their singular states, which are |pair| = 0 and 2. Derivations: docs/systems/robot_rendezvous.md. Source: Somov 2013;
-Somov, Platonov and Sorokin 2005.
+Momenta are those of the cluster divided by that of one rotor, in body axes. Pair 1 turns about z in the xy plane, pair
+2 about -y in the xz plane; gimbal angles (rad) are measured from x. The three momentum components leave one of the four
+angles free. With x1 and x2 the momenta of the pairs along x, a and b their largest possible values for the given y and
+z, u = x1/a and v = x2/b, the distribution law u - v + rho (u v - 1) = 0 removes this freedom: each pair biases the
+other and stays away from its singular states |pair| = 0 and 2. Derivations: docs/systems/robot_rendezvous.md.
+
+Source: Somov 2013; Somov, Platonov and Sorokin 2005.
 """
 
 import math
@@ -21,7 +22,7 @@ LEAST_SQUARE = 1e-12  # of a and b: nearer to a pair's surface y = 2 or z = 2 co
 
 
 def cluster_momentum(angles: Vector4) -> Vector3:
-    """Return momentum of the cluster over that of one rotor."""
+    """Return the momentum of the cluster divided by that of one rotor (body)."""
     first, second, third, fourth = angles
     return vector(
         cos(first) + cos(second) + cos(third) + cos(fourth),
@@ -31,7 +32,7 @@ def cluster_momentum(angles: Vector4) -> Vector3:
 
 
 def cluster_jacobian(angles: Vector4) -> Matrix:
-    """Return the derivative of the momentum by the gimbal angles, 3 x 4."""
+    """Return the derivative of the momentum with respect to the gimbal angles, 3 x 4."""
     first, second, third, fourth = angles
     return matrix(
         [-sin(first), -sin(second), -sin(third), -sin(fourth)],
@@ -41,15 +42,15 @@ def cluster_jacobian(angles: Vector4) -> Matrix:
 
 
 def nearest_turn(angle: float, reference: float) -> float:
-    """Return the angle plus whole turns that is nearest to ``reference``."""
+    """Return the angle (rad) shifted by whole turns to be nearest to ``reference``."""
     turns = (reference - angle) / math.tau
     return angle + math.tau * float(math.floor(turns + 0.5))
 
 
 def distribute_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[bool, Vector4]:
-    """Return True with angles that give a momentum under the distribution law, or False with those of ``near``.
+    """Return True and the angles (rad) that give a momentum under the distribution law, or False and ``near``.
 
-    They are by whole turns nearest to ``near``.
+    The angles are shifted by whole turns to be nearest to ``near``.
     """
     a_square = 4.0 - momentum.y * momentum.y
     b_square = 4.0 - momentum.z * momentum.z
@@ -72,7 +73,7 @@ def distribute_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[boo
 
 
 def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
-    """Return angles of a pair from its momentum along x and across, nearest to those of ``near``."""
+    """Return the angles (rad) of a pair from its momentum along x and across, nearest to those of ``near``."""
     half = 0.5 * math.sqrt(along * along + across * across)
     if half > 1.0:
         half = 1.0  # by a rounding error
@@ -84,11 +85,11 @@ def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
 def distribute_rates(
     angles: Vector4, momentum_rate: Vector3, rho: float, gain: float, least: float
 ) -> tuple[bool, Vector4]:
-    """Return True with rates (rad/s) of the law that change the momentum at momentum_rate (1/s), or False with 0.
+    """Return True and the rates (rad/s) under the law for a change of momentum momentum_rate (1/s), or False and 0.
 
-    The law's residual f is led to 0 by f' = -gain f. False, with rates of 0, where a divisor is less than ``least``:
-    the sines of the angle between the rotors of each pair (1 where they are best to steer), and those of the law, 2 at
-    the isotropic angles.
+    The residual f of the law decays as f' = -gain f. The result is False if a divisor is less than ``least``: the sines
+    of the angle between the rotors of each pair (1 for best steering) and the divisor of the law, 2 at the isotropic
+    angles.
     """
     first, second, third, fourth = angles
     none = vector(0.0, 0.0, 0.0, 0.0)
@@ -127,7 +128,7 @@ def distribute_rates(
 
 
 def singularity_measure(angles: Vector4) -> float:
-    """Square root of det(A A') of the jacobian A: 0 in a singular state, 8/sqrt(27) = 1.54 at the isotropic angles."""
+    """Return sqrt(det(A A')) of the Jacobian A: 0 in a singular state, 8/sqrt(27) = 1.54 at the isotropic angles."""
     determinant = determinant_of(gram_of(cluster_jacobian(angles), 0.0))
     if not determinant > 0.0:
         return 0.0
@@ -135,7 +136,7 @@ def singularity_measure(angles: Vector4) -> float:
 
 
 def rotor_weights(bias: float) -> Vector4:
-    """Return 1 + bias for the first rotor of each pair, 1 - bias for the second."""
+    """Return 1 + bias for the first rotor of each pair and 1 - bias for the second."""
     return vector(1.0 + bias, 1.0 - bias, 1.0 + bias, 1.0 - bias)
 
 
@@ -145,7 +146,7 @@ def gram_of(jacobian: Matrix, bias: float) -> Matrix:
 
 
 def determinant_of(m: Matrix) -> float:
-    """Return the determinant of a symmetric 3 x 3 matrix, whose upper triangle is read."""
+    """Return the determinant of a symmetric 3 x 3 matrix from its upper triangle."""
     return (
         m[0, 0] * (m[1, 1] * m[2, 2] - m[1, 2] * m[1, 2])
         - m[0, 1] * (m[0, 1] * m[2, 2] - m[1, 2] * m[0, 2])
@@ -156,13 +157,14 @@ def determinant_of(m: Matrix) -> float:
 def robust_rates(
     angles: Vector4, momentum_rate: Vector3, damping: float, threshold: float, swing: float, time: float
 ) -> tuple[Vector4, float]:
-    """Return rates (rad/s) W A' (A W A' + k E)^-1 momentum_rate, bounded everywhere, exact where k = 0; and m.
+    """Return the rates (rad/s) W A' (A W A' + k E)^-1 momentum_rate and the singularity measure m.
 
-    k = damping lack^2 with lack = 1 - m/threshold where the singularity measure m is below the threshold, else 0
-    (Nakamura and Hanafusa 1986). E and W are unit matrices but for elements that lead out of states in which the
-    required torque cannot be produced (Wie 2005): E has off-diagonal elements swing sin(pi/2 time + phase), which
-    move the gimbals to and fro, and W = 1 + swing lack for the first rotor of each pair and 1 - swing lack for the
-    second, without which rotors side by side would stay so. A swing below 0.5 keeps both positive definite.
+    The rates are bounded everywhere, and exact for k = 0. With lack = 1 - m/threshold, k = damping lack^2 for m below
+    the threshold and 0 above (Nakamura and Hanafusa 1986). E and W differ from unit matrices by terms that lead out of
+    states in which the required torque cannot be produced (Wie 2005): E has off-diagonal elements swing sin(pi/2 time +
+    phase), which move the gimbals to and fro; W = 1 + swing lack for the first rotor of each pair and 1 - swing lack
+    for the second, which separates rotors that point the same way. A swing below 0.5 keeps both matrices positive
+    definite.
     """
     jacobian = cluster_jacobian(angles)
     measure = singularity_measure(angles)

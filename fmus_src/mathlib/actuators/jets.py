@@ -1,10 +1,11 @@
-"""Eight jets at the corners of a box: their forces and torques, and how to share a wrench among them. Kernel functions.
+"""Eight jets at the corners of a box: their forces and torques, and the allocation of a wrench. Kernel functions.
 
-Jet p stands at rho_p = S_p (bx, by, bz), its nozzle points along e_p = S_p (ca cb, ca sb, sa), with the
-signs S_p of its corner, a the tilt and b the azimuth; a thrust p_p >= 0 gives the force -p_p e_p and the
-torque -p_p rho_p x e_p. So [P; M] = B p, and each row of B is a strength times one of the rows of signs X, Y, Z, YZ,
-ZX and XY: they are orthogonal, which makes the pseudo-inverse signs'/(8 strength). The null space is what is
-orthogonal to them: ones, and XYZ. Derivations: docs/systems/robot_rendezvous.md.
+Jet p is at rho_p = S_p (bx, by, bz) and its nozzle points along e_p = S_p (ca cb, ca sb, sa), with the signs S_p of its
+corner, tilt a and azimuth b; a thrust p_p >= 0 gives the force -p_p e_p and the torque -p_p rho_p x e_p. So [P; M] = B
+p, where each row of B is a strength times one of the sign rows X, Y, Z, YZ, ZX and XY. These are orthogonal, so the
+pseudo-inverse is signs'/(8 strength), and the null space is spanned by the row of ones and XYZ. Derivations:
+docs/systems/robot_rendezvous.md.
+
 Source: Somov, Butyrin, Somov and Somova (docs/systems/robot_rendezvous.md), whose D p = t has the opposite sign.
 """
 
@@ -28,14 +29,17 @@ XYZ = (1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0)
 
 
 class Wrench(Record):
-    """Force and torque."""
+    """Force and torque on the body."""
 
     force = Field(Vector3, unit="N", frame="body", description="force on the body")
     torque = Field(Vector3, unit="N.m", frame="body", description="torque on the body")
 
 
 class JetStrength(Record):
-    """Force or torque of 1 N of every jet, with the signs of a row, along an axis, over the number of jets; 0: none."""
+    """Force and torque per thrust along each axis, for all jets with a row of signs, divided by their number.
+
+    A component of 0 means that the jets cannot give this force or torque.
+    """
 
     force = Field(
         Vector3,
@@ -56,7 +60,7 @@ class JetStrength(Record):
 
 
 def jet_strength(tilt: float, azimuth: float, arm: Vector3) -> JetStrength:
-    """Return strength of jets with these angles (rad) and arm = (bx, by, bz) (m)."""
+    """Return the strength of jets with tilt and azimuth (rad) and the first jet at arm = (bx, by, bz) (m, body)."""
     axis = vector(cos(tilt) * cos(azimuth), cos(tilt) * sin(azimuth), sin(tilt))
     reach = abs(arm.x) + abs(arm.y) + abs(arm.z)
     return JetStrength(
@@ -66,7 +70,7 @@ def jet_strength(tilt: float, azimuth: float, arm: Vector3) -> JetStrength:
 
 
 def without_negligible(v: Vector3, limit: float) -> Vector3:
-    """Return the vector with 0 for components below ``limit``."""
+    """Return the vector with components smaller than ``limit`` replaced by 0."""
     return vector(
         0.0 if abs(v.x) < limit else v.x,
         0.0 if abs(v.y) < limit else v.y,
@@ -75,7 +79,7 @@ def without_negligible(v: Vector3, limit: float) -> Vector3:
 
 
 def signed_sum(signs: tuple, thrust: list) -> float:
-    """Sum of thrusts with the signs of a row."""
+    """Return the sum of the thrusts with a row of signs."""
     total = 0.0
     for p in range(JETS):
         total = total + signs[p] * thrust[p]
@@ -83,7 +87,7 @@ def signed_sum(signs: tuple, thrust: list) -> float:
 
 
 def jet_wrench(strength: JetStrength, thrust: list) -> Wrench:
-    """Return B thrust."""
+    """Return the wrench B thrust (N, N m, body)."""
     return Wrench(
         force=strength.force * vector(signed_sum(X, thrust), signed_sum(Y, thrust), signed_sum(Z, thrust)),
         torque=strength.torque * vector(signed_sum(YZ, thrust), signed_sum(ZX, thrust), signed_sum(XY, thrust)),
@@ -91,7 +95,7 @@ def jet_wrench(strength: JetStrength, thrust: list) -> Wrench:
 
 
 def add_component(signs: tuple, strength: float, demand: float, thrust: list) -> bool:
-    """Add to thrust the part that gives a force or torque along an axis; return if the geometry can give it."""
+    """Add to thrust the part that gives a force or torque along one axis; return True if the jets can give it."""
     if strength == 0.0:
         return demand == 0.0
     fraction = demand / (8.0 * strength)
@@ -101,9 +105,9 @@ def add_component(signs: tuple, strength: float, demand: float, thrust: list) ->
 
 
 def pseudo_inverse(strength: JetStrength, demand: Wrench, thrust: list) -> bool:
-    """Set thrust to the shortest solution of B thrust = demand, negative thrusts included.
+    """Set thrust to the minimum-norm solution of B thrust = demand, which may be negative.
 
-    Returns whether the geometry can give the wrench; a component that it cannot give is left out.
+    Returns True if the jets can give the wrench; a component that they cannot give is omitted.
     """
     for p in range(JETS):
         thrust[p] = 0.0
@@ -117,11 +121,11 @@ def pseudo_inverse(strength: JetStrength, demand: Wrench, thrust: list) -> bool:
 
 
 def shift_and_scale(thrust: list, maximum: float) -> float:
-    """Apply the rule of the paper: lift a pseudo-inverse's thrusts until the least is 0, scale by maximum/largest if
-    due.
+    """Raise the thrusts of a pseudo-inverse until the least is 0, then scale them by maximum/largest if this is below
+    1.
 
-    Returns the scale, 1 where nothing had to be scaled. Equal thrusts give no wrench, so what comes out is the scale
-    times the wrench that went in.
+    Returns the scale, 1 without scaling. Equal thrusts give no wrench, so the resulting wrench is the original one
+    times the scale. This is the rule of the paper.
     """
     minimum = thrust[0]
     largest = thrust[0]
@@ -141,14 +145,14 @@ def shift_and_scale(thrust: list, maximum: float) -> float:
 
 
 def least_propellant(thrust: list, maximum: float) -> float:
-    """Change a pseudo-inverse's thrusts into those of the least sum within 0 to maximum, for the same wrench.
+    """Change the thrusts of a pseudo-inverse to those of least sum within 0 and maximum, for the same wrench.
 
-    Opposite corners i and 9 - i: s = p_i + p_(9-i) and d = p_i - p_(9-i), with n the signs of the second
-    null vector and u = n d. A shift S of all s and l of all u gives no wrench; thrusts are not negative
-    where |u + l| <= s + S. The best S for an l is max(A + l, Q - l), A = max(u - s), Q = max(-u - s), and
-    the sum of thrusts is 4 S, least at l = (Q - A)/2. The largest thrust is then max(A + D, Q + C)/2,
-    C = max(u + s), D = max(s - u), than which no other l and S give less: the optimum without a maximum
-    keeps the maximum wherever it can be kept. Where not, the wrench is scaled; returns the scale, 1 for none.
+    For opposite corners i and 9 - i let s = p_i + p_(9-i) and d = p_i - p_(9-i), with n the signs of the second null
+    vector and u = n d. A shift S of all s and l of all u gives no wrench; thrusts are not negative if |u + l| <= s + S.
+    The best S for a given l is max(A + l, Q - l) with A = max(u - s) and Q = max(-u - s), and the sum of thrusts is 4
+    S, least at l = (Q - A)/2. The largest thrust is then max(A + D, Q + C)/2 with C = max(u + s) and D = max(s - u),
+    and no other l and S give less: the optimum without a maximum respects the maximum whenever that is possible.
+    Otherwise the wrench is scaled. Returns the scale, 1 without scaling.
     """
     a = -math.inf
     q = -math.inf
@@ -182,7 +186,7 @@ def least_propellant(thrust: list, maximum: float) -> float:
 
 
 def within(thrust: float, maximum: float) -> float:
-    """Return the thrust kept from 0 to maximum, beyond which rounding errors take it."""
+    """Return the thrust limited to 0 and maximum, which rounding errors may exceed."""
     if not thrust > 0.0:
         return 0.0
     if thrust > maximum:
@@ -191,11 +195,11 @@ def within(thrust: float, maximum: float) -> float:
 
 
 def nearest_levels(strength: Vector3, force: Vector3, quantum: float, highest: float) -> tuple[Vector3, float]:
-    """Return the attainable neighbour, nearest to a force (N), on the lattice of forces without torque.
+    """Return the attainable point nearest to a force (N) on the lattice of forces without torque, and a scale.
 
     The lattice is 2 quantum strength[i] n[i] with integers n all even or all odd; a point is attainable with thrusts of
-    at most ``highest`` quanta while |n_i| + |n_j| <= 2 highest for each two axes. A force beyond that is scaled first,
-    by the second value, 1 where nothing had to be scaled.
+    at most ``highest`` quanta if |n_i| + |n_j| <= 2 highest for each two axes. A force beyond that is scaled first; the
+    scale is 1 without scaling.
     """
     exact = [0.0] * 3
     trial = [0.0] * 3
@@ -235,7 +239,7 @@ def nearest_levels(strength: Vector3, force: Vector3, quantum: float, highest: f
 
 
 def thrust_of_levels(levels: Vector3, quantum: float, thrust: list) -> None:
-    """Set thrust to the least propellant for a point of the lattice, in whole quanta (N)."""
+    """Set thrust to the solution of least propellant for a point of the lattice, in whole quanta (N)."""
     largest = -math.inf
     minimum = math.inf
     u = [0.0] * 4

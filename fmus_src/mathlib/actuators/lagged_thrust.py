@@ -1,11 +1,11 @@
-"""Thrust that follows a command with a first-order lag, exactly. Kernel functions."""
+"""Exact response of thrust to a command with a first-order lag. Kernel functions."""
 
 from ...kernel.functions import expm1
 from ...kernel.records import Field, Record
 
 
 class LaggedThrust(Record):
-    """Thrust over a step, and its integrals."""
+    """Thrust over a step and its time integrals."""
 
     start = Field(unit="N", description="thrust at the start of the step")
     middle = Field(unit="N", description="thrust in the middle of the step")
@@ -15,9 +15,9 @@ class LaggedThrust(Record):
 
 
 def lagged_thrust(delivered: float, commanded: float, lag: float, h: float) -> LaggedThrust:
-    """Return thrust over h (s) under a command (N).
+    """Return the thrust over h (s) for a constant command (N), starting from ``delivered`` (N).
 
-    Thrust is ``delivered`` at the start, and the command at once where the lag (s) is 0.
+    With a lag (s) of 0 the thrust equals the command.
     """
     excess = 0.0
     half = 1.0

@@ -1,7 +1,8 @@
-"""Four reaction wheels: their axes, their friction, and how a torque is shared among them. Kernel functions.
+"""Four reaction wheels: spin axes, friction, and allocation of a torque. Kernel functions.
 
-The spin axes g are the columns of a 3 x 4 matrix A, unit vectors in body axes. Motors that turn the wheels by torques
-u (N m) turn the body by -A u. One direction of u does not turn it: the null direction n, A n = 0.
+The spin axes g are the columns of a 3 x 4 matrix A, unit vectors in body axes. Motor torques u (N m) on the wheels give
+the body the torque -A u. Torques along the null direction n, A n = 0, do not turn the body.
+
 Source: Markley, Reynolds, Liu and Lebsock 2010 (minimax); Schaub and Junkins 2018, section 8.
 """
 
@@ -15,7 +16,7 @@ SMALLEST_VOLUME = 1e-9  # of three unit axes: below it they count as lying in a 
 
 
 def unit_axes(rows: Matrix) -> Matrix:
-    """Return A (3 x 4) from axes by row (4 x 3), of any length; one of length 0 is a column of zeros."""
+    """Return A (3 x 4) from axes of any length by row (4 x 3); an axis of length 0 becomes a column of zeros."""
     a = zeros(3, WHEELS)
     for j in range(WHEELS):
         length = norm(rows[j, 0:3])
@@ -25,7 +26,7 @@ def unit_axes(rows: Matrix) -> Matrix:
 
 
 def largest_size(v: Vector4) -> float:
-    """Return the largest size of an element."""
+    """Return the largest magnitude of an element."""
     largest = 0.0
     for j in range(WHEELS):
         if abs(v[j]) > largest:
@@ -34,15 +35,17 @@ def largest_size(v: Vector4) -> float:
 
 
 def drag_torque(speed: float, viscous: float, coulomb: float, band: float) -> float:
-    """Return friction (N m) against the speed (rad/s) of a wheel: viscous, and Coulomb's, in
-    proportion within the band."""
+    """Return the friction torque (N m) against a wheel's speed (rad/s): viscous plus Coulomb friction.
+
+    Within the band, Coulomb friction is proportional to speed.
+    """
     return -viscous * speed - coulomb * clip(speed / band, -1.0, 1.0)
 
 
 def null_direction(a: Matrix) -> Vector4:
-    """Return the unit vector n with A n = 0, its first element not negative.
+    """Return the unit vector n with A n = 0 and a nonnegative first element.
 
-    Of length 0 where all axes lie in a plane, or where one column is 0.
+    The vector is 0 if all axes lie in a plane or one column is 0.
     """
     first = a[0:3, 0]
     second = a[0:3, 1]
@@ -66,7 +69,7 @@ def null_direction(a: Matrix) -> Vector4:
 
 
 def pseudo_inverse(a: Matrix) -> tuple[Matrix, bool]:
-    """Return A' (A A')^-1 (4 x 3), and whether there is one."""
+    """Return A' (A A')^-1 (4 x 3), and True if it exists."""
     gram = a @ a.T
     determinant = dot(gram[0:3, 0], cross(gram[0:3, 1], gram[0:3, 2]))
     inverted, invertible = inverse(gram)
@@ -74,10 +77,10 @@ def pseudo_inverse(a: Matrix) -> tuple[Matrix, bool]:
 
 
 def minimax_shift(u: Vector4, n: Vector4) -> float:
-    """Return the s for which the largest size of u + s n is smallest.
+    """Return the s for which the largest magnitude of u + s n is smallest.
 
-    The largest size is a convex function of s, made of straight lines: it is smallest where two of them meet, one that
-    falls and one that rises, so that all such s are tried.
+    The largest magnitude is a convex, piecewise linear function of s. Its minimum lies at the intersection of a falling
+    and a rising line, so all such intersections are evaluated.
     """
     shift = 0.0
     smallest = largest_size(u)
@@ -96,5 +99,5 @@ def minimax_shift(u: Vector4, n: Vector4) -> float:
 
 
 def body_torque(a: Matrix, u: Vector4) -> Vector3:
-    """Return torque (N m, body) on the body of motors that turn the wheels by torques u."""
+    """Return the torque (N m, body) on the body for motor torques u (N m) on the wheels."""
     return -(a @ u)

@@ -1,1 +1,1 @@
-"""Rotations, and what turns. Kernel functions."""
+"""Rotations and rotating directions. Kernel functions."""

@@ -1,9 +1,8 @@
-"""A direction that follows a moving goal, as a vehicle's attitude follows its command. Kernel functions.
+"""Direction that follows a moving goal, as a vehicle's attitude follows its command. Kernel functions.
 
-The goal at time s is the unit vector along base + rate s. The direction turns along the great
-circle towards it, at the speed angle/response but no more than ``limit`` (rad/s). A response or a
-limit of 0 does not count; without response the direction turns at the limit until it has caught
-the goal. No frame implied.
+The goal at time s is the unit vector along base + rate s. The direction turns towards it along the great circle at the
+rate angle/response, limited to ``limit`` (rad/s). A response or limit of 0 means none; without response the direction
+turns at the limit until it reaches the goal. No particular frame is assumed.
 """
 
 from ...kernel.functions import atan2
@@ -14,7 +13,7 @@ from .rotation import turn_towards
 
 
 def goal_at(base: Vector3, rate: Vector3, s: float, otherwise: Vector3) -> Vector3:
-    """Return the unit vector along base + rate s; ``otherwise`` where that has no direction."""
+    """Return the unit vector along base + rate s, or ``otherwise`` if it has no direction."""
     along = base + s * rate
     length = norm(along)
     if length > 0.0:
@@ -23,9 +22,9 @@ def goal_at(base: Vector3, rate: Vector3, s: float, otherwise: Vector3) -> Vecto
 
 
 def turning(direction: Vector3, goal: Vector3, response: float, limit: float) -> tuple[float, Vector3]:
-    """Return the angle to the goal (rad), and the derivative of the direction.
+    """Return the angle to the goal (rad) and the derivative (1/s) of the direction.
 
-    Of opposite vectors one side is as good as the other: the direction then turns about the axis farthest from it.
+    For opposite vectors the direction turns towards the coordinate axis farthest from it.
     """
     length = norm(direction)
     cosine = dot(direction, goal) / length
@@ -45,7 +44,7 @@ def turning(direction: Vector3, goal: Vector3, response: float, limit: float) ->
 
 
 class Pursuit(Record):
-    """A step of a pursuit."""
+    """Result of one step of a pursuit."""
 
     direction = Field(Vector3, description="pursuing direction at the end of the step, unit vector")
     goal = Field(Vector3, description="direction of the goal at the end of the step, unit vector")
@@ -55,7 +54,7 @@ class Pursuit(Record):
 def pursuit_rate(
     t: float, direction: Vector3, base: Vector3, rate: Vector3, last_goal: Vector3, response: float, limit: float
 ) -> Vector3:
-    """Return the derivative of the direction at the time t (s) of the goal."""
+    """Return the derivative (1/s) of the direction at time t (s)."""
     _, slope = turning(direction, goal_at(base, rate, t, last_goal), response, limit)
     return slope
 
@@ -63,7 +62,7 @@ def pursuit_rate(
 def pursue(
     direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
 ) -> Pursuit:
-    """Advance one step of Runge-Kutta's fourth order from time s to s + h."""
+    """Return the pursuit after one Runge-Kutta step of fourth order from time s to s + h."""
     goal = goal_at(base, rate, s, direction)
     angle, k1 = turning(direction, goal, response, limit)
     turned = runge_kutta_4_from(k1, pursuit_rate, s, direction, h, base, rate, goal, response, limit)
@@ -73,11 +72,11 @@ def pursue(
 def follow(
     direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
 ) -> Vector3:
-    """Return a unit vector turned from time s to s + h; assumes h no longer than a response that counts.
+    """Return a unit vector turned from time s to s + h; a response other than 0 must not be shorter than h.
 
-    The law has a knee where angle/response is the limit. A step across it is cut there, by linear interpolation of the
-    angle: the slope is continuous, so that the fourth order is kept. Without response, the last two steps before the
-    goal is caught go straight to where it will be.
+    The law has a kink where angle/response equals the limit. A step across it is divided there by linear interpolation
+    of the angle; the slope is continuous, so fourth order is preserved. Without response, the last two steps before the
+    goal is reached turn directly to its future position.
     """
     if response <= 0.0 and limit <= 0.0:
         return goal_at(base, rate, s + h, direction)

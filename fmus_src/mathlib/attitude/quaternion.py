@@ -1,8 +1,7 @@
-"""Unit quaternions, scalar first, that turn body components into reference components. Kernel functions.
+"""Unit quaternions, scalar first, that transform body components into reference components. Kernel functions.
 
-A quaternion q is the attitude of a body: v_reference = q v q*, and its rate is q' = q w/2 with the
-angular velocity w in body axes (rad/s). q and -q are one attitude. Source: Wertz 1978, appendix D; the
-order of factors is that of Hamilton.
+The quaternion q is the attitude of a body: v_reference = q v q*, and its rate is q' = q w/2 with the angular velocity w
+in body axes (rad/s). q and -q are the same attitude. Factors have Hamilton's order. Source: Wertz 1978, appendix D.
 """
 
 import math
@@ -14,12 +13,12 @@ SHORTEST = 0.5  # of a quaternion, below which it is no attitude: a tracker that
 
 
 def quaternion(scalar: float, e: Vector3) -> Vector4:
-    """Return the quaternion of its scalar and vector."""
+    """Return the quaternion with this scalar and vector."""
     return vector(scalar, e.x, e.y, e.z)
 
 
 def multiply(a: Vector4, b: Vector4) -> Vector4:
-    """Return a b: first the rotation b, then a (Hamilton's product)."""
+    """Return Hamilton's product a b: the rotation b followed by a."""
     return vector(
         a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
         a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -29,12 +28,12 @@ def multiply(a: Vector4, b: Vector4) -> Vector4:
 
 
 def conjugate(q: Vector4) -> Vector4:
-    """Return q*, the inverse rotation of a unit quaternion."""
+    """Return the conjugate q*, the inverse rotation of a unit quaternion."""
     return vector(q.w, -q.x, -q.y, -q.z)
 
 
 def normalise(q: Vector4) -> Vector4:
-    """Return q scaled to length one; no rotation where its length is 0 or NaN."""
+    """Return q scaled to length 1, or the identity rotation if its length is 0 or NaN."""
     largest = 0.0
     for i in range(4):
         size = abs(q[i])
@@ -47,7 +46,7 @@ def normalise(q: Vector4) -> Vector4:
 
 
 def is_attitude(q: Vector4) -> bool:
-    """Return True if a finite q is at least `SHORTEST` long."""
+    """Return True if a finite q is at least `SHORTEST` long, so that it can be normalised to an attitude."""
     for i in range(4):
         if abs(q[i]) >= SHORTEST:
             return True  # so that no square overflows
@@ -55,23 +54,23 @@ def is_attitude(q: Vector4) -> bool:
 
 
 def turn(scalar: float, e: Vector3, v: Vector3) -> Vector3:
-    """Return v turned by the unit quaternion (scalar, e): v + 2 e0 (e x v) + 2 e x (e x v)."""
+    """Return v rotated by the unit quaternion (scalar, e): v + 2 e0 (e x v) + 2 e x (e x v)."""
     twice = 2.0 * cross(e, v)
     return v + scalar * twice + cross(e, twice)
 
 
 def to_reference(q: Vector4, v: Vector3) -> Vector3:
-    """Return q v q*: a vector in body components, expressed in the reference frame."""
+    """Return q v q*: a vector in body components transformed to the reference frame."""
     return turn(q.w, vector(q.x, q.y, q.z), v)
 
 
 def to_body(q: Vector4, v: Vector3) -> Vector3:
-    """Return q* v q: a vector in reference components, expressed in the body frame."""
+    """Return q* v q: a vector in reference components transformed to the body frame."""
     return turn(q.w, vector(-q.x, -q.y, -q.z), v)
 
 
 def from_rotation_vector(rotation: Vector3) -> Vector4:
-    """Return the rotation about ``rotation`` by its length (rad)."""
+    """Return the quaternion of a rotation vector: axis times angle (rad)."""
     angle = norm(rotation)
     scale = 0.5
     if angle > 0.0:
@@ -80,7 +79,7 @@ def from_rotation_vector(rotation: Vector3) -> Vector4:
 
 
 def to_rotation_vector(q: Vector4) -> Vector3:
-    """Return axis times angle (rad) of q, the shorter way round: no longer than pi."""
+    """Return the rotation vector of q, axis times angle (rad), with an angle of at most pi."""
     sine = norm(q[1:4])
     sign = 1.0
     if q.w < 0.0:
@@ -92,7 +91,7 @@ def to_rotation_vector(q: Vector4) -> Vector3:
 
 
 def difference(reference: Vector4, q: Vector4) -> Vector4:
-    """Return reference* q: the rotation from the attitude ``reference`` to q, scalar not negative."""
+    """Return reference* q, the rotation from the attitude ``reference`` to q, with a nonnegative scalar."""
     error = multiply(conjugate(reference), q)
     if error.w < 0.0:
         return -error
@@ -100,13 +99,16 @@ def difference(reference: Vector4, q: Vector4) -> Vector4:
 
 
 def angle_error(reference: Vector4, q: Vector4) -> Vector3:
-    """Return 2 e0 e of (e0, e) = reference* q (rad, body): the axis times the sine of the angle."""
+    """Return the axis times the sine of the angle of the rotation from ``reference`` to q (rad, body).
+
+    It is 2 e0 e of (e0, e) = reference* q.
+    """
     rotation = difference(reference, q)
     return 2.0 * rotation.w * rotation[1:4]
 
 
 def to_rodrigues(q: Vector4) -> Vector3:
-    """Return e tan(angle/4): modified Rodrigues parameters, the shorter way round."""
+    """Return the modified Rodrigues parameters e tan(angle/4) of the rotation by at most pi."""
     sign = 1.0
     if q.w < 0.0:
         sign = -1.0

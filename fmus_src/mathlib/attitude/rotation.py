@@ -1,4 +1,4 @@
-"""Rotations from one direction to another. Kernel functions; no frame implied."""
+"""Rotations from one direction to another. Kernel functions; no particular frame is assumed."""
 
 from ...kernel.functions import atan2, cos, sin
 from ...kernel.records import Field, Record
@@ -8,17 +8,17 @@ ALIGNED = 1e-12  # sine below which two directions count as parallel
 
 
 class TurningDirection(Record):
-    """A direction that turns."""
+    """Rotating direction with its rate."""
 
     direction = Field(Vector3, unit="1", description="direction at the reference time, unit vector")
     rate = Field(Vector3, unit="1/s", description="time derivative of the direction")
 
 
 def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vector3, float]:
-    """Return a unit vector turned towards a unit vector goal by at most ``largest`` (rad), and the remaining angle
+    """Return a unit vector turned towards the unit vector goal by at most ``largest`` (rad), and the remaining angle
     (rad).
 
-    Opposite vectors turn about the axis farthest from them.
+    For opposite vectors the rotation is towards the coordinate axis farthest from them.
     """
     cosine = clip(dot(direction, goal), -1.0, 1.0)
     side = goal - cosine * direction
@@ -35,9 +35,9 @@ def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vec
 
 
 def rotation_between(start: Vector3, goal: Vector3) -> tuple[Vector3, float]:
-    """Return axis (unit) and angle (rad) of the shortest rotation from one direction to another.
+    """Return axis (unit vector) and angle (rad) of the shortest rotation from one direction to another.
 
-    Parallel directions turn about an axis perpendicular to them. Neither may have length 0.
+    Parallel directions have an axis perpendicular to them. The lengths must not be 0.
     """
     size = norm(start) * norm(goal)
     axis = cross(start, goal)

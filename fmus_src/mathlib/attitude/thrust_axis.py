@@ -1,7 +1,7 @@
-"""A thrust axis that is turned by angular accelerations. Kernel functions; no frame implied.
+"""Thrust axis turned by angular accelerations. Kernel functions; no particular frame is assumed.
 
-The axis d, a unit vector, turns with the angular rate w (rad/s) perpendicular to it: d' = w x d, and w' is the
-acceleration (rad/s2) without its component along d, no longer than a limit (0: none). Roll about d does not exist.
+The axis d, a unit vector, turns at the angular rate w (rad/s) perpendicular to it: d' = w x d. w' is the angular
+acceleration (rad/s2) without its component along d, limited in magnitude (limit 0: none). Roll about d is not modelled.
 """
 
 from ...kernel.integrators import runge_kutta_4
@@ -10,14 +10,14 @@ from ..vectors import Vector3, across, cross, limit_length, norm
 
 
 class AxisState(Record):
-    """A thrust axis that turns."""
+    """Direction and angular rate of a thrust axis."""
 
     axis = Field(Vector3, unit="1", description="direction of the axis, unit vector")
     rate = Field(Vector3, unit="rad/s", description="angular rate of the axis, perpendicular to it")
 
 
 def axis_derivatives(t: float, s: AxisState, acceleration: Vector3, limit: float) -> AxisState:
-    """Return the derivatives of axis and angular rate."""
+    """Return the time derivatives of axis and angular rate."""
     turning = across(acceleration, s.axis)
     if limit > 0.0:
         turning = limit_length(turning, limit)
@@ -25,8 +25,7 @@ def axis_derivatives(t: float, s: AxisState, acceleration: Vector3, limit: float
 
 
 def turn_axis(s: AxisState, acceleration: Vector3, limit: float, h: float) -> AxisState:
-    """Return axis and angular rate h (s) later under a constant acceleration: one step of Runge-Kutta's fourth
-    order."""
+    """Return axis and angular rate after h (s) under constant acceleration by one Runge-Kutta step of fourth order."""
     end = runge_kutta_4(axis_derivatives, 0.0, s, h, acceleration, limit)
     length = norm(end.axis)
     if not length > 0.0:

@@ -1,4 +1,4 @@
-"""Attitude from axes and from two directions. Kernel functions."""
+"""Attitude from three axes or two directions. Kernel functions."""
 
 from ...kernel.records import Field, Record
 from ..vectors import Vector3, Vector4, cross, norm, vector
@@ -6,14 +6,14 @@ from .quaternion import conjugate, multiply, normalise, quaternion
 
 
 class AxesAttitude(Record):
-    """Attitude of two directions, and whether they are not parallel."""
+    """Attitude determined by two directions, and whether it exists."""
 
     quaternion = Field(Vector4, unit="1", description="attitude quaternion from body to inertial, scalar first")
     exists = Field(bool, description="true: directions far enough from parallel in both frames")
 
 
 def from_axes(x: Vector3, y: Vector3, z: Vector3) -> Vector4:
-    """Return the quaternion whose rotation turns the unit vectors of the axes into x, y, z, a right-handed triad.
+    """Return the quaternion that transforms the right-handed triad of unit vectors into x, y and z.
 
     Its scalar is not negative. Source: Shepperd 1978, the largest component first.
     """
@@ -32,7 +32,7 @@ def from_axes(x: Vector3, y: Vector3, z: Vector3) -> Vector4:
 
 
 def from_pair(first: Vector3, second: Vector3) -> Vector4:
-    """Return the attitude of a triad: x along the first vector, z along first x second; they must not be parallel."""
+    """Return the attitude with x along the first vector and z along first x second; they must not be parallel."""
     x = first / norm(first)
     across = cross(first, second)
     z = across / norm(across)
@@ -40,15 +40,15 @@ def from_pair(first: Vector3, second: Vector3) -> Vector4:
 
 
 def parallel(a: Vector3, b: Vector3, sine: float) -> bool:
-    """Return True if the sine of the angle between two vectors is not above ``sine``, or one of them is 0."""
+    """Return True if the sine of the angle between two vectors is not above ``sine``, or one vector is 0."""
     return not norm(cross(a, b)) > sine * norm(a) * norm(b)
 
 
 def triad(body_first: Vector3, body_second: Vector3, first: Vector3, second: Vector3, sine: float) -> AxesAttitude:
-    """Return the attitude that has the first direction exactly and the second in its plane.
+    """Return the attitude that aligns the first direction exactly and the second within their plane.
 
-    The same two directions in body axes and in inertial ones, of any length; ``sine`` is that of the smallest angle
-    between them. Source: Black 1964; Markley and Crassidis 2014, section 5.1.
+    Each direction, of any length, is given in body and in inertial axes; ``sine`` is the sine of the smallest angle
+    allowed between the two. Source: Black 1964; Markley and Crassidis 2014, section 5.1.
     """
     if parallel(body_first, body_second, sine) or parallel(first, second, sine):
         return AxesAttitude(quaternion=vector(1.0, 0.0, 0.0, 0.0), exists=False)

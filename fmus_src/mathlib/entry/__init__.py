@@ -1,1 +1,1 @@
-"""Entry into the atmosphere. Kernel functions."""
+"""Atmospheric entry. Kernel functions."""

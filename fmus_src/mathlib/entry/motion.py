@@ -1,8 +1,10 @@
-"""Flight over a turning, spherical Earth, and attitude against the velocity. Kernel functions.
+"""Motion over a rotating, spherical Earth, and attitude relative to the velocity. Kernel functions.
 
-Velocity axes: x along the velocity, y up in the vertical plane through it, z = x x y. Attitude: bank, sideslip and
-attack, turns about velocity x, then body -y and z as written in `body_axes`. Equations:
-docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
+Velocity axes: x along the velocity, y up in the vertical plane through it, z = x x y. The attitude is bank, sideslip
+and angle of attack: rotations about velocity x, then body -y and z as written in `body_axes`. Equations:
+docs/systems/entry_attitude.md.
+
+Source: Lapin, thesis, chapter 1.2.
 """
 
 from ...kernel.functions import cos, sin, tan
@@ -11,7 +13,7 @@ from ..vectors import Vector3, dot, vector
 
 
 class EntryState(Record):
-    """Capsule over a turning, spherical Earth."""
+    """Motion of a capsule over a rotating, spherical Earth."""
 
     radius = Field(unit="m", frozen=True, description="distance from the Earth's centre")
     longitude = Field(unit="rad", frozen=True, description="longitude of the capsule")
@@ -30,7 +32,7 @@ class EntryState(Record):
 
 
 class BodyAxes(Record):
-    """The body's axes in velocity axes, unit vectors."""
+    """Unit vectors of the body axes in velocity axes."""
 
     x = Field(Vector3, unit="1")
     y = Field(Vector3, unit="1")
@@ -38,7 +40,7 @@ class BodyAxes(Record):
 
 
 class PathRate(Record):
-    """Rates of position and velocity."""
+    """Time derivatives of position and velocity."""
 
     radius = Field(unit="m/s")
     longitude = Field(unit="rad/s")
@@ -61,7 +63,7 @@ class PathFunctions(Record):
 
 
 def body_axes(attitude: Vector3) -> BodyAxes:
-    """Return the body's axes."""
+    """Return the body axes in velocity axes for bank, sideslip and angle of attack (rad)."""
     sg = sin(attitude.x)
     cg = cos(attitude.x)
     sb = sin(attitude.y)
@@ -74,12 +76,12 @@ def body_axes(attitude: Vector3) -> BodyAxes:
 
 
 def in_body(axes: BodyAxes, v: Vector3) -> Vector3:
-    """Return a vector of velocity axes in the body's."""
+    """Return a vector in velocity axes transformed to body axes."""
     return vector(dot(axes.x, v), dot(axes.y, v), dot(axes.z, v))
 
 
 def evaluate_path(s: EntryState) -> PathFunctions:
-    """Evaluate functions of the angles of a state, which the rates below share."""
+    """Return sines, cosines and tangents of the angles of a state, which the functions below share."""
     return PathFunctions(
         sin_path=sin(s.flight_path_angle),
         cos_path=cos(s.flight_path_angle),
@@ -92,7 +94,7 @@ def evaluate_path(s: EntryState) -> PathFunctions:
 
 
 def earth_forces(s: EntryState, a: PathFunctions, gravitational_parameter: float, earth_rate: float) -> Vector3:
-    """Return gravity and the terms of the Earth's rotation (m/s2, velocity axes)."""
+    """Return gravity and the accelerations of the Earth's rotation (m/s2, velocity axes)."""
     gravity = gravitational_parameter / (s.radius * s.radius)
     coriolis = 2.0 * s.speed * earth_rate
     transport = earth_rate * earth_rate * s.radius * a.cos_latitude
@@ -107,7 +109,7 @@ def earth_forces(s: EntryState, a: PathFunctions, gravitational_parameter: float
 
 
 def path_rate(s: EntryState, a: PathFunctions, acceleration: Vector3) -> PathRate:
-    """Return the rates of position and velocity under an acceleration (m/s2, velocity axes)."""
+    """Return the time derivatives of position and velocity under an acceleration (m/s2, velocity axes)."""
     over = s.speed * a.cos_path / s.radius
     return PathRate(
         radius=s.speed * a.sin_path,
@@ -120,7 +122,7 @@ def path_rate(s: EntryState, a: PathFunctions, acceleration: Vector3) -> PathRat
 
 
 def velocity_axes_rate(s: EntryState, a: PathFunctions, rate: PathRate, earth_rate: float) -> Vector3:
-    """Return absolute angular velocity (rad/s) of the velocity axes, in themselves."""
+    """Return the angular velocity (rad/s, velocity axes) of the velocity axes relative to the inertial frame."""
     over = s.speed * a.cos_path / s.radius
     u = rate.heading + over * a.cos_heading * a.tan_latitude
     return vector(
@@ -131,8 +133,10 @@ def velocity_axes_rate(s: EntryState, a: PathFunctions, rate: PathRate, earth_ra
 
 
 def attitude_rates(attitude: Vector3, n: Vector3) -> Vector3:
-    """Return rates (rad/s) of bank, sideslip and attack for an angular velocity n (rad/s, body)
-    against the velocity axes."""
+    """Return the time derivatives (rad/s) of bank, sideslip and angle of attack.
+
+    n (rad/s, body) is the angular velocity of the body relative to the velocity axes.
+    """
     sa = sin(attitude.z)
     ca = cos(attitude.z)
     along = n.x * ca - n.y * sa

@@ -1,7 +1,7 @@
-"""Coefficients of a spherical cap in supersonic flow by Newton's law, for tables that blocks declare. No kernels.
+"""Coefficients of a spherical cap in supersonic flow by Newton's law, for tables declared by blocks. Not kernels.
 
-The cap's windward side takes Cp sin^2 of the local inclination, Cp the stagnation point's behind a normal shock
-(Rayleigh's pitot formula). With k = sin^2 of the cap's half angle, while all of it is windward:
+The pressure coefficient on the windward side is Cp sin^2 of the local inclination, with Cp at the stagnation point
+behind a normal shock (Rayleigh's pitot formula). With k = sin^2 of the cap's half-angle, and a fully windward cap:
 
     Cx = Cp (cos^2 a (2 - k)/2 + sin^2 a k/4)        Cy = Cp (k/2) sin a cos a
 
@@ -16,7 +16,7 @@ HEAT_RATIO = 1.4
 
 
 def stagnation_coefficient(mach: float) -> float:
-    """Return the pressure coefficient at the stagnation point behind a normal shock, mach > 1."""
+    """Return the pressure coefficient at the stagnation point behind a normal shock, for mach > 1."""
     g, square = HEAT_RATIO, mach * mach
     ratio = ((g + 1.0) ** 2 * square / (4.0 * g * square - 2.0 * (g - 1.0))) ** (g / (g - 1.0))
     return 2.0 / (g * square) * (ratio * (1.0 - g + 2.0 * g * square) / (g + 1.0) - 1.0)
@@ -25,10 +25,10 @@ def stagnation_coefficient(mach: float) -> float:
 def cap_tables(
     base_radius: float, cap_radius: float, machs: list[float], degrees: list[float]
 ) -> tuple[list[float], list[float]]:
-    """Return Cx and Cy of a cap (radii in m) over Mach numbers and spatial angles of attack (deg), rows of one Mach
-    number.
+    """Return tables of Cx and Cy of a cap (radii in m), with a row per Mach number and a column per total angle of
+    attack.
 
-    Rounded to six decimals, as the published table is.
+    Angles are in deg; values are rounded to six decimals like the published table.
     """
     k = (base_radius / cap_radius) ** 2
     axial, normal = [], []

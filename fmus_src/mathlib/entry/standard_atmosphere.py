@@ -1,8 +1,8 @@
-"""The US standard atmosphere of 1976. Kernel functions.
+"""US Standard Atmosphere 1976. Kernel functions.
 
-Up to 86 km the layers of geopotential height, each with its lapse rate; above, the logarithm of the density is linear
-between tabulated points and the speed of sound stays. Source: U.S. Standard Atmosphere 1976 (NASA-TM-X-74335),
-equations 23 and 33 and table IV.
+Up to 86 km it consists of layers of geopotential height, each with its lapse rate; above, the logarithm of the density
+is linear between tabulated points and the speed of sound is constant. Source: U.S. Standard Atmosphere 1976
+(NASA-TM-X-74335), equations 23 and 33 and table IV.
 """
 
 import math
@@ -19,14 +19,14 @@ THIN_SOUND = 274.096  # m/s, above
 
 
 class Air(Record):
-    """Air at rest."""
+    """Density and speed of sound of air at rest."""
 
     density = Field(unit="kg/m3")
     speed_of_sound = Field(unit="m/s")
 
 
 def thin_density(h: float) -> float:
-    """Return density (kg/m3) at heights h (m) from 86 km on, held beyond 130 km."""
+    """Return the density (kg/m3) at a height h (m) above 86 km, constant above 130 km."""
     height = [86000.0, 90000.0, 95000.0, 100000.0, 105000.0, 110000.0, 115000.0, 120000.0, 130000.0]
     density = [6.958e-6, 3.416e-6, 1.393e-6, 5.604e-7, 2.325e-7, 9.708e-8, 4.289e-8, 2.222e-8, 8.152e-9]
     if h >= height[8]:
@@ -39,7 +39,7 @@ def thin_density(h: float) -> float:
 
 
 def air_in_layers(geopotential: float) -> Air:
-    """Return the air at a geopotential height (m), the highest layer continued to 90 km."""
+    """Return density and speed of sound at a geopotential height (m), with the highest layer extended to 90 km."""
     base = [0.0, 11000.0, 20000.0, 32000.0, 47000.0, 51000.0, 71000.0, 90000.0]
     lapse = [-0.0065, 0.0, 0.001, 0.0028, 0.0, -0.0028, -0.002]
     temperature = 288.15
@@ -62,7 +62,7 @@ def air_in_layers(geopotential: float) -> Air:
 
 
 def air(h: float) -> Air:
-    """Return the air at the height h (m) above the sphere."""
+    """Return density and speed of sound at the height h (m) above the sphere."""
     if h >= TOP:
         return Air(density=thin_density(h), speed_of_sound=THIN_SOUND)
     return air_in_layers(EARTH_RADIUS * h / (EARTH_RADIUS + h))

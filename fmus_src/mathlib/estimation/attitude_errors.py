@@ -1,6 +1,7 @@
-"""Growth of errors of an attitude propagated by gyros. Kernel functions.
+"""Error propagation of an attitude integrated from gyros. Kernel functions.
 
-States: small rotation from the estimated to the true attitude in body axes (rad), error of the gyros' bias (rad/s).
+States: small rotation from the estimated to the true attitude in body axes (rad), error of the gyro bias (rad/s).
+
 Source: Lefferts, Markley and Shuster 1982; Crassidis and Junkins 2012, section 7.2.1; Farrenkopf 1978.
 """
 
@@ -18,10 +19,11 @@ SMALL = 1e-6  # rad, below which the factors of [turn] are those of no turn
 
 
 def transition(turn: Vector3, h: float) -> Matrix:
-    """Return F (6 x 6) over h (s), in which the body turns by ``turn`` (rad).
+    """Return the transition matrix F (6 x 6) over h (s), in which the body turns by the rotation vector ``turn``
+    (rad).
 
-    The rotation turns back with the body; a bias adds -h (1 - (1 - cos a)/a^2 [turn] + (a - sin a)/a^3 [turn]^2) times
-    itself, a = |turn|.
+    The rotation error turns back with the body; a bias error adds -h (1 - (1 - cos a)/a^2 [turn] + (a - sin a)/a^3
+    [turn]^2) times itself, with a = |turn|.
     """
     f = identity(6)
     q = from_rotation_vector(turn)
@@ -41,8 +43,10 @@ def transition(turn: Vector3, h: float) -> Matrix:
 
 
 def random_walks(gyro: float, bias: float, h: float) -> Matrix:
-    """Return Q (6 x 6) of an angle random walk (rad/sqrt(s)) and a random walk of the bias (rad/s/sqrt(s)) over h
-    (s)."""
+    """Return the process noise Q (6 x 6) over h (s) of an angle random walk and a random walk of the bias.
+
+    Their densities are in rad/sqrt(s) and rad/s/sqrt(s).
+    """
     q = zeros(6, 6)
     q[ROTATION, ROTATION] = (gyro * gyro * h + bias * bias * h * h * h / 3.0) * identity(3)
     q[ROTATION, BIAS] = -0.5 * bias * bias * h * h * identity(3)
@@ -52,12 +56,12 @@ def random_walks(gyro: float, bias: float, h: float) -> Matrix:
 
 
 def predict_attitude(p: Matrix, turn: Vector3, gyro: float, bias: float, h: float) -> Matrix:
-    """Predict the covariance (6 x 6) after h (s)."""
+    """Return the covariance (6 x 6) after h (s)."""
     return predict(p, transition(turn, h), random_walks(gyro, bias, h))
 
 
 def standard_deviations(p: Matrix, k: int) -> Vector3:
-    """Return standard deviations of the states k to k + 2 of a covariance; 0 where rounding has left less than that."""
+    """Return the standard deviations of the states k to k + 2; 0 for a variance that rounding has made negative."""
     variances = vector(p[k, k], p[k + 1, k + 1], p[k + 2, k + 2])
     deviations = [0.0] * 3
     for i in range(3):

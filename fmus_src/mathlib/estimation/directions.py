@@ -1,6 +1,7 @@
 """Measured directions in a filter of attitude errors. Kernel functions.
 
-States as in `attitude_errors`: the small rotation is in body axes, on the right of the estimated attitude.
+States as in `attitude_errors`: the small rotation is in body axes and multiplies the estimated attitude from the right.
+
 Source: Markley and Crassidis 2014, sections 5.1 and 6.2.
 """
 
@@ -12,14 +13,14 @@ from .kalman import update
 
 
 def sensitivity(predicted: Vector3) -> Matrix:
-    """Return H (3 x 6) of a direction (body) that the estimated attitude predicts: [b x] of the rotation."""
+    """Return the sensitivity H (3 x 6) of a predicted direction b (body): [b x] with respect to the rotation error."""
     h = zeros(3, 6)
     h[0:3, ROTATION] = cross_matrix(predicted)
     return h
 
 
 def innovation(q: Vector4, reference_inertial: Vector3, measured_body: Vector3) -> Vector3:
-    """Return a measured direction less the predicted one, both of length one; neither may be 0."""
+    """Return measured minus predicted direction, both normalised; neither may be 0."""
     return measured_body / norm(measured_body) - to_body(q, reference_inertial / norm(reference_inertial))
 
 
@@ -34,7 +35,7 @@ def squared_distance(p: Matrix, h: Matrix, variances: Vector3, z: Vector3) -> fl
 
 
 def update_three(x: Matrix, p: Matrix, h: Matrix, variances: Vector3, z: Vector3) -> tuple[Matrix, Matrix, float]:
-    """Return x and P with three scalars taken in one after another, and the sum of their normalised squares."""
+    """Return x and P updated by three scalars in turn, and the sum of their normalised innovations squared."""
     y = x.copy()
     corrected = p.copy()
     row = zeros(1, 6)

@@ -1,4 +1,4 @@
-"""Inertial navigation under central gravity, and how its errors grow. Kernel functions.
+"""Inertial navigation under central gravity, and propagation of its errors. Kernel functions.
 
 Frame: landing site (z up); the Moon's centre is ``radius`` below the origin.
 """
@@ -23,11 +23,12 @@ SENSOR = block(6, 9)
 def dead_reckon(
     position: Vector3, velocity: Vector3, force: Vector3, before: Vector3, radius: float, mu: float, h: float
 ) -> tuple[Vector3, Vector3]:
-    """Return position and velocity h (s) later, from the mean specific forces of this step and of the one before.
+    """Return position (m) and velocity (m/s) after h (s), from the mean specific forces of this step and the previous
+    one.
 
-    Gravity by the trapezoidal rule. The specific force is taken as linear in time, with the slope between the two
-    means: as constant in each step it would put the position wrong by h^2/12 times its change since the start, which is
-    7 mm over a landing with steps of 0.1 s.
+    Gravity is integrated by the trapezoidal rule. The specific force is linear in time, with the slope between the two
+    means; a constant specific force in each step would give a position error of h^2/12 times its change since the
+    start, 7 mm over a landing with steps of 0.1 s.
     """
     here = central_gravity(position, radius, mu)
     ahead = central_gravity(position + h * velocity, radius, mu)
@@ -36,15 +37,18 @@ def dead_reckon(
 
 
 def sensor_addition(bias: Vector3, scale_factor: Vector3, rotation: Vector3, f: Vector3) -> Vector3:
-    """Return b + diag(k) f + w x f, with bias b (m/s2), scale factors k and rotation w (rad)."""
+    """Return the error b + diag(k) f + w x f of specific force f, with bias b (m/s2), scale factors k and rotation w
+    (rad).
+    """
     return add_cross(bias + scale_factor * f, rotation, f)
 
 
 def propagate(
     position: Vector3, velocity: Vector3, added: Vector3, up: Vector3, gradient: float, h: float
 ) -> tuple[Vector3, Vector3]:
-    """Return errors of position and velocity h (s) later, where the sensor's errors have
-    ``added`` to the specific force."""
+    """Return the errors of position and velocity after h (s), where sensor errors have ``added`` (m/s2) to specific
+    force.
+    """
     a = added
     if gradient > 0.0:
         a = a - gravity_difference(position + 0.5 * h * velocity, up, gradient)
@@ -52,7 +56,9 @@ def propagate(
 
 
 def start_errors(position: float, velocity: float, bias: float, scale_factor: float, rotation: float) -> Matrix:
-    """Return covariance P (15 x 15) from standard deviations of the states, each the same for three."""
+    """Return the initial covariance P (15 x 15) from the standard deviations of five states with three equal axes
+    each.
+    """
     p = zeros(STATES, STATES)
     p[POSITION, POSITION] = position * position * identity(3)
     p[VELOCITY, VELOCITY] = velocity * velocity * identity(3)
@@ -65,16 +71,16 @@ def start_errors(position: float, velocity: float, bias: float, scale_factor: fl
 def predict_errors(
     p: Matrix, f: Vector3, sensing: bool, walk: float, drift: float, up: Vector3, gradient: float, h: float
 ) -> None:
-    """Predict the covariance P (15 x 15) of inertial navigation h (s) ahead under the specific force f (m/s2).
+    """Return the covariance P (15 x 15) of inertial navigation after h (s) under the specific force f (m/s2).
 
-    States: position, velocity, and the errors of the inertial sensor's specific force: bias b, scale factors k and a
-    small rotation w, b + diag(k) f + w x f, constant but for a random walk of b of density ``drift`` (m2/s5). Velocity
-    increments have white errors of density ``walk`` (m2/s3) besides. Where ``sensing`` is false no specific force is
-    measured, and none of these errors acts. A ``gradient`` of gravity (1/s2, along the unit vector ``up``) adds
-    gradient (3 up up' - 1) times the position error half a step on to the acceleration, as in dead reckoning by the
-    trapezoidal rule; 0 leaves it out.
+    States: position, velocity, and the errors b + diag(k) f + w x f of measured specific force: bias b, scale factors k
+    and a small rotation w, constant except for a random walk of b of density ``drift`` (m2/s5). Velocity increments
+    also have white errors of density ``walk`` (m2/s3). If ``sensing`` is False, no specific force is measured and these
+    errors have no effect. A ``gradient`` of gravity (1/s2, along the unit vector ``up``) adds gradient (3 up up' - 1)
+    times the position error after half a step to the acceleration, as in dead reckoning by the trapezoidal rule; 0
+    omits it.
 
-    P = F P F' + Q, where F is `propagate`, applied to each column of P and then to the rows that are not yet F P F'.
+    P becomes F P F' + Q, where F is `propagate`, applied first to each column of P and then to the rows.
     """
     a = vector(0.0, 0.0, 0.0)
     for j in range(STATES):  # F P

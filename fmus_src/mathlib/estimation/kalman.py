@@ -1,8 +1,10 @@
-"""Kalman filter in discrete time. Kernel functions.
+"""Discrete-time Kalman filter. Kernel functions.
 
-The estimate x is a column of n, its covariance P n x n. Measurements are scalars z = h x + error, h a row, taken one
-after another, which needs no matrix inverse and is exact for independent errors: `update` takes in a linear one at
-once; `innovation_variance` and `take_in` split it, for a gate in between and for measurements that are not linear in x.
+The estimate x is a column of n elements with covariance P, n x n. Measurements are scalars z = h x + error with a row
+h, processed one after another; this needs no matrix inverse and is exact for independent errors. `update` processes a
+linear measurement in one call; `innovation_variance` and `take_in` divide it in two, for a gate in between and for
+nonlinear measurements.
+
 Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.2, 5.4 and 7.4.
 """
 
@@ -10,12 +12,12 @@ from ...kernel.matrices import Matrix, add_product
 
 
 def predict(p: Matrix, f: Matrix, q: Matrix) -> Matrix:
-    """Return F P F' + Q; the estimate becomes F x, and a known input is added to it."""
+    """Return the predicted covariance F P F' + Q; the caller propagates the estimate."""
     return add_product(q, f @ p, f.T)
 
 
 def innovation_variance(p: Matrix, h: Matrix, variance: float) -> float:
-    """Return S = h P h' + variance, that of a scalar's innovation."""
+    """Return the variance S = h P h' + variance of a scalar's innovation."""
     ph = p @ h.T
     s = variance
     for i in range(len(p)):
@@ -24,10 +26,10 @@ def innovation_variance(p: Matrix, h: Matrix, variance: float) -> float:
 
 
 def take_in(p: Matrix, h: Matrix, s: float, variance: float) -> tuple[Matrix, Matrix]:
-    """Return the gain K = P h' / S and covariance after a scalar with the variance S > 0 of `innovation_variance`.
+    """Return the gain K = P h' / S and the covariance after a scalar with the variance S > 0 of `innovation_variance`.
 
-    x becomes x + K innovation. The covariance takes Joseph's form, P = (1 - K h) P (1 - K h)' + K variance K', which
-    stays symmetric and positive whatever the gain's rounding.
+    The caller updates x to x + K innovation. The covariance has Joseph's form, P = (1 - K h) P (1 - K h)' + K variance
+    K', which stays symmetric and positive despite rounding of the gain.
     """
     ph = p @ h.T
     k = ph / s
@@ -38,7 +40,7 @@ def take_in(p: Matrix, h: Matrix, s: float, variance: float) -> tuple[Matrix, Ma
 def update(x: Matrix, p: Matrix, h: Matrix, variance: float, z: float) -> tuple[Matrix, Matrix, float]:
     """Return x and P updated by the scalar measurement z = h x + error, and the normalised innovation squared.
 
-    ``variance`` is that of the error (> 0).
+    ``variance`` (> 0) is the variance of the measurement error.
     """
     s = innovation_variance(p, h, variance)
     predicted = h @ x

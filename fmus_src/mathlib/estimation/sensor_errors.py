@@ -1,4 +1,4 @@
-"""Errors that sensors have in common. Kernel functions."""
+"""Errors common to several sensors. Kernel functions."""
 
 import math
 
@@ -10,17 +10,17 @@ LATEST = 4  # samples by which one may be late
 
 
 def next_markov(error: Vector3, elapsed: float, time: float, sigma: float, numbers: Vector3) -> Vector3:
-    """Return a first-order Gauss-Markov error after ``elapsed`` (s), exactly discretised.
+    """Return a first-order Gauss-Markov error after ``elapsed`` (s), discretised exactly.
 
-    ``time`` (s) is that of its correlation, e^(-t/time), ``sigma`` its standard deviation per axis, in the unit of the
-    error, and ``numbers`` are normal. Source: Gelb 1974, section 3.8.
+    ``time`` (s) is its correlation time, with correlation e^(-t/time), and ``sigma`` its standard deviation per axis in
+    the unit of the error; ``numbers`` are standard normal. Source: Gelb 1974, section 3.8.
     """
     decay = exp(-elapsed / time)
     return decay * error + sigma * math.sqrt(1.0 - decay * decay) * numbers
 
 
 def quantise(y: Vector3, quantum: float) -> Vector3:
-    """Return the vector with its components at the nearest multiples of a quantum; as it is where that is 0."""
+    """Return the vector with components rounded to multiples of a quantum; unchanged for a quantum of 0."""
     if quantum > 0.0:
         return quantum * vector(
             float(math.floor(y.x / quantum + 0.5)),
@@ -31,12 +31,12 @@ def quantise(y: Vector3, quantum: float) -> Vector3:
 
 
 def saturate(y: Vector3, largest: float) -> Vector3:
-    """Return the vector with its components within +-largest."""
+    """Return the vector with components limited to +-largest."""
     return vector(clip(y.x, -largest, largest), clip(y.y, -largest, largest), clip(y.z, -largest, largest))
 
 
 def make_room(samples: Matrix, columns: int) -> None:
-    """Move all samples, by row, the newest first, one row down."""
+    """Move all samples, one per row with the newest first, down by one row."""
     for i in range(LATEST):
         row = LATEST - i
         for k in range(columns):
@@ -44,7 +44,7 @@ def make_room(samples: Matrix, columns: int) -> None:
 
 
 def add_cross(a: Vector3, rotation: Vector3, f: Vector3) -> Vector3:
-    """Return a + rotation x f, summed in this order: what a small rotation (rad) of the axes adds to a measured f."""
+    """Return a + rotation x f, summed in this order: the effect of a small rotation (rad) of the axes on f."""
     return vector(
         a.x + rotation.y * f.z - rotation.z * f.y,
         a.y + rotation.z * f.x - rotation.x * f.z,

@@ -1,8 +1,9 @@
-"""Kalman filter for a value, its rate and a disturbance of the rate, the same for every axis. Kernel functions.
+"""Kalman filter of a value, its rate and a disturbance of the rate, equal for all axes. Kernel functions.
 
-Axes that are equally known and equally measured share one covariance: 2 x 2, of value and rate, or 3 x 3, of the
-disturbance, a rate of the rate, too. What is known of the rate's change is added to the estimates by the caller, and
-so is the innovation times the gain.
+Axes with equal initial and measurement errors share one covariance: 2 x 2 for value and rate, or 3 x 3 with the
+disturbance, an unknown derivative of the rate. The caller adds the known derivative of the rate and gain times
+innovation to the estimates.
+
 Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.2, 6.2.2 and 6.2.3 (discretised white noise).
 """
 
@@ -16,8 +17,10 @@ DISTURBANCE = 2
 
 
 def predict_pair(p: Matrix, r: float, h: float) -> Matrix:
-    """Return covariance of value and rate after h (s), under white noise of density r
-    (value^2/s^3) on the rate's change."""
+    """Return the covariance of value and rate after h (s) with white noise in the derivative of the rate.
+
+    r is its spectral density (value^2/s^3).
+    """
     f = matrix([1.0, h], [0.0, 1.0])
     q12 = r * h * h / 2.0
     q = matrix([r * h * h * h / 3.0, q12], [q12, r * h])
@@ -25,8 +28,11 @@ def predict_pair(p: Matrix, r: float, h: float) -> Matrix:
 
 
 def predict_triple(p: Matrix, r: float, d: float, h: float) -> Matrix:
-    """Return covariance with a disturbance after h (s), under white noise of density d
-    (value^2/s^5) on its change, too."""
+    """Return the covariance with a disturbance after h (s), also with white noise in the derivative of the
+    disturbance.
+
+    d is its spectral density (value^2/s^5).
+    """
     f = matrix([1.0, h, 0.5 * h * h], [0.0, 1.0, h], [0.0, 0.0, 1.0])
     q11 = r * h * h * h / 3.0 + d * h * h * h * h * h / 20.0
     q12 = r * h * h / 2.0 + d * h * h * h * h / 8.0
@@ -38,10 +44,7 @@ def predict_triple(p: Matrix, r: float, d: float, h: float) -> Matrix:
 
 
 def measure_chain(p: Matrix, variance: float) -> tuple[Matrix, Matrix, float]:
-    """Return the gain, an innovation's effect per unit; covariance after the value was measured with a variance (> 0).
-
-    And the innovation's variance.
-    """
+    """Return gain, covariance and variance of the innovation for a measurement of the value with a variance (> 0)."""
     h = zeros(1, len(p))
     h[0, TRACKED] = 1.0
     s = innovation_variance(p, h, variance)

@@ -1,1 +1,1 @@
-"""Transfers between points of hover. Kernel functions."""
+"""Transfers between hovers. Kernel functions."""

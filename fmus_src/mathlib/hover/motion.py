@@ -1,7 +1,8 @@
 """Motion under the simplified hover-to-hover programme, by quadrature. Kernel functions.
 
-Controls depend on time alone, so velocity and position are integrals: x' = A cos th, y' = A sin th - g,
-A = full or least over the mass that is left. In the plane of the transfer: x towards the target, y up; from rest.
+The controls depend on time alone, so velocity and position are integrals: x' = A cos th, y' = A sin th - g, with A the
+full or least thrust over the remaining mass. The plane of the transfer has x towards the target and y up; the motion
+starts at rest.
 
 Source: Huang 2017; Gauss-Legendre quadrature: Abramowitz and Stegun 1964, table 25.4.
 """
@@ -14,7 +15,7 @@ LONGEST = 30.0  # s; longest interval of eight nodes, which leave below 1e-9 of 
 
 
 class HoverVehicle(Record):
-    """A lander as its plan takes it."""
+    """Data of a lander for the planning of a programme."""
 
     full = Field(unit="m/s2", frozen=True, description="largest thrust in the plan over the mass at its start")
     least = Field(unit="m/s2", frozen=True, description="least thrust in the plan over the mass at its start")
@@ -34,25 +35,26 @@ class PlaneMotion(Record):
 
 
 class ThrustSpan(Record):
-    """A span of time over which pitch is one parabola and thrust is one value."""
+    """Time span with a parabolic thrust angle and constant thrust."""
 
     end = Field(unit="s", description="end of the span")
     thrust = Field(unit="m/s2", description="thrust over the mass at the start of the programme")
 
 
 def without_motion() -> PlaneMotion:
-    """Return no motion: at the start, at rest."""
+    """Return the motion at rest in the starting point, marked as nonexistent."""
     return PlaneMotion(x=0.0, x_rate=0.0, y=0.0, y_rate=0.0, exists=False)
 
 
 def propellant(s: HoverShape, vehicle: HoverVehicle, t: float) -> float:
-    """Return propellant spent until t (s, up to the end of the shape s) over the mass at the start."""
+    """Return the propellant used until t (s, up to the end of the shape s) divided by the initial mass."""
     return (vehicle.least * t + (vehicle.full - vehicle.least) * burnt(s, t)) / vehicle.exhaust
 
 
 def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: float) -> float:
-    """Return integral (m/s) of thrust over mass from one time to another (s), by the rocket
-    equation; 0 where it has none."""
+    """Return the integral (m/s) of thrust over mass between two times (s) by the rocket equation; 0 if no mass is
+    left.
+    """
     before = 1.0 - propellant(s, vehicle, begin)
     after = 1.0 - propellant(s, vehicle, end)
     if not (before > 0.0 and after > 0.0):
@@ -112,7 +114,7 @@ def end_motion(p: HoverProgramme, vehicle: HoverVehicle) -> PlaneMotion:
 
 
 def thrust_span(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float) -> ThrustSpan:
-    """Return the span from ``begin`` (s) on, which ends at ``until`` (s) at the latest."""
+    """Return the span that starts at ``begin`` (s) and ends at the next switching or at ``until`` (s)."""
     end = until
     thrust = vehicle.least
     if full_thrust(s, begin):
@@ -129,14 +131,14 @@ def thrust_span(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float
 
 
 def earlier(time: float, begin: float, end: float) -> float:
-    """Return the time (s) where it is between begin and end, otherwise the end."""
+    """Return the time (s) if it lies between begin and end, otherwise the end."""
     if time > begin and time < end:
         return time
     return end
 
 
 def nodes(node: list, weight: list) -> None:
-    """Set abscissas and weights of Gauss-Legendre quadrature of eight nodes over [0, 1]."""
+    """Set abscissas and weights of the eight-point Gauss-Legendre quadrature over [0, 1]."""
     place = [0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363]
     fraction = [0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763]
     for k in range(4):

@@ -1,7 +1,7 @@
-"""From one simplified hover-to-hover programme to the next: farther aside, or of another duration. Kernel functions.
+"""Continuation from one simplified hover-to-hover programme to another with more distance or time. Kernel functions.
 
-Programmes, shapes and vehicles as in `shape` and `motion`; x and y (m) are the target's place in the plane
-of the transfer. The path is ours.
+Programmes, shapes and vehicles as in `shape` and `motion`; x and y (m) are the coordinates of the target in the plane
+of the transfer. The continuation was developed for this repository.
 """
 
 import math
@@ -26,14 +26,14 @@ TILT = 0.01  # rad, for the response to small tilts
 
 
 class ReachedProgramme(Record):
-    """A programme that ends as far aside as could be reached."""
+    """Programme with the largest horizontal distance that a continuation reached."""
 
     programme = Field(HoverProgramme, description="programme with the largest horizontal distance reached")
     x = Field(unit="m", description="horizontal distance at the end of the programme; 0: not feasible")
 
 
 def vertical(y: float, vehicle: HoverVehicle) -> HoverSolution:
-    """Return the programme straight down."""
+    """Return the programme of a vertical descent."""
     nothing = HoverSolution(programme=without_programme(), is_feasible=False)
     fall = vehicle.gravity - vehicle.least
     brake = vehicle.full - vehicle.gravity
@@ -50,10 +50,11 @@ def vertical(y: float, vehicle: HoverVehicle) -> HoverSolution:
 
 
 def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Tilt the vertical programme p so that it ends about x (m) aside; return p where that is impossible.
+    """Return the vertical programme p tilted to end at a horizontal distance of about x (m), or p if that is
+    impossible.
 
-    The deviation is about -u (1 - t/t7) + v t/t7, to which the end answers linearly; u and v follow from x, and from
-    rest.
+    The thrust angle is about -u (1 - t/t7) + v t/t7, on which the end depends linearly; u and v follow from x and from
+    rest at the end.
     """
     upright = HoverSolution(programme=p, is_feasible=False)
     turn = 2.0 * math.sqrt(TILT / vehicle.swing)
@@ -76,21 +77,21 @@ def little_aside(x: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSol
 
 
 def widen(p: HoverProgramme, factor: float) -> HoverProgramme:
-    """Return the programme with both turns longer by a factor."""
+    """Return the programme with the durations of both turns multiplied by a factor."""
     return replace(p, t2=factor * p.t2, t5=p.t7 - factor * (p.t7 - p.t5))
 
 
 def lengthen(p: HoverProgramme, end: float) -> HoverProgramme:
-    """Return the programme with another end (s), its last burn moved with it."""
+    """Return the programme with another end time (s) and its last burn moved accordingly."""
     return replace(p, t5=p.t5 + end - p.t7, t7=end)
 
 
 def solve_farther(
     kind: int, growth: float, distance: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
 ) -> tuple[HoverSolution, float]:
-    """Return the programme ``growth`` times as far aside as p, which ends at ``distance`` (m), and where it ends (m).
+    """Return the programme with ``growth`` times the horizontal distance of p, and the distance (m) that it reaches.
 
-    x (m) is the farthest; ``kind`` is one of PlanKind.
+    p ends at ``distance`` (m), x (m) is the largest distance; ``kind`` is a PlanKind.
     """
     goal = growth * distance
     if goal > x:
@@ -99,7 +100,9 @@ def solve_farther(
 
 
 def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> ReachedProgramme:
-    """Move from the vertical programme p to the one without first burn to x, or as near as there is."""
+    """Continue the vertical programme p to the programme without first burn that reaches x, or comes as near as
+    possible.
+    """
     place = x
     if place > -NEAR * y:
         place = -NEAR * y
@@ -122,13 +125,12 @@ def aside(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> Reach
 
 
 def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Return the programme with first burn that ends at ``end`` (s), from p near by."""
+    """Return the programme with first burn that ends at the time ``end`` (s), starting from p with a similar end."""
     return solve(PlanKind.WITH_FIRST_BURN, lengthen(p, end), vehicle, x, y)
 
 
 def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Stretch p in steps to the programme with first burn that ends at ``end`` (s); the last where that is not
-    reached."""
+    """Continue p in steps to the programme with first burn that ends at ``end`` (s), or the last one reached."""
     part = LARGEST_STRETCH * p.t7
     for _ in range(LARGEST_PATH):
         left = end - p.t7
@@ -145,9 +147,9 @@ def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgr
 
 
 def further(reached: ReachedProgramme, x: float, y: float, vehicle: HoverVehicle) -> HoverSolution:
-    """Extend a programme without first burn to one with it to x.
+    """Continue a programme without first burn to one with first burn that reaches x.
 
-    Nearer, where a first burn begins, then longer, then farther.
+    The steps are: back to where a first burn begins, then to longer durations, then to larger distances.
     """
     p = reached.programme
     end = p.t7

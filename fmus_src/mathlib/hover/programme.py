@@ -1,7 +1,7 @@
-"""The simplified hover-to-hover programme that takes least propellant: the search for it. Kernel functions.
+"""Search for the simplified hover-to-hover programme of least propellant. Kernel functions.
 
-Programmes, shapes and vehicles as in `shape` and `motion`; x >= 0 and y (m) are the target's place in the
-plane of the transfer. Source: Huang 2017; the path of the search is ours.
+Programmes, shapes and vehicles as in `shape` and `motion`; x >= 0 and y (m) are the coordinates of the target in the
+plane of the transfer. Source: Huang 2017; the search was developed for this repository.
 """
 
 import math
@@ -21,14 +21,14 @@ LARGEST_PATH = 60  # programmes
 
 
 class PlannedProgramme(Record):
-    """The result of a search."""
+    """Result of a search."""
 
     kind = Field(int, description="form of the programme, a `PlanKind`")
     programme = Field(HoverProgramme, description="planned programme; all times 0 for PlanKind.NONE")
 
 
 class Bracket(Record):
-    """A programme that takes less propellant than those of earlier and of later end, as far as these are feasible."""
+    """Programme that uses less propellant than its neighbours with earlier and later end, if these are feasible."""
 
     programme = Field(HoverProgramme, description="programme with the least propellant found")
     before = Field(
@@ -38,12 +38,12 @@ class Bracket(Record):
 
 
 def nothing_planned() -> PlannedProgramme:
-    """Return that there is no programme."""
+    """Return the result of a search that found no programme."""
     return PlannedProgramme(kind=PlanKind.NONE, programme=without_programme())
 
 
 def programme(x: float, y: float, vehicle: HoverVehicle) -> PlannedProgramme:
-    """Return the programme to (x, y) on least propellant."""
+    """Return the programme to (x, y) with least propellant."""
     if not possible(x, y, vehicle):
         return nothing_planned()
     down = vertical(y, vehicle)
@@ -67,7 +67,7 @@ def programme(x: float, y: float, vehicle: HoverVehicle) -> PlannedProgramme:
 
 
 def begin_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Return a programme with first burn near p, which has none."""
+    """Return a programme with first burn close to p, which has none."""
     later = replace(p, width=FIRST_WIDTH, t7=p.t7 + 0.2)
     burning = solve(PlanKind.WITH_FIRST_BURN, later, vehicle, x, y)
     if not burning.is_feasible:
@@ -76,9 +76,9 @@ def begin_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramm
 
 
 def grow_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverSolution:
-    """Grow the first burn of p from none to longer ones, as long as that takes less propellant.
+    """Lengthen the first burn of p, starting from none, as long as that reduces the propellant.
 
-    The end follows from the width: it may be earlier, change fast with the width, and turn back.
+    The end time follows from the burn's width: it may become earlier, change fast with the width, and turn back.
     """
     best = HoverSolution(programme=p, is_feasible=False)
     minimum = propellant_fraction(p, vehicle)
@@ -96,9 +96,9 @@ def grow_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
 
 
 def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle) -> PlannedProgramme:
-    """Return the programme to (x, y) that ends after a certain time (s).
+    """Return the programme to (x, y) that ends at a given time (s).
 
-    It has a first burn, but if it is the one without that ends just then.
+    It has a first burn unless the programme without first burn ends at just that time.
     """
     best = programme(x, y, vehicle)
     p = best.programme
@@ -115,7 +115,7 @@ def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVeh
 
 
 def possible(x: float, y: float, vehicle: HoverVehicle) -> bool:
-    """Return True if the target is below, the vehicle can fall and brake, and all is finite."""
+    """Return True if the target is below, the vehicle can fall and brake, and all data are finite."""
     thrusts = is_usable(vehicle.full) and is_usable(vehicle.least) and is_usable(vehicle.exhaust)
     if not (thrusts and is_usable(vehicle.gravity) and is_usable(vehicle.swing)):
         return False
@@ -130,14 +130,14 @@ def is_usable(value: float) -> bool:
 
 
 def propellant_of(solution: HoverSolution, vehicle: HoverVehicle) -> float:
-    """Return propellant of a programme over the mass at its start; infinite where it is not feasible."""
+    """Return the propellant of a programme divided by the initial mass; infinite if it is not feasible."""
     if not solution.is_feasible:
         return math.inf
     return propellant_fraction(solution.programme, vehicle)
 
 
 def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> HoverProgramme:
-    """Return the programme, from p with first burn, whose end takes least propellant: golden section."""
+    """Return the programme with the end time of least propellant by golden section, starting from p with first burn."""
     later = descend(1.0, x, y, vehicle, p)
     p = later.programme
     low = later.before
@@ -169,7 +169,7 @@ def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramm
 
 
 def descend(way: float, x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme) -> Bracket:
-    """Move the end of p by way (s), then by more and more, as long as it takes less propellant."""
+    """Shift the end time of p by ``way`` (s), then by growing steps, as long as that reduces the propellant."""
     minimum = propellant_fraction(p, vehicle)
     before = p.t7
     beyond = p.t7 + way

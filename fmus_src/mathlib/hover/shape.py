@@ -1,11 +1,12 @@
-"""Pitch and throttle of the simplified hover-to-hover programme over time. Kernel functions.
+"""Thrust angle and throttle of the simplified hover-to-hover programme over time. Kernel functions.
 
-A lander turns from the vertical towards its target, over to the other side to brake, and back, with no angular
-acceleration but +a, -a and 0; the engine gives full thrust once about the first turning point and once at the end,
-its least in between. The deviation is the angle of thrust from the vertical, positive against the way to go.
+A lander turns from the vertical towards its target, over to the other side to brake, and back, with an angular
+acceleration of +a, -a or 0. The engine gives full thrust once about the first turning point and once at the end, and
+its least thrust in between. The deviation is the angle of thrust from the vertical, positive away from the target.
 
-`HoverProgramme` has the five times that determine all of it, `shape_of` computes its `HoverShape`.
-Source: Huang 2017, with the pieces of its equations where they join.
+`HoverProgramme` contains the five times that determine the programme; `shape_of` computes its `HoverShape`.
+
+Source: Huang 2017, with the cases in which segments of its equations join.
 """
 
 import math
@@ -16,7 +17,7 @@ STEEPEST = 0.5 * math.pi  # rad; largest deviation, beyond which thrust would pu
 
 
 class HoverProgramme(Record):
-    """The times (s) that determine a programme, named as in the paper. A change of a programme is one as well."""
+    """Times (s) that determine a programme, named as in the paper; also used for differences of programmes."""
 
     t2 = Field(unit="s", description="time of the least thrust angle")
     t5 = Field(unit="s", description="time of the largest thrust angle")
@@ -29,7 +30,7 @@ class HoverProgramme(Record):
 
 
 class HoverShape(Record):
-    """The times (s) at which pitch acceleration and thrust switch, named t1 to t7 as in the paper."""
+    """Times (s) at which angular acceleration and thrust switch, named t1 to t7 as in the paper."""
 
     t1 = Field(
         unit="s", frozen=True, description="time t1 of the first switching of the thrust axis' angular acceleration"
@@ -52,14 +53,14 @@ class HoverShape(Record):
 
 
 class PlannedShape(Record):
-    """The shape of a programme, if it has one."""
+    """Shape of a programme, if it has one."""
 
     shape = Field(HoverShape, description="shape of the programme; all times 0 if the programme has none")
     exists = Field(bool, description="true: programme has a shape")
 
 
 class PitchSegment(Record):
-    """A parabola that the deviation follows."""
+    """Parabola of the thrust angle over time."""
 
     begin = Field(unit="s", description="time from which the parabola counts")
     value = Field(unit="rad", description="thrust angle at that time")
@@ -68,19 +69,19 @@ class PitchSegment(Record):
 
 
 class Pitch(Record):
-    """Deviation of the thrust from the vertical."""
+    """Thrust angle and its rate."""
 
     deviation = Field(unit="rad", description="angle of thrust from the vertical, positive away from the target")
     rate = Field(unit="rad/s", description="time derivative of the thrust angle")
 
 
 def without_programme() -> HoverProgramme:
-    """Return no programme: all its times are 0."""
+    """Return an empty programme, with all times 0."""
     return HoverProgramme(t2=0.0, t5=0.0, width=0.0, last_burn=0.0, t7=0.0)
 
 
 def without_shape() -> PlannedShape:
-    """Return no shape: all its times are 0."""
+    """Return an empty shape, with all times 0."""
     shape = HoverShape(
         t1=0.0,
         t2=0.0,
@@ -101,8 +102,8 @@ def without_shape() -> PlannedShape:
 def shape_of(p: HoverProgramme, acceleration: float) -> PlannedShape:
     """Return the shape of the programme p at an angular acceleration (rad/s2, > 0).
 
-    t3 and t4 bound the stretch of constant rate, d after t2 and before t5, that joins both turns: d^2 - (t5 - t2) d +
-    t1^2 + (t7 - t6)^2 = 0. There is none without room for that, where thrust would point down, and where the burns
+    t3 and t4 bound the interval of constant rate that joins both turns, d after t2 and before t5: d^2 - (t5 - t2) d +
+    t1^2 + (t7 - t6)^2 = 0. No shape exists if this interval does not fit, if thrust would point down, or if the burns
     overlap.
     """
     first = 0.5 * p.t2
@@ -145,7 +146,7 @@ def shape_of(p: HoverProgramme, acceleration: float) -> PlannedShape:
 
 
 def pitch(s: HoverShape, acceleration: float, t: float) -> Pitch:
-    """Return the deviation at the time t (s); 0 before the start and from the end on."""
+    """Return the thrust angle at time t (s); 0 before the start and after the end."""
     segment = pitch_segment(s, acceleration, t)
     since = t - segment.begin
     deviation = segment.value + since * (segment.rate + since * segment.half_acceleration)
@@ -153,7 +154,7 @@ def pitch(s: HoverShape, acceleration: float, t: float) -> Pitch:
 
 
 def pitch_segment(s: HoverShape, acceleration: float, t: float) -> PitchSegment:
-    """Return the parabola that the deviation follows at t (s)."""
+    """Return the parabola of the thrust angle at time t (s)."""
     if not (t > 0.0 and t < s.t7):
         return parabola(t, 0.0, 0.0, 0.0)
     if t < s.t1:
@@ -168,17 +169,17 @@ def pitch_segment(s: HoverShape, acceleration: float, t: float) -> PitchSegment:
 
 
 def parabola(begin: float, value: float, rate: float, half_acceleration: float) -> PitchSegment:
-    """Return a segment in the order of its fields."""
+    """Return a segment with these fields."""
     return PitchSegment(begin=begin, value=value, rate=rate, half_acceleration=half_acceleration)
 
 
 def full_thrust(s: HoverShape, t: float) -> bool:
-    """Return True if the engine is at full thrust at the time t (s), in place of its least."""
+    """Return True if the engine gives full thrust at time t (s), False if it gives its least thrust."""
     return (t >= s.first_burn_begin and t < s.first_burn_end) or (t >= s.last_burn_begin and t < s.t7)
 
 
 def burnt(s: HoverShape, t: float) -> float:
-    """Return time at full thrust (s) from the start to t (s)."""
+    """Return the time at full thrust (s) between the start and t (s)."""
     time = 0.0
     if t > s.first_burn_begin:
         time = s.first_burn_end - s.first_burn_begin

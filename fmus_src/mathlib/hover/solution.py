@@ -1,4 +1,4 @@
-"""Programmes of the simplified form that end where they should: Newton's method. Kernel functions.
+"""Solution of simplified programmes for an end position at rest by Newton's method. Kernel functions.
 
 Programmes, shapes and vehicles as in `shape` and `motion`.
 """
@@ -29,7 +29,7 @@ class PlanKind(Enumeration):
 
 
 class HoverSolution(Record):
-    """A programme that was searched for."""
+    """Result of Newton's method."""
 
     programme = Field(
         HoverProgramme, description="programme found; an infeasible one close to the demand if none is feasible"
@@ -38,14 +38,14 @@ class HoverSolution(Record):
 
 
 class Residual(Record):
-    """Miss of a programme at its target."""
+    """End errors of a programme relative to its target."""
 
     errors = Field(Vector4, description="errors at the end of the programme: y/10 (m), y' (m/s), x/10 (m), x' (m/s)")
     size = Field(description="norm of the errors; infinite without a motion")
 
 
 def propellant_fraction(p: HoverProgramme, vehicle: HoverVehicle) -> float:
-    """Return propellant of the programme p over the mass at its start; infinite without room for its shape."""
+    """Return the propellant of the programme p divided by the initial mass; infinite if p has no shape."""
     planned = shape_of(p, vehicle.swing)
     if not planned.exists:
         return math.inf
@@ -53,7 +53,7 @@ def propellant_fraction(p: HoverProgramme, vehicle: HoverVehicle) -> float:
 
 
 def residual(p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> Residual:
-    """Return the miss of the programme p at (x, y) (m)."""
+    """Return the end errors of the programme p relative to (x, y) (m)."""
     end = end_motion(p, vehicle)
     if not end.exists:
         return Residual(errors=vector(0.0, 0.0, 0.0, 0.0), size=math.inf)
@@ -65,16 +65,17 @@ def residual(p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> Re
 
 
 def count_free_times(kind: int) -> int:
-    """Return the number of times of a programme that Newton's method changes: as many as there are conditions."""
+    """Return the number of times of a programme that Newton's method varies, equal to the number of conditions."""
     if kind == PlanKind.VERTICAL:
         return 2
     return 4
 
 
 def change_of(kind: int, free: Vector4) -> HoverProgramme:
-    """Return the change of a programme whose free times (s) change by ``free``.
+    """Return the change of a programme for a change ``free`` (s) of its free times.
 
-    Free are tp, then w (WITH_FIRST_BURN) or t7, then t2 and t5. The vertical programme never turns: its t5 is t7.
+    The free times are tp, then w (WITH_FIRST_BURN) or t7, then t2 and t5. The vertical programme never turns: its t5
+    equals t7.
     """
     if kind == PlanKind.VERTICAL:
         return HoverProgramme(t2=0.0, t5=free[1], width=0.0, last_burn=free[0], t7=free[1])
@@ -86,7 +87,10 @@ def change_of(kind: int, free: Vector4) -> HoverProgramme:
 def invert_sensitivities(
     kind: int, p: HoverProgramme, vehicle: HoverVehicle, x: float, y: float, r: Vector4
 ) -> tuple[Matrix, bool]:
-    """Return derivatives of the free times by the residual, 4 x 4, from differences to r at p; and if they exist."""
+    """Return the derivatives of the free times with respect to the residual r at p, 4 x 4, and True if they exist.
+
+    They are computed from finite differences.
+    """
     n = count_free_times(kind)
     derivatives = identity(4)
     for j in range(n):
@@ -106,7 +110,7 @@ def invert_sensitivities(
 
 
 def newton_step(kind: int, inverted: Matrix, r: Vector4) -> HoverProgramme:
-    """Return the change of a programme by Newton's method where its residual is r."""
+    """Return the change of a programme by Newton's method for the residual r."""
     n = count_free_times(kind)
     free = [0.0] * 4
     for i in range(n):
@@ -116,10 +120,10 @@ def newton_step(kind: int, inverted: Matrix, r: Vector4) -> HoverProgramme:
 
 
 def solve(kind: int, start: HoverProgramme, vehicle: HoverVehicle, x: float, y: float) -> HoverSolution:
-    """Return the programme near ``start`` that ends at (x, y) (m) and at rest; the start where there is none.
+    """Return the programme close to ``start`` that ends at (x, y) (m) at rest, or ``start`` if none is found.
 
-    Steps are halved until the residual falls; while it falls to a tenth, the sensitivities are kept. Free are t2, t5
-    (not VERTICAL), w (WITH_FIRST_BURN), tp, t7 (not WITH_FIRST_BURN).
+    Steps are halved until the residual decreases; while it decreases to a tenth, the sensitivities are reused. Free are
+    t2, t5 (not VERTICAL), w (WITH_FIRST_BURN), tp and t7 (not WITH_FIRST_BURN).
     """
     p = start
     inverted = identity(4)

@@ -1,8 +1,9 @@
-"""Transfers to rest by polynomials of degree 7, and the thrust that flies them. Kernel functions.
+"""Transfers to rest by polynomials of degree 7, and the thrust that they require. Kernel functions.
 
-A transfer is the position as a polynomial in s = t/duration; it is meant from 0 to duration. Its thrust
-over mass is the acceleration less gravity: f = r'' + lift, with lift = -gravity (m/s2), constant over the transfer.
-Frame: any that does not rotate. Equations: docs/systems/hover_transfer.md.
+A transfer is the position as a polynomial in s = t/duration for t from 0 to duration. Its thrust over mass is the
+acceleration minus gravity: f = r'' + lift, with lift = -gravity (m/s2), constant over the transfer.
+
+Frame: any non-rotating frame. Equations: docs/systems/hover_transfer.md.
 """
 
 import math
@@ -26,7 +27,7 @@ EXCESS_PRICE = 1000.0  # m/s for a limit exceeded by all of itself
 
 
 class Transfer(Record):
-    """Position c0 + c1 s + ... + c7 s^7."""
+    """Position as a polynomial c0 + c1 s + ... + c7 s^7."""
 
     c0 = Field(
         Vector3,
@@ -44,7 +45,7 @@ class Transfer(Record):
 
 
 class TransferLimits(Record):
-    """Limits of a transfer, and its engine."""
+    """Limits of a transfer and exhaust speed of the engine."""
 
     maximum_thrust = Field(unit="N", description="largest thrust of the engine in a transfer")
     minimum_thrust = Field(unit="N", description="least thrust of the engine in a transfer")
@@ -53,7 +54,7 @@ class TransferLimits(Record):
 
 
 class ThrustAlong(Record):
-    """Thrust over mass at a time of a transfer."""
+    """Thrust over mass at a point of a transfer."""
 
     size = Field(unit="m/s2", description="thrust over mass")
     direction = Field(Vector3, unit="1", description="thrust direction, unit vector")
@@ -62,14 +63,14 @@ class ThrustAlong(Record):
 
 
 class Expense(Record):
-    """Expense of a transfer."""
+    """Impulse of a transfer, and violation of its limits."""
 
     impulse = Field(unit="m/s", description="time integral of thrust over mass")
     excess = Field(unit="1", description="largest relative excess over a limit; 0: within all limits")
 
 
 class Capture(Record):
-    """The transfer that a capture flies."""
+    """Transfer of a capture, with duration and expense."""
 
     duration = Field(unit="s", description="duration of the transfer; 0: no finite transfer exists")
     expense = Field(Expense, description="expense of the transfer")
@@ -79,7 +80,9 @@ class Capture(Record):
 def transfer(
     position: Vector3, speed: Vector3, acceleration: Vector3, jerk: Vector3, goal: Vector3, duration: float
 ) -> Transfer:
-    """Return the transfer from position (m), speed, acceleration and jerk to rest at goal, without jerk there."""
+    """Return the transfer from these position (m), velocity, acceleration and jerk to rest at goal, with jerk 0 at the
+    end.
+    """
     v = speed * duration
     a = 0.5 * acceleration * duration * duration
     j = jerk * duration * duration * duration / 6.0
@@ -101,43 +104,43 @@ def transfer(
 
 
 def transfer_position(c: Transfer, t: float, duration: float) -> Vector3:
-    """Return position (m) at the time t (s)."""
+    """Return the position (m) at time t (s)."""
     s = t / duration
     return ((((((c.c7 * s + c.c6) * s + c.c5) * s + c.c4) * s + c.c3) * s + c.c2) * s + c.c1) * s + c.c0
 
 
 def transfer_velocity(c: Transfer, t: float, duration: float) -> Vector3:
-    """Return velocity (m/s)."""
+    """Return the velocity (m/s) at time t (s)."""
     s = t / duration
     high = ((7.0 * c.c7 * s + 6.0 * c.c6) * s + 5.0 * c.c5) * s + 4.0 * c.c4
     return (((high * s + 3.0 * c.c3) * s + 2.0 * c.c2) * s + c.c1) / duration
 
 
 def transfer_acceleration(c: Transfer, t: float, duration: float) -> Vector3:
-    """Return acceleration (m/s2)."""
+    """Return the acceleration (m/s2) at time t (s)."""
     s = t / duration
     high = ((42.0 * c.c7 * s + 30.0 * c.c6) * s + 20.0 * c.c5) * s + 12.0 * c.c4
     return ((high * s + 6.0 * c.c3) * s + 2.0 * c.c2) / duration / duration
 
 
 def transfer_jerk(c: Transfer, t: float, duration: float) -> Vector3:
-    """Return jerk (m/s3)."""
+    """Return the jerk (m/s3) at time t (s)."""
     s = t / duration
     high = ((210.0 * c.c7 * s + 120.0 * c.c6) * s + 60.0 * c.c5) * s + 24.0 * c.c4
     return (high * s + 6.0 * c.c3) / duration / duration / duration
 
 
 def transfer_snap(c: Transfer, t: float, duration: float) -> Vector3:
-    """Return the derivative of the jerk (m/s4)."""
+    """Return the time derivative of the jerk (m/s4) at time t (s)."""
     s = t / duration
     high = ((840.0 * c.c7 * s + 360.0 * c.c6) * s + 120.0 * c.c5) * s + 24.0 * c.c4
     return high / duration / duration / duration / duration
 
 
 def thrust_along(c: Transfer, t: float, duration: float, lift: Vector3) -> ThrustAlong:
-    """Return thrust at the time t (s).
+    """Return the thrust over mass at time t (s).
 
-    Where there is no thrust, the direction is that of lift, at rest.
+    Without thrust, the direction is that of lift and its rate 0.
     """
     f = transfer_acceleration(c, t, duration) + lift
     size = norm(f)
@@ -156,7 +159,9 @@ def thrust_along(c: Transfer, t: float, duration: float, lift: Vector3) -> Thrus
 
 
 def slow_duration(way: float, speed: float, acceleration: float) -> float:
-    """Return duration (s) of a transfer from rest over a way (m), within a speed and an acceleration, both > 0."""
+    """Return the duration (s) of a transfer from rest over a distance (m) within a speed and an acceleration, both >
+    0.
+    """
     time = SHORTEST
     if FASTEST * way / speed > time:
         time = FASTEST * way / speed
@@ -169,10 +174,10 @@ def slow_duration(way: float, speed: float, acceleration: float) -> float:
 def expense(
     c: Transfer, duration: float, lift: Vector3, mass: float, limits: TransferLimits, bearable: float
 ) -> Expense:
-    """Return the expense of a transfer, as far as it is not dearer than ``bearable`` (m/s).
+    """Return the expense of a transfer; the evaluation stops once it exceeds ``bearable`` (m/s).
 
-    Angular acceleration counts but at the start, which is given. By the trapezoidal rule, mass (kg) from that at the
-    start by the rocket equation.
+    The prescribed angular acceleration at the start is not counted. Integrals are computed by the trapezoidal rule, the
+    mass (kg) by the rocket equation from its initial value.
     """
     h = duration / float(SAMPLES - 1)
     spent = 0.0
@@ -208,7 +213,7 @@ def capture(
     mass: float,
     limits: TransferLimits,
 ) -> Capture:
-    """Return the transfer to rest at goal that takes least thrust, with a price on limits exceeded."""
+    """Return the transfer to rest at goal with the least impulse plus a penalty for violated limits."""
     quickest = transfer(position, speed, acceleration, jerk, goal, FIRST)
     best = Capture(duration=0.0, expense=Expense(impulse=0.0, excess=0.0), transfer=quickest)
     minimum = math.inf

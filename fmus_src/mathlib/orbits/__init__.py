@@ -1,1 +1,1 @@
-"""Flight and attitude on an orbit. Kernel functions."""
+"""Motion and attitude on an orbit. Kernel functions."""

@@ -1,8 +1,10 @@
-"""Attitude against the orbital frame, on a circular orbit. Kernel functions.
+"""Attitude relative to the orbital frame, on a circular orbit. Kernel functions.
 
-Orbital frame: y radially up, x along the velocity, z = x x y; it turns with (0, 0, -w0). Angles are
-(roll, yaw, pitch), numbered as the axes they turn about; the turns are yaw, pitch, roll in this order. Angular
-velocities are absolute, in body axes. Pitch within 90 deg. Equations: docs/systems/orbital_attitude.md.
+Orbital frame: y radially up, x along the velocity, z = x x y; its angular velocity is (0, 0, -w0). Angles are (roll,
+yaw, pitch), in the order of the axes they turn about; the rotations are yaw, pitch, roll in this order. Angular
+velocities are relative to the inertial frame, in body axes. Pitch is within 90 deg. Equations:
+docs/systems/orbital_attitude.md.
+
 Source: Lapin, thesis, chapter 1.1.
 """
 
@@ -20,7 +22,7 @@ PITCH = 2
 
 
 class AttitudeState(Record):
-    """Attitude against the orbital frame, and angular velocity."""
+    """Attitude relative to the orbital frame, and angular velocity."""
 
     angles = Field(Vector3, unit="rad", description="roll, yaw and pitch of the body relative to the orbital frame")
     angular_velocity = Field(
@@ -29,7 +31,7 @@ class AttitudeState(Record):
 
 
 def index_of_measured(j: int) -> int:
-    """Return the index in (roll, yaw, pitch, rates) of the j-th measured state: all but yaw."""
+    """Return the index in (roll, yaw, pitch, rates) of the j-th measured state; all states except yaw are measured."""
     if j == 0:
         return 0
     return j + 1
@@ -48,7 +50,7 @@ class AngleFunctions(Record):
 
 
 def evaluate_angles(angles: Vector3) -> AngleFunctions:
-    """Evaluate functions of the angles (rad), which all below share."""
+    """Return sines, cosines and tangents of the angles (rad), which the functions below share."""
     return AngleFunctions(
         sin_roll=sin(angles.x),
         cos_roll=cos(angles.x),
@@ -66,7 +68,9 @@ def radial_direction(a: AngleFunctions) -> Vector3:
 
 
 def angle_rates(a: AngleFunctions, w: Vector3, w0: float) -> Vector3:
-    """Return rates (rad/s) of the angles at the angular velocity w (rad/s, body) and the orbital rate w0 (rad/s)."""
+    """Return the time derivatives (rad/s) of the angles for an angular velocity w (rad/s, body) and orbital rate w0
+    (rad/s).
+    """
     q = w.y * a.cos_roll - w.z * a.sin_roll
     r = w.y * a.sin_roll + w.z * a.cos_roll
     return vector(
@@ -77,7 +81,7 @@ def angle_rates(a: AngleFunctions, w: Vector3, w0: float) -> Vector3:
 
 
 def angle_rate_derivatives(a: AngleFunctions, w: Vector3, w0: float) -> tuple[Matrix, Matrix]:
-    """Return derivatives of angle_rates by the angles and by w, 3 x 3."""
+    """Return the derivatives of angle_rates with respect to the angles and to w, 3 x 3 each."""
     q = w.y * a.cos_roll - w.z * a.sin_roll
     r = w.y * a.sin_roll + w.z * a.cos_roll
     square = a.cos_pitch * a.cos_pitch
@@ -97,21 +101,22 @@ def angle_rate_derivatives(a: AngleFunctions, w: Vector3, w0: float) -> tuple[Ma
 def angular_acceleration(
     a: AngleFunctions, w: Vector3, torque: Vector3, inertia: Matrix, inverse_inertia: Matrix, w0: float
 ) -> Vector3:
-    """Return w' (rad/s2, body) of a rigid body under the gravity gradient and a torque (N m, body).
+    """Return the angular acceleration w' (rad/s2, body) of a rigid body under gravity gradient and a torque (N m,
+    body).
 
-    J w' = 3 w0^2 j x (J j) + (J w) x w + torque, j radially up; inertia J (kg m2) and its inverse.
+    J w' = 3 w0^2 j x (J j) + (J w) x w + torque, with j radially up, the inertia J (kg m2) and its inverse.
     """
     j = radial_direction(a)
     return inverse_inertia @ (3.0 * w0 * w0 * cross(j, inertia @ j) + cross(inertia @ w, w) + torque)
 
 
 def gyric_matrix(inertia: Matrix, inverse_inertia: Matrix, v: Vector3) -> Matrix:
-    """Return J^-1 ([J v] - [v] J): the derivative of J^-1 ((J w) x w) by w at w = v."""
+    """Return J^-1 ([J v] - [v] J), the derivative of J^-1 ((J w) x w) with respect to w at w = v."""
     return inverse_inertia @ (cross_matrix(inertia @ v) - cross_matrix(v) @ inertia)
 
 
 def linear_model(inertia: Matrix, inverse_inertia: Matrix, w0: float) -> Matrix:
-    """Return the 6 x 6 matrix of (angles, w - wp)' about the reference state: angles 0, wp = (0, 0, -w0)."""
+    """Return the 6 x 6 matrix of the linearised motion of (angles, w - wp) about angles 0, wp = (0, 0, -w0)."""
     by_radial = gyric_matrix(inertia, inverse_inertia, vector(0.0, 1.0, 0.0))
     a = zeros(6, 6)
     a[ROLL, YAW] = -w0

@@ -1,4 +1,4 @@
-"""From a circular orbit towards a landing site: where one is on it, and how long to brake. Kernel functions.
+"""Deorbit from a circular orbit towards a landing site: position on the orbit and burn time. Kernel functions.
 
 Frame: landing site, z up, not rotating; the Moon's centre is ``radius`` (m) below the origin.
 """
@@ -12,8 +12,7 @@ from ..vectors import Vector3, across, dot, norm, vector
 
 
 def central_angle(position: Vector3, radius: float) -> float:
-    """Return angle (rad, 0 to 2 pi) at the Moon's centre from the site's vertical towards +x, in the plane of x and
-    z."""
+    """Return the angle (rad, 0 to 2 pi) at the Moon's centre from the site's vertical towards +x, in the xz plane."""
     angle = atan2(position.x, position.z + radius)
     if angle < 0.0:
         angle = angle + 2.0 * math.pi
@@ -21,15 +20,15 @@ def central_angle(position: Vector3, radius: float) -> float:
 
 
 def ground_range(position: Vector3, radius: float) -> float:
-    """Return arc (m) on the sphere of ``radius`` from below ``position`` to the origin."""
+    """Return the arc (m) on the sphere of ``radius`` between the point below ``position`` and the origin."""
     centred = from_centre(position, radius)
     return radius * atan2(math.sqrt(centred.x * centred.x + centred.y * centred.y), centred.z)
 
 
 def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> TurningDirection:
-    """Return the direction against the horizontal velocity, which turns with the vertical.
+    """Return the direction opposite to the horizontal velocity, with its rate due to the rotation of the vertical.
 
-    Both are 0 where there is no horizontal velocity.
+    Both are 0 without horizontal velocity.
     """
     up = vertical_at(position, radius)
     horizontal = across(velocity, up)
@@ -41,7 +40,7 @@ def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> T
 
 
 def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:
-    """Return the speed (m/s) at the apocentre of an ellipse, both as distances (m) from the centre.
+    """Return the speed (m/s) at the apocentre of an ellipse with these distances (m) of apocentre and pericentre.
 
     Source: vis-viva, such as Battin 1999, section 3.4.
     """
@@ -51,11 +50,10 @@ def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:
 def deorbit_burn(
     position: Vector3, velocity: Vector3, pericentre: float, radius: float, mu: float, acceleration: float
 ) -> float:
-    """Return the time (s) to brake with ``acceleration`` (m/s2) until here is the apocentre of an ellipse to
-    pericentre.
+    """Return the burn time (s) with ``acceleration`` (m/s2) until ``position`` is the apocentre of the target ellipse.
 
-    ``pericentre`` is a distance (m) from the centre. Below 0 where the horizontal speed is already too small; the
-    vertical speed is not looked at. ``position`` must not be the centre.
+    ``pericentre`` is its distance (m) from the centre. The time is negative if the horizontal speed is already too
+    small; the vertical speed is ignored. ``position`` must not be the centre.
     """
     up = vertical_at(position, radius)
     sinking = dot(velocity, up)
@@ -65,12 +63,12 @@ def deorbit_burn(
 
 
 def lowest_altitude(position: Vector3, velocity: Vector3, angle: float, radius: float, mu: float) -> float:
-    """Return the least altitude (m) of free flight from here over the next ``angle`` (rad) about the Moon's centre.
+    """Return the least altitude (m) of free flight over the next ``angle`` (rad) about the Moon's centre.
 
     With the radial speed w and the angular momentum h, the distance r obeys 1/r(a) = A + B cos a - C sin a, where A =
-    mu/h^2, B = 1/r(0) - A, C = w/h; it is least at the pericentre where that is ahead, else at one of both ends.
-    Without horizontal velocity the centre is where the fall leads. ``position`` must not be the centre. Source: the
-    conic in polar coordinates, such as Battin 1999, section 3.3.
+    mu/h^2, B = 1/r(0) - A, C = w/h. It is least at the pericentre if that lies ahead, else at one of both ends. Without
+    horizontal velocity the fall leads to the centre. ``position`` must not be the centre. Source: the conic in polar
+    coordinates, such as Battin 1999, section 3.3.
     """
     centred = from_centre(position, radius)
     distance = norm(centred)

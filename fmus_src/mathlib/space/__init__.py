@@ -1,1 +1,1 @@
-"""Environment of a spacecraft: gravity, magnetic field, Sun and Moon, axes of planets, air, light. Kernel functions."""
+"""Space environment: gravity, magnetic field, Sun and Moon, planet axes, air, sunlight. Kernel functions."""

@@ -1,7 +1,7 @@
-"""Gravity of the Earth to degree 13: GGM03S. Kernel functions.
+"""Gravity field of the Earth to degree 13: GGM03S. Kernel functions.
 
-Source: Tapley et al., The GGM03 mean Earth gravity model from GRACE, 2007: fully normalised coefficients, of the tide
-system as published. Their gravitational parameter and radius belong to them.
+Source: Tapley et al., The GGM03 mean Earth gravity model from GRACE, 2007: fully normalised coefficients, in the tide
+system as published, to be used with their own gravitational parameter and radius.
 """
 
 from typing import Any
@@ -62,5 +62,5 @@ NORMALISED: Any = (  # a list to the kernel that reads it
 
 
 def earth_gravity() -> Matrix:
-    """Return the coefficients for `harmonics.gradient`, unnormalised."""
+    """Return the unnormalised coefficients for `harmonics.gradient`."""
     return gravity_coefficients(NORMALISED, DEGREE)

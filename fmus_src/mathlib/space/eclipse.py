@@ -1,4 +1,4 @@
-"""Light of the Sun behind a planet: shadow and half-shadow of a sphere. Kernel functions."""
+"""Sunlight in the umbra and penumbra of a spherical planet. Kernel functions."""
 
 import math
 
@@ -8,10 +8,12 @@ from .ephemerides import SUN_RADIUS
 
 
 def illumination(position: Vector3, sun: Vector3, radius: float) -> float:
-    """Return the visible share of the Sun's disk, 0 to 1, at a position (m) in the shadow of a sphere (radius in m).
+    """Return the visible fraction of the Sun's disk, 0 to 1, at a position (m) in the shadow of a sphere (radius in
+    m).
 
-    Both positions are from the sphere's centre, in one frame. Neither refraction nor a limb's darkening; full light at
-    the sphere's surface or below it only where the Sun is above. Source: Montenbruck and Gill 2000, section 3.4.2.
+    Both positions are relative to the sphere's centre, in the same frame. Refraction and limb darkening are neglected.
+    At or below the surface of the sphere there is full light if the Sun is above the horizon. Source: Montenbruck and
+    Gill 2000, section 3.4.2.
     """
     away = sun - position
     a = disk_angle(SUN_RADIUS, norm(away))
@@ -33,7 +35,7 @@ def illumination(position: Vector3, sun: Vector3, radius: float) -> float:
 
 
 def disk_angle(radius: float, distance: float) -> float:
-    """Return the angle (rad) under which a sphere's radius is visible from a distance (m); 90 degrees inside it."""
+    """Return the apparent angular radius (rad) of a sphere at a distance (m) from its centre; 90 deg inside it."""
     if radius >= distance:
         return 0.5 * math.pi
     return asin(radius / distance)

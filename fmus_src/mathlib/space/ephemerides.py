@@ -1,8 +1,8 @@
-"""Positions of Sun and Moon from the centre of the Earth, and their tides. Kernel functions.
+"""Positions of Sun and Moon relative to the Earth's centre, and third-body gravity. Kernel functions.
 
-Frame: axes of the GCRS, geometric positions (no light time, no aberration). t is TT in seconds since J2000.0.
-Between 2020 and 2040 the largest differences from DE421 are 31.6 arcseconds (rms 16.2) and 1.2e4 km for the Sun, 293
-arcseconds (rms 76) and 497 km for the Moon.
+Frame: axes of the GCRS, geometric positions (no light time, no aberration). t is TT in seconds since J2000.0. Between
+2020 and 2040 the largest differences from DE421 are 31.6 arcseconds (rms 16.2) and 1.2e4 km for the Sun, 293 arcseconds
+(rms 76) and 497 km for the Moon.
 """
 
 import math
@@ -24,7 +24,9 @@ OBLIQUITY = 23.43929111 * DEGREE  # at J2000.0
 
 
 def from_ecliptic(longitude: float, latitude: float, distance: float) -> Vector3:
-    """Return a position (m, GCRS axes) from angles (rad) in the ecliptic of J2000.0 and a distance (m)."""
+    """Return a position (m, GCRS axes) from longitude and latitude (rad) in the ecliptic of J2000.0 and a distance
+    (m).
+    """
     x = distance * cos(latitude) * cos(longitude)
     y = distance * cos(latitude) * sin(longitude)
     z = distance * sin(latitude)
@@ -34,7 +36,7 @@ def from_ecliptic(longitude: float, latitude: float, distance: float) -> Vector3
 
 
 def sun_position(t: float) -> Vector3:
-    """Return the position of the Sun (m).
+    """Return the position of the Sun (m, GCRS axes) at t (s).
 
     Source: Meeus 1998, chapter 25 (anomaly, equation of the centre, eccentricity); Simon et al. 1994 (perihelion in the
     fixed ecliptic); the largest term of the Earth's motion about its barycentre with the Moon.
@@ -51,7 +53,7 @@ def sun_position(t: float) -> Vector3:
 
 
 def moon_position(t: float) -> Vector3:
-    """Return the position of the Moon (m). Source: Montenbruck and Gill 2000, section 3.3.2."""
+    """Return the position of the Moon (m, GCRS axes) at t (s). Source: Montenbruck and Gill 2000, section 3.3.2."""
     T = t / CENTURY  # noqa: N806 - as in the source
     mean = (0.606433 + 1336.851344 * T) * TURN
     l = (0.374897 + 1325.552410 * T) * TURN  # noqa: E741 - the Moon's mean anomaly
@@ -73,9 +75,9 @@ def moon_position(t: float) -> Vector3:
 
 
 def third_body_acceleration(position: Vector3, body: Vector3, mu: float) -> Vector3:
-    """Return by how much more (m/s2) a body at ``body`` (m) pulls a point at ``position`` (m) than it pulls the origin.
+    """Return the gravity of a body at ``body`` (m) on a point at ``position`` (m) minus that on the origin (m/s2).
 
-    ``mu`` is the gravitational parameter (m3/s2). Source: Montenbruck and Gill 2000, section 3.3.
+    ``mu`` is the gravitational parameter (m3/s2) of the body. Source: Montenbruck and Gill 2000, section 3.3.
     """
     d = body - position
     return mu * (d / (dot(d, d) * norm(d)) - body / (dot(body, body) * norm(body)))

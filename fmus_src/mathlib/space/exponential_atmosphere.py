@@ -1,4 +1,4 @@
-"""Density of the upper atmosphere by height alone, exponential between the rows of a table. Kernel functions.
+"""Density of the upper atmosphere as a function of height, exponential between the rows of a table. Kernel functions.
 
 Source: Vallado 2013, table 8-4.
 """
@@ -22,7 +22,9 @@ SCALE_HEIGHT = (  # km
 
 
 def exponential_density(h: float) -> float:
-    """Return the density (kg/m3) at a height h (m); held below 100 km, the row of 1000 km continued beyond."""
+    """Return the density (kg/m3) at a height h (m); constant below 100 km, extrapolated from the last row above 1000
+    km.
+    """
     kilometres = 1e-3 * h
     if kilometres < HEIGHT[0]:
         return DENSITY[0]

@@ -1,11 +1,13 @@
-"""The gradient of a spherical-harmonic potential: gravity, and the magnetic field of a planet. Kernel functions.
+"""Gradient of a spherical-harmonic potential, for gravity and the magnetic field of a planet. Kernel functions.
 
 U = (mu/r) sum (R/r)^n P_nm(sin phi) (C_nm cos m lambda + S_nm sin m lambda), over degrees n and orders m, with latitude
-phi, longitude lambda and unnormalised coefficients. One matrix has both: C_nm is [n, m], S_nm is [m - 1, n].
+phi, longitude lambda and unnormalised coefficients. One matrix contains both: C_nm is [n, m], S_nm is [m - 1, n].
+
 Frame: planet-fixed, origin at the planet's centre.
 
-The solid harmonics V_nm, W_nm follow from each other along an order, so that none is stored; nothing is singular at the
-poles. What one of them adds to the gradient is summed at once, and the central term last, which is the largest.
+The solid harmonics V_nm and W_nm are computed by recursion along an order and not stored; there is no singularity at
+the poles. Their contributions to the gradient are summed immediately, the central term, the largest, last.
+
 Source: Cunningham 1970; Montenbruck and Gill 2000, section 3.2.4.
 """
 
@@ -18,7 +20,9 @@ SIZE = 14  # rows and columns of a matrix of coefficients: degrees 0 to 13
 
 
 def schmidt_normalisation(n: int, m: int) -> float:
-    """Return what a Schmidt quasi-normalised coefficient is multiplied by: sqrt((2 - [m = 0]) (n - m)!/(n + m)!)."""
+    """Return the factor from a Schmidt quasi-normalised to an unnormalised coefficient: sqrt((2 - [m = 0]) (n - m)!/(n
+    + m)!).
+    """
     if m == 0:
         return 1.0
     square = 2.0
@@ -28,19 +32,21 @@ def schmidt_normalisation(n: int, m: int) -> float:
 
 
 def full_normalisation(n: int, m: int) -> float:
-    """Return what a fully normalised coefficient is multiplied by: sqrt(2n + 1) more than `schmidt_normalisation`."""
+    """Return the factor from a fully normalised to an unnormalised coefficient: sqrt(2n + 1) times
+    `schmidt_normalisation`.
+    """
     return math.sqrt(float(2 * n + 1)) * schmidt_normalisation(n, m)
 
 
 def set_pair(cs: Matrix, n: int, m: int, c: float, s: float) -> None:
-    """Set both coefficients of degree n and order m; s is left out where m = 0."""
+    """Set both coefficients of degree n and order m; s is ignored for m = 0."""
     cs[n, m] = c
     if m > 0:
         cs[m - 1, n] = s
 
 
 def gravity_coefficients(normalised: list, degree: int) -> Matrix:
-    """Return coefficients for `gradient` from fully normalised ones: C, S of orders 0 to n, for degrees n from 2 on."""
+    """Return coefficients for `gradient` from fully normalised ones: C, S of orders 0 to n, for degrees n from 2."""
     cs = zeros(SIZE, SIZE)
     cs[0, 0] = 1.0
     k = 0
@@ -55,8 +61,8 @@ def gravity_coefficients(normalised: list, degree: int) -> Matrix:
 def gradient(position: Vector3, mu: float, radius: float, cs: Matrix, degree: int) -> Vector3:
     """Return the gradient of U (planet-fixed) at a position (m, planet-fixed) other than the centre.
 
-    ``mu`` is the factor of U: the gravitational parameter (m3/s2), for gravity in m/s2. ``radius`` (m) is R, ``degree``
-    the highest that is summed, at most 13.
+    ``mu`` is the factor of U: the gravitational parameter (m3/s2) for gravity in m/s2. ``radius`` (m) is R, and
+    ``degree`` the highest degree of the sum, at most 13.
     """
     square = dot(position, position)
     distance = math.sqrt(square)

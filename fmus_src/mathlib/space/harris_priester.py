@@ -1,7 +1,8 @@
-"""Density of the upper atmosphere with its bulge behind the Sun: Harris and Priester. Kernel functions.
+"""Density of the upper atmosphere with a diurnal bulge behind the Sun: Harris and Priester. Kernel functions.
 
-It holds for mean solar activity: at 500 km its mean over that of NRLMSIS 2.0 is 0.96 at F10.7 = 150, 10.1 at 70 and
-0.28 at 230. A factor from 0.1 to 4 disperses it over a cycle of the Sun.
+The model applies to mean solar activity: at 500 km the ratio of its mean to that of NRLMSIS 2.0 is 0.96 at F10.7 = 150,
+10.1 at 70 and 0.28 at 230. A factor from 0.1 to 4 covers the variation over a solar cycle.
+
 Source: Montenbruck and Gill 2000, section 3.5.2 and table 3.8.
 """
 
@@ -35,10 +36,10 @@ HIGHEST = (  # 1e-12 kg/m3, of the bulge
 
 
 def bulge_fraction(position: Vector3, sun: Vector3, exponent: float) -> float:
-    """Return how much of the bulge is at a position, 0 opposite to its apex to 1 at it: cos^n of half the angle.
+    """Return the fraction of the bulge at a position, from 0 opposite to its apex to 1 at it: cos^n of half the angle.
 
-    ``sun`` is the unit vector to the Sun; both are inertial, from the Earth's centre. The exponent n is 2 for orbits of
-    low inclination to 6 for polar ones.
+    ``sun`` is the unit vector to the Sun; both vectors are inertial and relative to the Earth's centre. The exponent n
+    is 2 for orbits of low inclination and 6 for polar orbits.
     """
     apex = vector(COSINE * sun.x - SINE * sun.y, SINE * sun.x + COSINE * sun.y, sun.z)
     square = 0.5 + 0.5 * dot(position, apex) / norm(position)
@@ -48,7 +49,7 @@ def bulge_fraction(position: Vector3, sun: Vector3, exponent: float) -> float:
 
 
 def harris_priester_density(h: float, bulge: float) -> float:
-    """Return the density (kg/m3) at a height h (m) with a fraction of the bulge; 0 from 1000 km on."""
+    """Return the density (kg/m3) at a height h (m) with a fraction of the bulge; 0 above 1000 km."""
     kilometres = 1e-3 * h
     if kilometres < HEIGHT[0]:
         kilometres = HEIGHT[0]

@@ -1,8 +1,8 @@
 """Magnetic field of the Earth to degree 13: IGRF-14 from 2025 to 2030. Kernel functions.
 
 Source: Alken et al., International Geomagnetic Reference Field: the fourteenth generation, 2025: main field at 2025.0
-and secular variation to degree 8, in Schmidt quasi-normalisation. Outside these years the line through both ends is
-continued, with unknown accuracy.
+and secular variation to degree 8, in Schmidt quasi-normalisation. Outside these years the coefficients are extrapolated
+linearly, with unknown accuracy.
 """
 
 from ...kernel.matrices import Matrix, zeros
@@ -54,12 +54,12 @@ VARIATION = (
 
 
 def in_validity(t: float) -> bool:
-    """Return True if t (s TT since J2000.0) is from 2025 to 2030."""
+    """Return True if t (s TT since J2000.0) lies between 2025 and 2030."""
     return t >= START and t <= START + SPAN * DAY
 
 
 def igrf14(t: float) -> Matrix:
-    """Return the coefficients (nT) at t (s TT since J2000.0) for `magnetic_field`, unnormalised."""
+    """Return the unnormalised coefficients (nT) at t (s TT since J2000.0) for `magnetic_field`."""
     cs = zeros(SIZE, SIZE)
     years = YEARS * (t - START) / (SPAN * DAY)
     k = 0
@@ -77,5 +77,5 @@ def igrf14(t: float) -> Matrix:
 
 
 def magnetic_field(position: Vector3, cs: Matrix, degree: int) -> Vector3:
-    """Return the flux density (T) at a position (m), both planet-fixed, to a degree from 1 (a dipole) to 13."""
+    """Return the flux density (T, planet-fixed) at a position (m, planet-fixed), to a degree from 1 (dipole) to 13."""
     return -gradient(position, RADIUS * RADIUS * NANOTESLA, RADIUS, cs, degree)

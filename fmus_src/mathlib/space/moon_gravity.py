@@ -1,6 +1,8 @@
-"""Gravity of the Moon to degree 8: LP165P. Kernel functions.
+"""Gravity field of the Moon to degree 8: LP165P. Kernel functions.
 
-It serves attitude and short arcs: the mass concentrations that rule a low lunar orbit need a much higher degree.
+The degree suffices for attitude and short arcs; the mass concentrations that dominate a low lunar orbit need a much
+higher one.
+
 Source: Konopliv et al. 2001, fully normalised coefficients in principal axes, which are within about 0.03 deg of the
 mean-Earth axes of `orientation`.
 """
@@ -38,5 +40,5 @@ NORMALISED: Any = (  # a list to the kernel that reads it
 
 
 def moon_gravity() -> Matrix:
-    """Return the coefficients for `harmonics.gradient`, unnormalised."""
+    """Return the unnormalised coefficients for `harmonics.gradient`."""
     return gravity_coefficients(NORMALISED, DEGREE)

@@ -1,7 +1,8 @@
 """Orientation of Earth and Moon: from inertial to planet-fixed axes. Kernel functions.
 
-Inertial: axes of the GCRS. Planet-fixed: the ITRS without polar motion, or the Moon's mean-Earth axes. Both are a turn
-about an axis that moves slowly: axes of that pole, which one may hold over a step, and an angle about it.
+Inertial: axes of the GCRS. Planet-fixed: the ITRS without polar motion, or the Moon's mean-Earth axes. Both
+orientations are a rotation about a slowly moving pole: axes of the pole, which may be held over a step, and a rotation
+angle.
 """
 
 import math
@@ -15,7 +16,7 @@ DAY = 86400.0  # s
 
 
 class PlanetAxes(Record):
-    """Axes of the pole at one instant, and the angle about it, which grows at a constant rate near that instant."""
+    """Axes of the pole at one instant, and the rotation angle about it, with a constant rate near that instant."""
 
     first = Field(
         Vector3, unit="1", frame="inertial", description="axis from which the rotation angle counts, unit vector"
@@ -33,7 +34,7 @@ class PlanetAxes(Record):
 
 
 class FixedAxes(Record):
-    """Planet-fixed axes at one instant: the prime meridian in the equator, 90 degrees east, north."""
+    """Planet-fixed axes at one instant: prime meridian in the equatorial plane, 90 degrees east, north."""
 
     meridian = Field(
         Vector3, unit="1", frame="inertial", description="planet-fixed x axis, through the prime meridian, unit vector"
@@ -43,12 +44,12 @@ class FixedAxes(Record):
 
 
 def angle_at(axes: PlanetAxes, t: float) -> float:
-    """Return the angle (rad) of the prime meridian at a time (s) near that of the axes."""
+    """Return the angle (rad) of the prime meridian at a time (s) close to that of the axes."""
     return axes.angle + axes.rate * (t - axes.time)
 
 
 def fixed_axes(axes: PlanetAxes, t: float) -> FixedAxes:
-    """Return the planet-fixed axes at a time (s) near that of the axes."""
+    """Return the planet-fixed axes at a time (s) close to that of the axes."""
     angle = angle_at(axes, t)
     c = cos(angle)
     s = sin(angle)
@@ -56,12 +57,12 @@ def fixed_axes(axes: PlanetAxes, t: float) -> FixedAxes:
 
 
 def to_fixed(axes: FixedAxes, v: Vector3) -> Vector3:
-    """Return a vector in inertial axes in planet-fixed ones."""
+    """Return a vector in inertial axes transformed to planet-fixed axes."""
     return vector(dot(axes.meridian, v), dot(axes.east, v), dot(axes.pole, v))
 
 
 def from_fixed(axes: FixedAxes, v: Vector3) -> Vector3:
-    """Return a vector in planet-fixed axes in inertial ones."""
+    """Return a vector in planet-fixed axes transformed to inertial axes."""
     return v.x * axes.meridian + v.y * axes.east + v.z * axes.pole
 
 
@@ -69,7 +70,7 @@ def earth_axes(t: float, tt_minus_ut1: float) -> PlanetAxes:
     """Return the axes of the Earth at t (TT, s since J2000.0), with TT - UT1 (s).
 
     The pole is within 0.24 arcseconds of IAU 2006/2000A between 2020 and 2040 (rms 0.11); polar motion (0.3 arcseconds)
-    is left out. Source: Capitaine, Wallace and Chapront 2003; Wallace and Capitaine 2008, with seven more terms.
+    is neglected. Source: Capitaine, Wallace and Chapront 2003; Wallace and Capitaine 2008, with seven more terms.
     """
     d = t / DAY
     T = t / CENTURY  # noqa: N806 - as in the source
@@ -113,8 +114,8 @@ LUNAR_RATE = 13.17635815  # deg a day
 def moon_axes(t: float) -> PlanetAxes:
     """Return the axes of the Moon at t (TT, s since J2000.0).
 
-    The rate of the angle is its mean one: the librations in it stay as they are at t.
-    Source: Archinal et al., Report of the IAU working group on cartographic coordinates: 2009, 2011.
+    The rate of the angle is its mean rate; librations are constant at their values at t. Source: Archinal et al.,
+    Report of the IAU working group on cartographic coordinates: 2009, 2011.
     """
     d = t / DAY
     T = t / CENTURY  # noqa: N806 - as in the source

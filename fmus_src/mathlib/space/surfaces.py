@@ -1,8 +1,10 @@
 """Air drag and solar pressure on flat plates and on a sphere. Kernel functions.
 
-Frame: body, origin at the undeformed centre of mass. No plate shades another.
+Frame: body, origin at the undeformed centre of mass. Plates do not shade each other.
+
 Plates are rows of a matrix: area (m2; 0: none), unit outward normal, centre (m), drag coefficient, specular and diffuse
 reflectivity.
+
 Source: Montenbruck and Gill 2000, sections 3.4 and 3.5.
 """
 
@@ -18,20 +20,22 @@ SOLAR_PRESSURE = 1361.0 / 299792458.0  # N/m2 at one astronomical unit: Kopp and
 
 
 class SurfaceLoad(Record):
-    """Force on all surfaces, and its torque about the origin."""
+    """Force on all surfaces and its torque about the origin."""
 
     force = Field(Vector3, unit="N", frame="body", description="force on all surfaces")
     torque = Field(Vector3, unit="N.m", frame="body", description="torque about the origin of the body frame")
 
 
 def pressure_at(distance: float, illumination: float) -> float:
-    """Return the solar pressure (N/m2) at a distance (m) from the Sun, with the visible share of its disk."""
+    """Return the solar pressure (N/m2) at a distance (m) from the Sun, with the visible fraction of its disk."""
     ratio = ASTRONOMICAL_UNIT / distance
     return SOLAR_PRESSURE * ratio * ratio * illumination
 
 
 def plate_drag(plates: Matrix, density: float, velocity: Vector3) -> SurfaceLoad:
-    """Return the drag in air of a density (kg/m3) through which the body moves with a velocity (m/s, body)."""
+    """Return the drag on the plates in air of a density (kg/m3) at a velocity (m/s, body) of the body relative to the
+    air.
+    """
     force = vector(0.0, 0.0, 0.0)
     torque = vector(0.0, 0.0, 0.0)
     for k in range(len(plates)):
@@ -44,7 +48,7 @@ def plate_drag(plates: Matrix, density: float, velocity: Vector3) -> SurfaceLoad
 
 
 def plate_pressure(plates: Matrix, pressure: float, sun: Vector3) -> SurfaceLoad:
-    """Return the load of solar pressure (N/m2) with the Sun in a direction (unit vector, body)."""
+    """Return the load on the plates from solar pressure (N/m2), with the direction to the Sun (unit vector, body)."""
     force = vector(0.0, 0.0, 0.0)
     torque = vector(0.0, 0.0, 0.0)
     for k in range(len(plates)):
@@ -60,10 +64,10 @@ def plate_pressure(plates: Matrix, pressure: float, sun: Vector3) -> SurfaceLoad
 
 
 def sphere_drag(area: float, coefficient: float, density: float, velocity: Vector3) -> Vector3:
-    """Return the drag (N) on a sphere with a cross-section (m2), against a velocity (m/s) through air (kg/m3)."""
+    """Return the drag force (N) on a sphere of a cross-section (m2) at a velocity (m/s) relative to the air (kg/m3)."""
     return -(0.5 * density * coefficient * area * norm(velocity)) * velocity
 
 
 def sphere_pressure(area: float, coefficient: float, pressure: float, sun: Vector3) -> Vector3:
-    """Return the force (N) of solar pressure (N/m2) on a sphere with the Sun in a direction (unit vector)."""
+    """Return the force (N) on a sphere from solar pressure (N/m2), with the direction to the Sun (unit vector)."""
     return -(pressure * coefficient * area) * sun
