@@ -1,1 +1,1 @@
-"""From a block to an FMU, and from a system folder to an .ssp."""
+"""Export of blocks as FMUs and of system folders as .ssp files."""

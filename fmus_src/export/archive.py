@@ -1,4 +1,4 @@
-"""Zip archives whose bytes depend on their content alone."""
+"""Zip archives with reproducible bytes, which depend on their content alone."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date a zip can hold
 def write_zip(path: Path, files: Mapping[str, bytes]) -> None:
     """Write ``files`` (name in the archive -> content) in name order, with fixed dates and modes.
 
-    The archive appears whole or not at all.
+    The archive is written atomically.
     """
     with whole_file(path) as partial, zipfile.ZipFile(partial, "w") as archive:
         for name in sorted(files):
@@ -27,13 +27,13 @@ def write_zip(path: Path, files: Mapping[str, bytes]) -> None:
 
 
 def read_zip(path: Path) -> dict[str, bytes]:
-    """Read every file of an archive by name."""
+    """Return all files of an archive by name."""
     with zipfile.ZipFile(path) as archive:
         return {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
 
 
 def content_guid(files: dict[str, bytes]) -> str:
-    """Return the GUID of an FMU: a hash of its files, modelDescription.xml without GUID among them."""
+    """Return the GUID of an FMU: a hash of its files, including modelDescription.xml without GUID."""
     digest = hashlib.sha256()
     for name in sorted(files):
         digest.update(name.encode() + b"\0" + hashlib.sha256(files[name]).digest())

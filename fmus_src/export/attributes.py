@@ -1,4 +1,4 @@
-"""Undeclared attributes of a block: found when it is written, before any simulation."""
+"""Check for undeclared attributes of a block, before any simulation."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from ..block import Block
 
 
 class UndeclaredError(ValueError):
-    """A block assigns or reads an attribute that nobody declares; file, line, name and remedy in the message."""
+    """Error of a block that uses an undeclared attribute; the message names file, line, attribute and remedy."""
 
 
 def check_attributes(block_class: type[Block]) -> None:
-    """Refuse methods that use self.NAME where NAME is neither a variable nor an attribute of the class.
+    """Reject methods that use self.NAME where NAME is neither a variable nor an attribute of the class.
 
-    What is kept there would be lost at a reset, in a saved state and from trial to trial of a batch. Kernels are judged
-    for it as they are translated; this is for blocks in Python alone, and where nothing is translated. Raises
+    Its value would be lost at a reset, in a saved state and between the trials of a batch. The translator makes the
+    same check for kernels; this one is for Python-only blocks and for uses without translation. Raises
     `UndeclaredError`.
     """
     for owner in block_class.__mro__:

@@ -1,7 +1,7 @@
-"""The FMUs there are, by name: this repository's own, those in the working folder's ``build/fmus``, or a system's.
+"""Available FMUs by name: this repository's, those in the working folder's ``build/fmus``, and a system's.
 
-An installed package has its native FMUs inside. Its Python FMUs, whose loader alone would make it three times as large,
-are built when they are first asked for, which takes no compiler, and kept in the cache folder.
+An installed package contains its native FMUs. Its Python FMUs, whose loader would triple the size of the package, are
+built on first use, which needs no compiler, and stored in the cache folder.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from .pythonfmu_fmu import build_python_fmu
 
 
 def find_fmu(name: str, flavours: Iterable[str] = FLAVOURS, system: Path | None = None) -> Path | None:
-    """Return the FMU of this name, of the first available flavour; None where there is none.
+    """Return the FMU of this name in the first available flavour, or None.
 
-    In a system of the user's the user's own come first: those of the working folder, then of the parent folder of
-    ``system``. Elsewhere the repository's do, so that its systems are the same in every folder.
+    For a user's system, the user's FMUs take precedence: those of the working folder, then those of the parent folder
+    of ``system``. Otherwise the repository's take precedence, so that its systems are the same in every folder.
     """
     flavours = tuple(flavours)
     users, shipped = _users_files(name, flavours, system), _list_shipped(name, flavours)
@@ -35,7 +35,7 @@ def find_fmu(name: str, flavours: Iterable[str] = FLAVOURS, system: Path | None 
 
 
 def fmu_file(name: str, flavour: str, system: Path | None = None) -> Path | None:
-    """Return the FMU of `find_fmu` of one flavour."""
+    """Return the FMU that `find_fmu` finds in one flavour, or None."""
     return find_fmu(name, (flavour,), system)
 
 
@@ -45,7 +45,7 @@ def _users_files(name: str, flavours: Iterable[str], system: Path | None) -> Ite
 
 
 def _list_shipped(name: str, flavours: Iterable[str]) -> Iterator[Path]:
-    """Yield the repository's; a Python FMU of an installed package is built when it is asked for."""
+    """Yield the repository's FMUs; a Python FMU of an installed package is built when it is used."""
     for flavour in flavours:
         shipped = shipped_fmu(name, flavour)
         if names_file(shipped):
@@ -57,7 +57,7 @@ def _list_shipped(name: str, flavours: Iterable[str]) -> Iterator[Path]:
 
 
 def fmu_flavours() -> dict[str, dict[str, Path | None]]:
-    """Return all FMUs by name, with the flavours there are; a file is None until it is asked for and built."""
+    """Return all FMUs by name with their available flavours; a file is None until it has been built."""
     files: dict[str, dict[str, Path | None]] = {}
     for flavour in FLAVOURS:
         if not IS_CHECKOUT and flavour == "python":
@@ -76,7 +76,7 @@ def _python_fmu(name: str) -> bytes:
 
 @cache
 def _python_folder() -> Path:
-    """Return the folder of the Python FMUs of these sources."""
+    """Return the cache folder of Python FMUs for the present sources."""
     sources = PACKAGE / "fmus_src"
     digest = hashlib.sha256(version("pythonfmu").encode())
     for path in sorted((*sources.rglob("*.py"), *sources.glob("*/checks/*"))):

@@ -1,4 +1,4 @@
-"""The FMUs of all blocks, built into a folder: flavours, platforms, progress."""
+"""Build of the FMUs of all blocks into a folder."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ T = TypeVar("T")
 def build_fmus(flavour: str, output: Path, platforms: Sequence[str], portable: bool) -> int:
     """Build the FMUs of one flavour to ``output``/fmus/FLAVOUR and return their number.
 
-    Blocks that need Python have no native form. Raises CompilerMissing and CompilationFailed.
+    Python-only blocks have no native FMU. Raises CompilerMissing and CompilationFailed.
     """
     folder, blocks = output / "fmus" / flavour, catalogue()
     names = [name for name, block in blocks.items() if flavour == "python" or not block.python_only]
@@ -40,5 +40,5 @@ def build_fmus(flavour: str, output: Path, platforms: Sequence[str], portable: b
 
 
 def _progress(work: Iterable[T], what: str, total: int) -> Iterable[T]:
-    """Yield the items with a bar on standard error, if that is a terminal."""
+    """Yield the items, with a progress bar on standard error if it is a terminal."""
     return tqdm(work, desc=what, total=total, unit="FMU", disable=None, leave=False)

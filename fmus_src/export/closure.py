@@ -1,7 +1,7 @@
-"""The Python files a block needs, packed under a name that carries their content's hash.
+"""The Python files that a block needs, packed under a name that contains the hash of their content.
 
-An FMU always runs the code it was built with: two versions of a block can then live in one
-process, since their packages have different names.
+An FMU always runs the code with which it was built: two versions of a block can be loaded in one process, as their
+packages have different names.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ RUNTIME_MODULES = ("export.pythonfmu_slave", "face")  # what the slave script it
 
 
 class ClosureError(ValueError):
-    """A block imports something that cannot be packed; file, import and remedy in the message."""
+    """Error of an import that cannot be packed; the message names file, import and remedy."""
 
 
 @dataclass(frozen=True)
 class Closure:
-    """Files of the package by path inside it, the block's module in it, and the content hash."""
+    """Files of the package by path inside it, the block's module, and the content hash."""
 
     files: dict[str, bytes]
     block_module: str
@@ -45,8 +45,7 @@ class Closure:
         return f"perilune_{self.digest[:16]}"
 
     def pack_closure(self) -> dict[str, bytes]:
-        """Return the files below the package's folder, with imports of the source package and
-        its parent package renamed."""
+        """Return the files below the package's folder, with imports of the source package and its parent renamed."""
         renamed = {
             _imports_of(SOURCE_PACKAGE, r"(?=\s|\.)"): rb"\g<1>" + self.package.encode(),
             _imports_of(FACE_PACKAGE, r"(?=\s)"): rb"\g<1>" + f"{self.package}.face".encode(),
@@ -66,9 +65,9 @@ def _imports_of(package: str, end: str) -> re.Pattern[bytes]:
 def closure_of(block_class: type[Block]) -> Closure:
     """Return the import closure of a block within the source package, as files.
 
-    A block from outside the repository is packed with the modules of its folder that it imports, and every block with
-    its ``data``. Raises `ClosureError` for imports other than these, the source package, the standard library, numpy
-    and what the block declares in ``requires``, and for missing data.
+    A user's block is packed with the modules of its folder that it imports, and every block with its ``data``. Raises
+    `ClosureError` for imports other than these, the source package, the standard library, numpy and the block's
+    ``requires``, and for missing data.
     """
     files: dict[str, bytes] = {}
     module = sys.modules[block_class.__module__]
@@ -98,8 +97,9 @@ def closure_of(block_class: type[Block]) -> Closure:
 
 
 def data_files(block_class: type[Block]) -> dict[Path, type[Block]]:
-    """Return the files that a block declares, each with the class that does; raises `ClosureError` for a missing
-    one."""
+    """Return the data files of a block, each with the class that declares it. Raises `ClosureError` for a missing
+    file.
+    """
     owners: dict[Path, type[Block]] = {}
     for owner in block_class.__mro__:
         for name in vars(owner).get("data", ()):
@@ -129,7 +129,7 @@ def _collect(module: str, files: dict[str, bytes], allowed: frozenset[str]) -> N
 
 
 def _with_submodules(parts: list[str], names: list[ast.alias]) -> list[str]:
-    """Return the module that an import names, and those of ``names`` that are modules in it."""
+    """Return the module that an import names, and those of ``names`` that are its submodules."""
     module = [part for part in parts if part]
     folder = SOURCE_ROOT.joinpath(*module)
     inner = [
@@ -152,7 +152,7 @@ def _home(name: str, path: Path, line: int) -> str:
 
 
 def _check_siblings(node: ast.ImportFrom, path: Path) -> None:
-    """Refuse a relative import of what is not in a user's folder."""
+    """Reject a relative import that leaves a user's folder."""
     for name in list_imports(node):
         if node.level > 1 or not path.with_name(f"{name}.py").is_file():
             written = "." * node.level + (node.module or name)
@@ -162,7 +162,7 @@ def _check_siblings(node: ast.ImportFrom, path: Path) -> None:
 
 @cache  # all blocks share most of their files
 def _read_import(text: bytes, module: str, path: Path, allowed: frozenset[str]) -> tuple[str, ...]:
-    """Return modules of the source package that a file imports, as dotted names below it."""
+    """Return the modules of the source package that a statement imports, as dotted names below it."""
     package = module.rsplit(".", 1)[0].split(".") if "." in module else []
     modules: list[str] = []
     for node in ast.walk(ast.parse(text)):

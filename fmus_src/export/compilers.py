@@ -1,4 +1,4 @@
-"""C compilers: which one serves a platform, and with which flags."""
+"""C compilers and flags for each platform."""
 
 from __future__ import annotations
 
@@ -17,19 +17,16 @@ FOR_THIS_PROCESSOR = "-march=native"  # its libraries run nowhere else
 
 
 class CompilerMissing(RuntimeError):  # noqa: N818
-    """No compiler for a platform on this machine; the message says how to get one."""
+    """Error of a missing compiler for a platform; the message says how to get one."""
 
 
 class CompilationFailed(RuntimeError):  # noqa: N818
-    """The compiler refused the sources, or did not work; its own message is in this one."""
+    """Error of a compiler that rejected the sources or did not run; the message contains its output."""
 
 
 @dataclass(frozen=True)
 class Platform:
-    """A platform of a version of FMI: the extension of its libraries, and zig's names for it.
-
-    Several make a universal library.
-    """
+    """Platform of an FMI version: extension of its libraries and zig's target names; several make a universal library."""
 
     fmi: int
     extension: str
@@ -51,12 +48,12 @@ USUAL = {2: ("linux64", "win64"), 3: tuple(name for name, each in PLATFORMS.item
 
 
 def platforms_of(fmi: int) -> list[str]:
-    """Return the names that a version of FMI has for platforms."""
+    """Return the platform names of an FMI version."""
     return [name for name, platform in PLATFORMS.items() if platform.fmi == fmi]
 
 
 def local_platform(fmi: int = 2) -> str | None:
-    """Return FMI's name of this process's platform; None where it has no name, or no compiler."""
+    """Return FMI's name of this process's platform; None if it has no name or no compiler."""
     machine = host.machine().lower()
     system = {"linux": "linux", "win32": "windows", "darwin": "darwin"}.get(sys.platform)
     if fmi == 3:
@@ -71,10 +68,10 @@ def local_platform(fmi: int = 2) -> str | None:
 
 
 def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
-    """Return the commands of a platform's compilers, without flags: one for each processor that its libraries serve.
+    """Return the compiler commands of a platform, without flags, one for each processor of its libraries.
 
-    The system's ``cc`` serves the platform this process runs on; zig, from the PyPI package ziglang, serves all.
-    ``portable`` asks for zig everywhere, whose linux64 libraries run on any Linux with glibc 2.17 or later. Raises
+    The system's ``cc`` serves the platform of this process; zig, from the PyPI package ziglang, serves all. With
+    ``portable`` zig is used everywhere; its linux64 libraries run on any Linux with glibc 2.17 or later. Raises
     `CompilerMissing`, and ValueError for an unknown platform.
     """
     if platform not in PLATFORMS:
@@ -91,7 +88,7 @@ def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
 
 
 def compiled_here() -> list[str]:
-    """Return the platform of this machine, where a compiler serves it; else nothing. FMI 2.0's name."""
+    """Return FMI 2.0's name of this machine's platform if a compiler is available, else an empty result."""
     local = local_platform()
     try:
         return [local] if local is not None and compilers_for(local) else []
@@ -100,9 +97,9 @@ def compiled_here() -> list[str]:
 
 
 def available_platforms(fmi: int = 2) -> list[str]:
-    """Return the usual platforms that some available compiler serves.
+    """Return the usual platforms for which a compiler is available.
 
-    FMI 2.0: linux64 and win64 with zig, else the local one. FMI 3.0: all with zig, else the local one.
+    FMI 2.0: linux64 and win64 with zig, else the local platform. FMI 3.0: all with zig, else the local platform.
     """
     platforms = []
     for platform in USUAL[fmi]:

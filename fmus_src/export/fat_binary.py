@@ -1,6 +1,6 @@
-"""Mach-O libraries of several processors joined into one, as macOS loads them for whichever it runs on.
+"""Universal Mach-O libraries: libraries for several processors in one file, from which macOS loads the right one.
 
-Apple's `lipo` does this, which runs on macOS only. Format: Apple, mach-o/fat.h.
+Apple's `lipo` does the same but runs on macOS only. Format: Apple, mach-o/fat.h.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ ALIGNMENT = 14  # power of 2: the pages of arm64, 16 KiB, a multiple of those of
 
 
 def fat_binary(libraries: Sequence[bytes]) -> bytes:
-    """Join 64-bit Mach-O libraries, each of another processor, in one; raises ValueError for anything else."""
+    """Return 64-bit Mach-O libraries for different processors as one file. Raises ValueError for other files."""
     header = struct.pack(">II", FAT_MAGIC, len(libraries))
     body = b""
     processors = set()

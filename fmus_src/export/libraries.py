@@ -1,4 +1,4 @@
-"""Shared libraries from C sources, through a cache by content."""
+"""Shared libraries from C sources, cached by content."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .fat_binary import fat_binary
 
 @cache
 def _identity(command: tuple[str, ...]) -> str:
-    """Return command and version of a compiler, for the cache's key."""
+    """Return command and version of a compiler for the cache key."""
     with tempfile.TemporaryDirectory() as folder:  # zig leaves a file behind where it runs
         version = _output([*command, "--version"], folder)
     return " ".join(command[1:] if command[0] == sys.executable else command) + version
@@ -26,7 +26,7 @@ def _identity(command: tuple[str, ...]) -> str:
 
 @cache
 def _processor(command: tuple[str, ...]) -> str:
-    """Return a compiler's view of this processor, for the cache's key: the cache may be shared."""
+    """Return the compiler's name of this processor for the cache key, as the cache may be shared."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "empty.c").touch()
         return _output([*command, FOR_THIS_PROCESSOR, "-dM", "-E", "empty.c"], folder)
@@ -37,7 +37,7 @@ def _output(command: list[str], folder: str) -> str:
 
 
 def _run(command: list[str], folder: str | Path, is_wanted: Callable[[], bool] = lambda: True) -> Ended:
-    """Run a compiler. Raises `CompilationFailed` where it fails to start, or is no longer needed."""
+    """Run a compiler. Raises `CompilationFailed` if it fails, does not start, or is no longer needed."""
     try:
         ended = run_program(command, folder, is_wanted)
     except OSError as error:
@@ -50,7 +50,9 @@ def _run(command: list[str], folder: str | Path, is_wanted: Callable[[], bool] =
 def build_library(
     sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
 ) -> bytes:
-    """Build the shared library of the source file ``main``, as `library_files`; one for several processors in one."""
+    """Build the shared library of ``main`` like `library_files`, with the libraries for several processors in one
+    file.
+    """
     libraries = [path.read_bytes() for path in library_files(sources, main, platform, cache, portable=portable)]
     return libraries[0] if len(libraries) == 1 else fat_binary(libraries)
 
@@ -65,12 +67,13 @@ def library_files(
     flags: Sequence[str] = FLAGS,
     is_wanted: Callable[[], bool] = lambda: True,
 ) -> list[Path]:
-    """Build the shared libraries of the source file ``main`` for each processor of a platform, in the folder ``cache``.
+    """Build the shared libraries of the source file ``main`` for each processor of a platform, in the folder
+    ``cache``.
 
-    ``sources`` holds all files by name, ``flags`` are the compiler's. The libraries depend on these and the compiler
-    only, not on time or place. A library in the cache that is not as it was compiled is compiled again, and is a
-    temporary file where the cache cannot be written; the compiler is ended as soon as nothing ``is_wanted`` any more.
-    Raises `CompilerMissing`, `CompilationFailed`, and OSError where no file can be written.
+    ``sources`` contains all files by name, ``flags`` the compiler flags. The libraries depend only on these and the
+    compiler, not on time or folder. A damaged library in the cache is compiled again; a temporary file is used if the
+    cache cannot be written. The compiler is terminated when ``is_wanted`` returns False. Raises `CompilerMissing`,
+    `CompilationFailed`, and OSError if no file can be written.
     """
     commands = compilers_for(platform, portable)
     extension = PLATFORMS[platform].extension

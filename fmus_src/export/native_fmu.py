@@ -1,4 +1,4 @@
-"""A block as a native FMU: C99 translated from its Python, compiled, with its sources inside."""
+"""Native FMU of a block: C99 translated from its Python, compiled, with its sources."""
 
 from __future__ import annotations
 
@@ -25,22 +25,23 @@ C_FILES = Path(__file__).parent / "fmi"
 
 
 def wrapper_files(fmi: int, model: str = "block") -> list[Path]:
-    """Return the C around a model, a block or a ``system``, for a version of FMI: that of all
-    versions, and the version's."""
+    """Return the C files around a model, a block or a ``system``, for an FMI version: common files and those of the
+    version.
+    """
     folders = ("instance", "kernel", model, f"fmi{fmi}")
     return [path for folder in folders for path in sorted((C_FILES / folder).iterdir())]
 
 
 def read_wrapper(fmi: int, model: str = "block") -> dict[str, bytes]:
-    """Read the same by file name, with the headers of the standard."""
+    """Return the content of `wrapper_files` by file name, with the headers of the standard."""
     files = {path.name: path.read_bytes() for path in wrapper_files(fmi, model)}
     return files | {name: (STANDARD / name).read_bytes() for name in STANDARD_HEADERS[fmi]}
 
 
 def native_sources(block_class: type[Block], guid: str, fmi: int = 2) -> dict[str, bytes]:
-    """Return the files of ``sources/`` by name; ``FMU_NAME.c`` is the one to compile, it includes the others.
+    """Return the files of ``sources/`` by name; ``FMU_NAME.c`` includes the others and is the one to compile.
 
-    Raises `SubsetError` where the block is outside the subset of Python.
+    Raises `SubsetError` if the block is outside the subset of Python.
     """
     files = read_wrapper(fmi)
     files[f"{block_class.fmu_name}.c"] = translate(block_class, guid, fmi).encode()
@@ -63,10 +64,10 @@ def build_native_fmu(
 ) -> Path:
     """Build the native FMU of a block at ``path``; two builds on one machine are byte-identical.
 
-    ``fmi`` is 2 or 3, of which the ``platforms`` are. Compiled libraries are kept in the folder ``cache``, so that an
-    unchanged block is not compiled again. ``portable`` compiles with zig even where the system has a compiler. Raises
-    `SubsetError`, `CompilerMissing` and `CompilationFailed`; ValueError for a block that this version of FMI cannot
-    describe.
+    ``fmi`` is 2 or 3, and ``platforms`` are names of that version. Compiled libraries are cached in the folder
+    ``cache``, so an unchanged block is not compiled again. With ``portable`` zig compiles even if the system has a
+    compiler. Raises `SubsetError`, `CompilerMissing` and `CompilationFailed`, and ValueError for a block that this
+    version of FMI cannot describe.
     """
     guid = native_guid(block_class, fmi)
     files = _files(block_class, guid, fmi)
@@ -81,7 +82,7 @@ def build_native_fmu(
 
 
 def _files(block_class: type[Block], guid: str, fmi: int) -> dict[str, bytes]:
-    """Return the FMU without its binaries and its check."""
+    """Return the files of the FMU without binaries and check."""
     files = {f"sources/{name}": text for name, text in native_sources(block_class, guid, fmi).items()}
     main, is_ours = f"{block_class.fmu_name}.c", is_shipped(block_class)
     files |= accompanying_files(fmi, is_ours=is_ours)

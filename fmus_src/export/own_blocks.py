@@ -1,4 +1,4 @@
-"""Blocks that a user wrote in a file, as FMUs."""
+"""FMUs of the blocks in a user's file."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .pythonfmu_fmu import build_python_fmu
 
 
 def defines(path: Path) -> list[str]:
-    """Return the FMU names of the classes that a file defines, without importing it: blocks and others."""
+    """Return the FMU names of all classes that a file defines, blocks and others, without importing it."""
     try:
         tree = ast.parse(path.read_bytes())
     except (OSError, SyntaxError, ValueError):
@@ -24,7 +24,7 @@ def defines(path: Path) -> list[str]:
 
 
 def files_with(path: Path) -> list[Path]:
-    """Return the other files that the blocks of a file are built of: modules that it imports, and data."""
+    """Return the other files from which the blocks of a file are built: imported modules and data."""
     data = [file for block in blocks_in_file(path) for file in data_files(block)]
     return sorted({*modules_of(path), *data} - {path.resolve()})
 
@@ -39,10 +39,10 @@ def build_own_blocks(
     portable: bool = False,
     fmi: int = 2,
 ) -> list[Path]:
-    """Build the blocks of a file, or ``only`` one by its FMU name, as ``folder``/FLAVOUR/NAME.fmu; returns the paths.
+    """Build the blocks of a file, or ``only`` one by its FMU name, as ``folder``/FLAVOUR/NAME.fmu; return the paths.
 
-    Those of FMI 3.0 go to ``folder``/fmi3. A block that needs Python has no native form, and is left out there.
-    Raises ValueError for what is wrong in the file, `CompilerMissing` and `CompilationFailed`.
+    FMUs of FMI 3.0 are built to ``folder``/fmi3. Python-only blocks have no native form and are omitted there. Raises
+    ValueError for errors in the file, `CompilerMissing` and `CompilationFailed`.
     """
     written = []
     for block in blocks_in_file(path):
@@ -59,5 +59,5 @@ def build_own_blocks(
 
 
 def folder_of(flavour: str, fmi: int) -> str:
-    """Return the folder of FMUs of one kind, in which ``use`` looks for those of FMI 2.0."""
+    """Return the folder of FMUs of one kind; ``use`` finds those of FMI 2.0 there."""
     return flavour if fmi == 2 else f"fmi{fmi}"

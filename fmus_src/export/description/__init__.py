@@ -1,1 +1,1 @@
-"""XML documents of an FMU, by version of FMI."""
+"""XML documents of an FMU, by FMI version."""

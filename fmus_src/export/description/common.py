@@ -1,5 +1,4 @@
-"""Shared content of the documents of all versions of FMI: units, log categories, roles of variables, numbers as
-text."""
+"""Common content of the documents of all FMI versions: units, log categories, attributes of variables, numbers."""
 
 from __future__ import annotations
 
@@ -27,7 +26,7 @@ LOG_CATEGORIES = {
 def start_description(
     name: str, guid: str, description: str, origin: Mapping[str, str], convention: str = "structured"
 ) -> etree._Element:
-    """Return the root of a modelDescription.xml of FMI 2.0, with the convention that names of variables follow."""
+    """Return the root of a modelDescription.xml of FMI 2.0, with the naming convention of its variables."""
     return etree.Element(
         "fmiModelDescription",
         fmiVersion="2.0",
@@ -40,15 +39,16 @@ def start_description(
 
 
 def add_units(root: etree._Element, variables: Iterable[Variable]) -> None:
-    """Add UnitDefinitions with the units of the variables, none where these have no units."""
+    """Add UnitDefinitions with the units of the variables; omitted without units."""
     define_units(root, (unit for variable in variables for unit in variable.units() if unit))
 
 
 def define_units(
     root: etree._Element, names: Iterable[str], others: Mapping[str, UnitDefinition] | None = None
 ) -> None:
-    """Add UnitDefinitions of the units with these names; those that are no products of known
-    units, nor among ``others``, are names alone."""
+    """Add UnitDefinitions for these units; those that are neither products of known units nor in ``others`` have only
+    a name.
+    """
     used = sorted(set(names))
     if used:
         definitions = etree.SubElement(root, "UnitDefinitions")
@@ -66,7 +66,7 @@ def define_units(
 
 
 def enumerations_by_name(model: str, used: Iterable[type[Enumeration] | None]) -> dict[str, type[Enumeration]]:
-    """Return the enumerations of a model's variables, sorted. Raises ValueError for two of one name."""
+    """Return the enumerations of a model's variables, sorted. Raises ValueError for two with the same name."""
     enumerations: dict[str, type[Enumeration]] = {}
     for each in filter(None, used):
         if enumerations.setdefault(each.__name__, each) is not each:
@@ -75,27 +75,27 @@ def enumerations_by_name(model: str, used: Iterable[type[Enumeration] | None]) -
 
 
 def about_enumeration(enumeration: type[Enumeration]) -> str:
-    """Return the description of its type."""
+    """Return the description of an enumeration's type."""
     return one_line((enumeration.__doc__ or "").strip())
 
 
 def add_items(parent: etree._Element, enumeration: type[Enumeration]) -> None:
-    """Add its members, with their meanings."""
+    """Add the members of an enumeration with their meanings."""
     for number, label in enumeration.names.items():
         etree.SubElement(parent, "Item", name=label, value=str(number), description=enumeration.meanings[number])
 
 
 def add_log_categories(root: etree._Element) -> None:
-    """Add LogCategories of native and Python FMUs."""
+    """Add the LogCategories of native and Python FMUs."""
     categories = etree.SubElement(root, "LogCategories")
     for name, description in LOG_CATEGORIES.items():
         etree.SubElement(categories, "Category", name=name, description=description)
 
 
 def role(block_class: type[Block], variable: Variable) -> dict[str, str]:
-    """Return the attributes causality, variability and, where it is not FMI's default, initial.
+    """Return the attributes causality, variability and, if it differs from FMI's default, initial.
 
-    Continuous, which may change between communication points, are Reals, but not what a sampled block computes.
+    Reals are continuous, as they may change between communication points, except those that a sampled block computes.
     """
     attributes = {"causality": variable.causality}
     if isinstance(variable, Parameter):
@@ -108,14 +108,15 @@ def role(block_class: type[Block], variable: Variable) -> dict[str, str]:
 
 
 def describe(block_class: type[Block], variable: Variable, description: str) -> str:
-    """Return the description of a variable's element, in one line, with a note where the block never reads it."""
+    """Return the description of a variable's element in one line, with a note if the block never reads it."""
     never = isinstance(variable, Parameter) and find_fixed(block_class)[variable.name] == NEVER_READ
     return one_line(f"{description}; {UNREAD}" if never else description)
 
 
 def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> str:
-    """Return the attribute start; raises ValueError for an int beyond the 32 bits of FMI 2.0's Integer and 3.0's
-    Int32."""
+    """Return the attribute start. Raises ValueError for an int beyond the 32 bits of FMI 2.0's Integer and 3.0's
+    Int32.
+    """
     for number in elements:
         if isinstance(number, int) and not _is_32_bit(number):
             raise ValueError(f"{variable.name}: starts at {number}, beyond the 32 bits of FMI; give a smaller start")
@@ -123,8 +124,9 @@ def start_text(variable: Variable, elements: Sequence[float | int | bool]) -> st
 
 
 def limits(variable: Variable) -> dict[str, str]:
-    """Return the declared ones of the attributes min, max and nominal; an Integer's without bounds beyond its 32
-    bits."""
+    """Return the declared attributes min, max and nominal, and the 32-bit bounds of an Integer without declared
+    bounds.
+    """
     attributes = {}
     for key, bound, whole in (("min", variable.minimum, math.ceil), ("max", variable.maximum, math.floor)):
         if bound is not None and variable.type_name == "Real":
@@ -141,12 +143,12 @@ def _is_32_bit(number: int) -> bool:
 
 
 def one_line(text: str) -> str:
-    """Return a text without line breaks, as descriptions are."""
+    """Return a text without line breaks, as required for descriptions."""
     return re.sub(r"\s+", " ", text)
 
 
 def boolean(flag: bool) -> str:
-    """Return true or false as text."""
+    """Return "true" or "false"."""
     return "true" if flag else "false"
 
 

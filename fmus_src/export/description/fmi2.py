@@ -1,4 +1,4 @@
-"""A block's declaration as FMI 2.0 modelDescription.xml."""
+"""Writer of a block's modelDescription.xml of FMI 2.0."""
 
 from __future__ import annotations
 
@@ -35,9 +35,10 @@ def model_description(
 ) -> bytes:
     """Return modelDescription.xml of a block.
 
-    ``origin`` has the attributes of `origin.origin`. ``sources`` lists the C files under ``sources/`` that an importer
-    compiles; ``native_memory`` says that the FMU uses the importer's memory functions. Value references number the
-    elements of all variables in order of declaration. Raises ValueError for two enumerations of one name.
+    ``origin`` contains the attributes of `origin.origin`. ``sources`` lists the C files under ``sources/`` that an
+    importer compiles; ``native_memory`` declares that the FMU uses the importer's memory functions. Value references
+    number the elements of all variables in order of declaration. Raises ValueError for two enumerations of the same
+    name.
     """
     root = start_description(block_class.fmu_name, guid, block_class.summary(), origin)
     simulation = etree.SubElement(
@@ -100,11 +101,11 @@ def _scalar_variable(parent: etree._Element, variable: Variable, position: int, 
 
 
 def _state_layout(root: etree._Element, block_class: type[Block], encoding: str) -> None:
-    """Declare the layout of fmi2SerializeFMUstate's complete memory, so that analyses can read and change it.
+    """Declare the memory layout of fmi2SerializeFMUstate, so that analyses can read and change states.
 
     "words": 6 words of 8 bytes, then one for every value reference; "json": the list "values" by value reference.
-    ``frozen`` lists the value references of what a linearisation leaves alone. A block with external state names that
-    instead: its memory is not serialised.
+    ``frozen`` lists the value references that a linearisation does not change. A block with external state is declared
+    as such instead: its memory is not serialised.
     """
     annotations = etree.SubElement(root, "VendorAnnotations")
     tool = etree.SubElement(annotations, "Tool", name=STATE_ANNOTATION)

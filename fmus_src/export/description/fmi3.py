@@ -1,4 +1,4 @@
-"""A block's declaration as FMI 3.0 modelDescription.xml."""
+"""Writer of a block's modelDescription.xml of FMI 3.0."""
 
 from __future__ import annotations
 
@@ -28,8 +28,9 @@ FMI_VERSION = "3.0"  # of all of 3.0.x, as fmi3GetVersion has it
 def model_description(block_class: type[Block], *, token: str, origin: Mapping[str, str]) -> bytes:
     """Return modelDescription.xml of a block's native FMU for co-simulation.
 
-    ``origin`` has the attributes of `origin.origin`. Value references number the variables in order of declaration,
-    arrays as wholes; the last is time. Raises ValueError for a variable ``time``, and for two enumerations of one name.
+    ``origin`` contains the attributes of `origin.origin`. Value references number the variables, arrays as wholes, in
+    order of declaration; the last is time. Raises ValueError for a variable ``time``, and for two enumerations of the
+    same name.
     """
     root = etree.Element(
         "fmiModelDescription",
@@ -123,10 +124,10 @@ def _add_unknown(parent: etree._Element, kind: str, reference: int, dependencies
 
 
 def _add_state_layout(root: etree._Element, variables: list[ArrayVariable]) -> None:
-    """Declare the layout of fmi3SerializeFMUState's complete memory, so that analyses can read and change it.
+    """Declare the memory layout of fmi3SerializeFMUState, so that analyses can read and change states.
 
-    6 words of 8 bytes, then one for every element of the variables but time, in order of value references; ``frozen``
-    lists the value references of what a linearisation leaves alone.
+    It consists of 6 words of 8 bytes, then one word for every element of the variables except time, in order of value
+    references; ``frozen`` lists the value references that a linearisation does not change.
     """
     annotations = etree.SubElement(root, "Annotations")
     annotation = etree.SubElement(annotations, "Annotation", type=STATE_ANNOTATION)

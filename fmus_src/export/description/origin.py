@@ -1,4 +1,4 @@
-"""Origin and licences of an FMU: attributes of modelDescription.xml, files, an icon."""
+"""Origin and licences of an FMU: attributes of modelDescription.xml, files, icon."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ PYTHONFMU = "pythonfmu.txt    PythonFMU, whose libraries and modules run the Pyt
 
 
 def origin(tool: str, *, is_ours: bool, is_final: bool = True) -> dict[str, str]:
-    """Return attributes of modelDescription.xml: the tool and date of generation; of a model of ours version, author,
+    """Return the attributes of modelDescription.xml for tool and date; for Perilune's models also version, author,
     licence.
 
-    The date is that of SOURCE_DATE_EPOCH, else the release's; that one in any case where the description ``is_final``
-    not, since the GUID is its hash. Raises InputError for a SOURCE_DATE_EPOCH that is no time.
+    The date is SOURCE_DATE_EPOCH if set, else the release date. A description that is not ``is_final`` always has the
+    release date, since the GUID is its hash. Raises InputError if SOURCE_DATE_EPOCH is not a time.
     """
     attributes = {"generationTool": tool, "generationDateAndTime": _date() if is_final else _text_of(RELEASED)}
     if not is_ours:
@@ -50,7 +50,7 @@ def origin(tool: str, *, is_ours: bool, is_final: bool = True) -> dict[str, str]
 
 
 def accompanying_files(fmi: int, *, is_ours: bool, runs_python: bool = False) -> dict[str, bytes]:
-    """Return the licences and the icon of an FMU for a version of FMI, by their names in it."""
+    """Return licences and icon of an FMU by their names in it, for an FMI version."""
     entry = ENTRY.format(
         version=version("perilune"),
         ours="all of its own code" if is_ours else "the code around the model, which is its author's",
@@ -80,7 +80,7 @@ def _text_of(date: datetime) -> str:
 
 @cache
 def _licence(package: str) -> str:
-    """Return the licence of an installed package, or of Perilune in a checkout."""
+    """Return the licence text of an installed package, or of Perilune in a checkout."""
     if package == "perilune" and IS_CHECKOUT:  # where metadata next to the sources may be found first, without it
         return (ROOT / "LICENSE").read_text(encoding="utf-8")
     text = distribution(package).read_text("licenses/LICENSE")
@@ -91,7 +91,7 @@ def _licence(package: str) -> str:
 
 
 def _copyright() -> tuple[str, str]:
-    """Return the copyright line of our licence, and the owner that it names."""
+    """Return the copyright line of Perilune's licence, and its owner."""
     line = re.search(r"^Copyright \(c\) [\d-]+ (.+)$", _licence("perilune"), re.MULTILINE)
     assert line is not None
     return line[0], line[1]
@@ -99,7 +99,7 @@ def _copyright() -> tuple[str, str]:
 
 @cache
 def _licence_of_headers(fmi: int) -> str:
-    """Return the licence in the comment at the top of a header of the standard."""
+    """Return the licence in the comment at the top of a header of the FMI standard."""
     text = (STANDARD / f"fmi{fmi}Functions.h").read_text(encoding="utf-8")
     first = text.index("Copyright (C)")
     lines = [line.strip() for line in text[first : text.index("*/", first)].splitlines()]

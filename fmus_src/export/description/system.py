@@ -1,4 +1,4 @@
-"""A system of blocks as FMI 2.0 modelDescription.xml."""
+"""Writer of modelDescription.xml of FMI 2.0 for a system of blocks."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ STRUCTURED = re.compile(rf"{NAME}(?:\.{NAME})*", re.ASCII)  # FMI 2.0.4, 2.2.9, 
 
 @dataclass(frozen=True)
 class EnumerationMember:
-    """A member of an enumeration; ``meaning`` is empty where its component does not describe it."""
+    """Member of an enumeration; ``meaning`` is empty if its component does not describe it."""
 
     name: str
     number: int
@@ -26,7 +26,7 @@ class EnumerationMember:
 
 @dataclass(frozen=True)
 class EnumerationType:
-    """The type of an Enumeration: two are one where name, description and all members are equal."""
+    """Type of an enumeration; types with equal name, description and members are the same type."""
 
     name: str
     members: tuple[EnumerationMember, ...]
@@ -34,18 +34,18 @@ class EnumerationType:
 
     @property
     def numbers(self) -> dict[str, int]:
-        """The numbers of the members by name."""
+        """Numbers of the members by name."""
         return {member.name: member.number for member in self.members}
 
 
 def numbered_type(name: str, labels: Sequence[str], first: int) -> EnumerationType:
-    """Return a type of members without a meaning, numbered in order from ``first``."""
+    """Return a type with members without meaning, numbered from ``first``."""
     return EnumerationType(name, tuple(EnumerationMember(each, number) for number, each in enumerate(labels, first)))
 
 
 @dataclass(frozen=True)
 class SystemVariable:
-    """A variable of FMI 2.0: ``start`` is None of what is calculated, ``enumeration`` of all but Enumerations."""
+    """Variable of FMI 2.0; ``start`` is None for a calculated one, ``enumeration`` for all types except Enumeration."""
 
     name: str
     causality: str
@@ -73,8 +73,8 @@ def system_description(
 ) -> bytes:
     """Return modelDescription.xml; value references number the ``variables`` in order.
 
-    ``dependencies`` are the inputs that outputs depend on directly, ``origin`` the attributes of `origin.origin`,
-    ``experiment`` those of DefaultExperiment, ``units`` those of the system's own description.
+    ``dependencies`` are the inputs on which outputs depend directly, ``origin`` the attributes of `origin.origin`,
+    ``experiment`` those of DefaultExperiment, ``units`` the unit definitions of the system.
     """
     convention = "structured" if all(STRUCTURED.fullmatch(each.name) for each in variables) else "flat"
     root = start_description(name, guid, one_line(description), origin, convention)
@@ -104,7 +104,7 @@ def system_description(
 
 
 def _name_types(variables: Sequence[SystemVariable]) -> dict[EnumerationType, str]:
-    """Return the types of the variables, each with a name that no other type and no variable has: FMI 2.0.4, 2.2.3."""
+    """Return the types of the variables with unique names that no variable has (FMI 2.0.4, section 2.2.3)."""
     used = {each.name for each in variables}
     names: dict[EnumerationType, str] = {}
     for enumeration in dict.fromkeys(each.enumeration for each in variables if each.enumeration is not None):

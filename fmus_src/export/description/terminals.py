@@ -1,7 +1,7 @@
-"""terminalsAndIcons/terminalsAndIcons.xml of FMI 3.0: which variables of a block are connected together.
+"""Writer of terminalsAndIcons/terminalsAndIcons.xml of FMI 3.0: groups of variables that are connected together.
 
-A slot of a block, as terminal_guidance, is a terminal with the connectors that the slot declares; a bundle, as
-ThrustCommand, is one within its slot's or the block's. Two terminals are connected by the names of their members.
+A slot of a block, such as terminal_guidance, is a terminal with the connectors that the slot declares; a bundle, such
+as ThrustCommand, is a terminal within the slot or the block. Terminals are connected by the names of their members.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ SIGNAL = "signal"
 
 
 def terminals(block_class: type[Block]) -> bytes | None:
-    """Return the document of a block; None where it has neither a slot with connectors nor a bundle."""
+    """Return the document of a block, or None if it has neither a slot with connectors nor a bundle."""
     root = etree.Element("fmiTerminalsAndIcons", fmiVersion=FMI_VERSION)
     listed = etree.SubElement(root, "Terminals")
     known: set[str] = set()
@@ -50,12 +50,12 @@ def terminals(block_class: type[Block]) -> bytes | None:
 
 
 def _connectors(owner: type[Block]) -> list[str]:
-    """Return the names of a class's inputs and outputs, inherited ones among them."""
+    """Return the names of a class's inputs and outputs, including inherited ones."""
     return [name for name, variable in owner.variables.items() if isinstance(variable, Input | Output)]
 
 
 def _add_bundle(parent: etree._Element, name: str, bundle: Connectors) -> None:
-    """Add a terminal whose members have the names of the bundle, whatever prefix the block uses."""
+    """Add a terminal whose members have the names of the bundle's ports, without the block's prefix."""
     kind = f"{KIND}.{snake_case(bundle.bundle.__name__)}"
     about = (bundle.bundle.__doc__ or "").strip().partition("\n")[0]
     terminal = etree.SubElement(

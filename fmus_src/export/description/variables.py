@@ -1,4 +1,4 @@
-"""A block's variables as FMI 3.0 has them: one for a vector, a matrix, or a field of a record."""
+"""Variables of a block in FMI 3.0: one for a scalar, a vector, a matrix, or a field of a record."""
 
 from __future__ import annotations
 
@@ -14,10 +14,9 @@ TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}
 
 @dataclass(frozen=True)
 class ArrayVariable:
-    """A variable of FMI 3.0: ``first`` is the number of its first element among those of all, as FMI 2.0 counts them.
+    """Variable of FMI 3.0; ``first`` is the number of its first element among all elements, as counted in FMI 2.0.
 
-    ``dimensions`` are none of a scalar, one of a vector, rows and columns of a matrix, whose ``starts`` are in row
-    order.
+    A scalar has no ``dimensions``, a vector one, a matrix rows and columns; its ``starts`` are in row order.
     """
 
     name: str
@@ -32,12 +31,12 @@ class ArrayVariable:
 
     @property
     def size(self) -> int:
-        """Number of its elements."""
+        """Number of elements."""
         return len(self.starts)
 
     @property
     def enumeration(self) -> type[Enumeration] | None:
-        """The enumeration whose numbers it has, if any."""
+        """Enumeration of the values, or None."""
         return self.declared.enumeration
 
     @property
@@ -80,5 +79,5 @@ def list_variables(block_class: type[Block]) -> list[ArrayVariable]:
 
 
 def _whole_name(declared: Variable, element: str) -> str:
-    """Return ``motion.attitude`` of a record's ``motion.attitude[1]``; the variable's name where there is no record."""
+    """Return ``motion.attitude`` for a record's ``motion.attitude[1]``; the variable's name without a record."""
     return declared.name if declared.record is None else element.partition("[")[0]

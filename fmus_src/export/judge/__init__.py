@@ -1,1 +1,1 @@
-"""Language of kernels: their Python read, typed and checked against the subset that means the same in C."""
+"""Analysis of kernels: Python source read, typed and checked against the subset with the same meaning in C."""

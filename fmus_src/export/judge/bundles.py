@@ -1,4 +1,4 @@
-"""Members of bundles in kernels: ``self.braking.burn_duration`` is the variable ``self.braking_burn_duration``."""
+"""Replacement of bundle members in kernels: ``self.braking.burn_duration`` is ``self.braking_burn_duration``."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from .source import Source
 
 
 def write_out_members(kernel: Kernel, source: Source) -> Source | None:
-    """Return a method with the block's variables in place of members of bundles; None after a violation.
+    """Return a method with bundle members replaced by the block's variables; None after a violation.
 
-    ``self.command = self.braking`` becomes an assignment per member.
+    ``self.command = self.braking`` becomes one assignment per member.
     """
     bundles = kernel.block_class.bundles
     if source.owner is None or not any(_is_bundle(node, bundles) for node in ast.walk(source.node)):
@@ -24,7 +24,7 @@ def write_out_members(kernel: Kernel, source: Source) -> Source | None:
 
 
 def _is_bundle(node: ast.AST, bundles: object) -> bool:
-    """Return True if a node is ``self.command``, a bundle as a whole."""
+    """Return True if a node is a whole bundle, such as ``self.command``."""
     return is_self_attribute(node) and node.attr in bundles  # type: ignore[attr-defined, operator]
 
 
@@ -50,7 +50,7 @@ class _WriteOut(ast.NodeTransformer):
         return [self.assign_member(node, stored.names[member], read.names[member]) for member in stored.names]
 
     def assign_member(self, node: ast.Assign, stored: str, read: str) -> ast.AST:
-        """Return ``self.STORED = self.READ`` in place of the assignment of a bundle."""
+        """Return the assignment ``self.STORED = self.READ`` for one member of a bundle."""
         target = self.variable(node.targets[0], stored, ast.Store())
         return ast.copy_location(ast.Assign([target], self.variable(node.value, read, ast.Load())), node)
 
@@ -67,6 +67,6 @@ class _WriteOut(ast.NodeTransformer):
         return self.variable(node, bundle.names[node.attr], node.ctx)
 
     def variable(self, node: ast.expr, name: str, context: ast.expr_context) -> ast.Attribute:
-        """Return ``self.NAME`` in place of a node."""
+        """Return ``self.NAME`` as a node at the position of another."""
         me = ast.copy_location(ast.Name("self", ast.Load()), node)
         return ast.copy_location(ast.Attribute(me, name, context), node)

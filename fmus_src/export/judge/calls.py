@@ -1,4 +1,4 @@
-"""Meanings of the calls in one kernel function, and the types of their values."""
+"""Resolution of the calls in one kernel function, and the types of their values."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ Resolver = Callable[[FunctionType, type | None, ast.Call, list[Type]], Function 
 
 
 class CallTypes(ExpressionTypes):
-    """Resolves calls: of other kernel functions, of `math`, of built-ins."""
+    """Resolver of calls of other kernel functions, of `math` and of built-ins."""
 
     def __init__(self, kernel: Kernel, function: Function, resolve: Resolver, bound: set[str]) -> None:
         super().__init__(kernel, function, bound)
@@ -60,7 +60,9 @@ class CallTypes(ExpressionTypes):
         return None
 
     def infer_several(self, node: ast.expr) -> Type | Several | None:
-        """Infer the type of a returned value, or one assigned to several targets, which may be several values."""
+        """Infer the type of an expression that may have several values: a returned one, or one assigned to several
+        targets.
+        """
         if not isinstance(node, ast.Call):
             return self.infer(node)
         self.function.types[node] = returned = self._value_of(node)
@@ -75,7 +77,7 @@ class CallTypes(ExpressionTypes):
         return returned.returns
 
     def call(self, node: ast.Call) -> Function | Type | Several | None:
-        """Resolve a call; the callee for a kernel function, else the type of its value."""
+        """Resolve a call; return the callee of a kernel function, else the type of its value."""
         if self._callee(node.func)[0] is vector:
             return self.make_vector(node)
         made = self.make_matrix(node, self._callee(node.func)[0])
@@ -121,7 +123,7 @@ class CallTypes(ExpressionTypes):
         return None
 
     def _infer_argument(self, node: ast.expr) -> None:
-        """Infer the type of an argument, which may be a function or a method of the block to be called."""
+        """Infer the type of an argument, which may be a function or a method of the block."""
         if is_self_attribute(node) and self.function.source.owner is not None:
             assert isinstance(node, ast.Attribute)
             method = find_method(self.function.block_class, node.attr)
@@ -136,7 +138,7 @@ class CallTypes(ExpressionTypes):
         self.infer(node)
 
     def _record(self, node: ast.expr) -> type[Record] | FunctionType | None:
-        """Return the class of the record that a call creates, or replace."""
+        """Return the record class that a call creates, or `replace`."""
         if not isinstance(node, ast.Name) or node.id in self.bound or node.id in self.function.parameters:
             return None
         value = find_global(self.function.source.function, node.id)
@@ -145,8 +147,9 @@ class CallTypes(ExpressionTypes):
         return value if isinstance(value, type) and issubclass(value, Record) else None
 
     def _callee(self, node: ast.expr) -> tuple[FunctionType | str | None, type | None]:
-        """Return the target of a call: a Python function with its class, or the name of a
-        permitted built-in or math function."""
+        """Return the target of a call: a Python function with its class, or the name of a permitted built-in or math
+        function.
+        """
         source = self.function.source
         bound = self.function.parameters.get(node.id) if isinstance(node, ast.Name) else None
         if isinstance(bound, BoundFunction):
@@ -172,7 +175,7 @@ class CallTypes(ExpressionTypes):
         return (value if isinstance(value, FunctionType) else None), None
 
     def _math(self, node: ast.Call, name: str, callee: str) -> Type | Several:
-        """Infer the type of a call of a function of `math`."""
+        """Infer the type of a call of a `math` function."""
         function = MATH_FUNCTIONS[callee]
         self.function.calls[node] = MathCall(callee, function)
         self._count(node, name, len(function.takes))

@@ -1,8 +1,8 @@
-"""Effects and failures of each kernel function, and the order that both require in C.
+"""Effects and failures of each kernel function, and the evaluation order that they require in C.
 
-C leaves open in which order the operands of an expression are evaluated. Where two of them can fail differently, the
-first is hoisted: put in a separate variable, and checked, before the statement. Arguments that can fail are always
-hoisted, so that no function runs on them.
+C does not define the order in which operands are evaluated. If two of them can fail differently, the first is hoisted:
+assigned to a separate variable and checked before the statement. Arguments that can fail are always hoisted, so that no
+function is called with them.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ ZERO_DIVISION = "ZeroDivisionError"
 
 
 def find_effects(kernel: Kernel) -> None:
-    """Find effects callees first; report changes and failures whose order cannot be kept."""
+    """Determine the effects of all functions, callees first; report changes and failures whose order cannot be
+    preserved.
+    """
     for function in kernel.functions:
         effects = _Effects(kernel, function)
         for statement in ast.walk(function.source.node):
@@ -43,7 +45,7 @@ def find_effects(kernel: Kernel) -> None:
 
 
 def is_nonzero_constant(function: Function, node: ast.expr) -> bool:
-    """Return True if a divisor is a literal or a module constant, no component of which is zero."""
+    """Return True if a divisor is a literal or module constant without a zero component."""
     if isinstance(node, ast.Constant):
         return bool(node.value)
     if isinstance(function.types.get(node), VectorType):
@@ -52,7 +54,7 @@ def is_nonzero_constant(function: Function, node: ast.expr) -> bool:
 
 
 def own_outcome(function: Function, node: ast.expr) -> Outcomes:
-    """Return the outcomes of an expression by itself, without its operands."""
+    """Return the possible outcomes of an expression itself, without its operands."""
     line = node.lineno
     if function.is_total:
         return NO_OUTCOME
@@ -77,14 +79,14 @@ def own_outcome(function: Function, node: ast.expr) -> Outcomes:
 
 
 class _Effects:
-    """Effects of one function, statement by statement."""
+    """Effects of one function, collected statement by statement."""
 
     def __init__(self, kernel: Kernel, function: Function) -> None:
         self.kernel = kernel
         self.function = function
 
     def statement(self, node: ast.stmt) -> None:
-        """Take in one statement, without those inside it."""
+        """Process one statement without the statements inside it."""
         whole: ast.expr | None = None
         outcomes = NO_OUTCOME
         if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
@@ -106,7 +108,7 @@ class _Effects:
         self._calls(node, whole)
 
     def _value(self, node: ast.expr) -> Outcomes:
-        """Visit a value to be assigned, or the elements of a new list."""
+        """Process a value to be assigned, or the elements of a new list."""
         if isinstance(node, ast.List):
             return self._in_order(node.elts, False)
         if isinstance(node, ast.BinOp) and isinstance(node.left, ast.List):
@@ -114,14 +116,14 @@ class _Effects:
         return self.visit(node, False)
 
     def _changes(self, holder: ast.expr) -> None:
-        """Take in that a variable of the block, or the elements of a list, are assigned."""
+        """Record the assignment of a variable of the block or of list elements."""
         if is_self_attribute(holder):
             self.function.changes_block = True
         elif isinstance(holder, ast.Name) and isinstance(self.function.parameters.get(holder.id), List | MatrixType):
             self.function.changed_lists.add(holder.id)
 
     def _calls(self, node: ast.stmt, whole: ast.expr | None) -> None:
-        """Pass on what called functions change; they may do so only as a whole right-hand side or statement."""
+        """Adopt the changes of called functions, which are allowed only as a whole right-hand side or statement."""
         parts = [child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr)]
         for part in (inner for child in parts for inner in ast.walk(child)):
             call = self.function.calls.get(part) if isinstance(part, ast.Call) else None
@@ -156,7 +158,7 @@ class _Effects:
         return several or not is_variable(argument) or (is_self_attribute(argument) and callee.takes_block)
 
     def _changes_when_called(self, callee: Function, argument: ast.expr) -> bool:
-        """Return True if an argument is a function that changes anything where the callee calls it."""
+        """Return True if an argument is a function with side effects that the callee calls."""
         kind = self.function.types.get(argument)
         given = [
             inner
@@ -166,7 +168,7 @@ class _Effects:
         return any(inner.changes_anything for inner in given)
 
     def visit(self, node: ast.expr, conditional: bool) -> Outcomes:
-        """Return the outcomes of an expression; mark operands to be hoisted in it."""
+        """Return the possible outcomes of an expression, and mark the operands to be hoisted."""
         if isinstance(node, ast.BoolOp):
             outcomes = self.visit(node.values[0], conditional)
             for value in node.values[1:]:
@@ -184,7 +186,7 @@ class _Effects:
         return inside | own_outcome(self.function, node)
 
     def _in_order(self, nodes: list[ast.expr], conditional: bool, always: bool = False) -> Outcomes:
-        """Visit operands from left to right; those that must not wait for later ones are hoisted."""
+        """Process operands from left to right; those that must be evaluated before later ones are hoisted."""
         outcomes = [self.visit(node, conditional) for node in nodes]
         for position, node in enumerate(nodes):
             mine = outcomes[position]
@@ -197,7 +199,7 @@ class _Effects:
 
 
 def makes_matrix(function: Function, node: ast.AST) -> bool:
-    """Return True if C computes an expression by statements in front of its own."""
+    """Return True if C computes an expression by statements before its own statement."""
     product = isinstance(node, ast.BinOp) and isinstance(node.op, ast.MatMult)
     return product or (isinstance(function.types.get(node), MatrixType) and not is_variable(node))  # type: ignore[arg-type, call-overload]
 

@@ -1,4 +1,4 @@
-"""Types of the expressions in one kernel function, and refusal of those outside the subset."""
+"""Types of the expressions in one kernel function, and rejection of expressions outside the subset."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ SIZE_OPERATORS: dict[type[ast.operator], Callable[[int, int], int]] = {
 
 
 class ExpressionTypes(MatrixTypes):
-    """Infers types bottom-up; a type of None means unknown because of a violation already reported."""
+    """Bottom-up type inference; the type None means unknown because of a violation already reported."""
 
     def __init__(self, kernel: Kernel, function: Function, bound: set[str]) -> None:
         self.kernel = kernel
@@ -66,16 +66,16 @@ class ExpressionTypes(MatrixTypes):
         self.kernel.report(self.function.source, node, rule, **details)
 
     def refuse_syntax(self, node: ast.AST) -> None:
-        """Report a piece of syntax with the table's remedy."""
+        """Report unsupported syntax with the remedy of the table."""
         self.report(node, REFUSED_SYNTAX.get(type(node), OTHER_SYNTAX), name=type(node).__name__)
 
     def infer(self, node: ast.expr) -> Type | None:
-        """Infer the type of an expression; every operand's type is stored in the function."""
+        """Infer the type of an expression; the types of all operands are stored in the function."""
         self.function.types[node] = inferred = self._infer_by_syntax(node)
         return inferred
 
     def _infer_by_syntax(self, node: ast.expr) -> Type | None:
-        """Return the type of an expression of the language; report one that is outside."""
+        """Return the type of an expression of the subset; report any other."""
         match node:
             case ast.Constant():
                 return self.infer_constant(node)
@@ -105,14 +105,14 @@ class ExpressionTypes(MatrixTypes):
         """Return the type of a call used as a value."""
 
     def static_size(self, node: ast.expr) -> int | None:
-        """Return the value of an int literal, an int constant, a length, or a sum, product or quotient of these.
+        """Return the constant value of an int literal, constant or length, or of a sum, product or quotient of these.
 
-        It is the size of a list or a matrix, or a bound of a slice of one; None where an int is not constant.
+        It is the size of a list or matrix, or a bound of a slice; None for an int that is not constant.
         """
         return self._fold(node) if self.infer(node) is INT else None
 
     def _fold(self, node: ast.expr) -> int | None:
-        """Return the value of a typed int expression where it is constant."""
+        """Return the value of a constant, typed int expression."""
         if node in self.function.constants:
             return self.function.constants[node].value
         match node:
@@ -181,7 +181,7 @@ class ExpressionTypes(MatrixTypes):
         return None
 
     def report_missing(self, node: ast.expr) -> bool:
-        """Report something of math, or of `perilune`, that is used without its import; returns whether it is that."""
+        """Report a name of `math` or `perilune` used without import; return True if it is such a name."""
         name = node.value if isinstance(node, ast.Attribute) else node
         if not isinstance(name, ast.Name) or name.id in {*self.bound, *self.function.parameters}:
             return False
@@ -200,14 +200,14 @@ class ExpressionTypes(MatrixTypes):
         return True
 
     def _module(self, node: ast.expr) -> ModuleType | None:
-        """Return the module that a name means, if it means one."""
+        """Return the module that a name refers to, or None."""
         if isinstance(node, ast.Name) and node.id not in self.bound and node.id not in self.function.parameters:
             value = find_global(self.function.source.function, node.id)
             return value if isinstance(value, ModuleType) else None
         return None
 
     def _enumeration(self, node: ast.expr) -> type[Enumeration] | None:
-        """Return the enumeration that a name means, if it means one."""
+        """Return the enumeration that a name refers to, or None."""
         if isinstance(node, ast.Name) and node.id not in {*self.bound, *self.function.parameters}:
             value = find_global(self.function.source.function, node.id)
             return value if isinstance(value, type) and issubclass(value, Enumeration) else None
@@ -271,7 +271,7 @@ class ExpressionTypes(MatrixTypes):
         return INT
 
     def refuse_syntax_at(self, node: ast.AST, part: ast.AST) -> None:
-        """Report an operator, which has no line number, at the expression around it."""
+        """Report an operator, which has no line number, at the expression that contains it."""
         self.report(node, REFUSED_SYNTAX.get(type(part), OTHER_SYNTAX), name=type(part).__name__)
 
     def infer_unaryop(self, node: ast.UnaryOp) -> Type | None:

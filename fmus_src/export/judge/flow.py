@@ -1,4 +1,4 @@
-"""Order of statements in one kernel function: nothing is read before it is assigned, every path returns."""
+"""Order of statements in one kernel function: no read before an assignment, a return on every path."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ NEVER = None  # what is assigned after a statement that control does not leave
 
 
 class FlowCheck:
-    """Follows one function's statements with the set of names that are assigned for certain."""
+    """Traversal of one function's statements with the set of definitely assigned names."""
 
     def __init__(self, kernel: Kernel, function: Function) -> None:
         self.kernel = kernel
@@ -20,14 +20,14 @@ class FlowCheck:
         self.locals = local_names(function.source.node) - set(function.parameters)
 
     def check(self) -> None:
-        """Report names that may be unbound where they are read, and a missing return."""
+        """Report names that may be unbound when they are read, and a missing return."""
         node = self.function.source.node
         end = self.block(body_of(node), frozenset())
         if end is not NEVER and self.function.returns is not None:
             self.kernel.report(self.function.source, node, "missing return", name=self.function.name)
 
     def block(self, statements: Iterable[ast.stmt], assigned: frozenset[str] | None) -> frozenset[str] | None:
-        """Return names assigned after the statements, or NEVER."""
+        """Return the names assigned after the statements, or NEVER."""
         for statement in statements:
             if assigned is NEVER:
                 return NEVER
@@ -35,7 +35,7 @@ class FlowCheck:
         return assigned
 
     def statement(self, node: ast.stmt, assigned: frozenset[str]) -> frozenset[str] | None:
-        """Return names assigned after one statement, or NEVER."""
+        """Return the names assigned after one statement, or NEVER."""
         if isinstance(node, ast.If):
             self.reads(node.test, assigned)
             return meet(self.block(node.body, assigned), self.block(node.orelse, assigned))
@@ -53,8 +53,7 @@ class FlowCheck:
         return assigned
 
     def loop(self, node: ast.For, assigned: frozenset[str]) -> frozenset[str] | None:
-        """Return the variables assigned for certain by a loop: one over literal bounds that
-        runs at least once without a break."""
+        """Return the names definitely assigned by a loop over literal bounds, without a break."""
         self.reads(node.iter, assigned)
         inside = assigned | {node.target.id} if isinstance(node.target, ast.Name) else assigned
         after = self.block(node.body, inside)
@@ -64,7 +63,7 @@ class FlowCheck:
         return assigned
 
     def reads(self, node: ast.AST, assigned: frozenset[str]) -> None:
-        """Report local names that a piece of code reads before they are assigned for certain."""
+        """Report local names that code reads before they are definitely assigned."""
         unsafe = self.locals - assigned
         for part in ast.walk(node):
             if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Load) and part.id in unsafe:
@@ -72,14 +71,14 @@ class FlowCheck:
 
 
 def meet(left: frozenset[str] | None, right: frozenset[str] | None) -> frozenset[str] | None:
-    """Return names assigned after either of two branches."""
+    """Return the names assigned after either of two branches."""
     if left is NEVER or right is NEVER:
         return right if left is NEVER else left
     return left & right
 
 
 def runs_at_least_once(node: ast.For) -> bool:
-    """Return True if a loop over range has literal bounds that are not empty."""
+    """Return True if a loop over range has literal, nonempty bounds."""
     if not isinstance(node.iter, ast.Call):
         return False
     literals = [argument.value for argument in node.iter.args if isinstance(argument, ast.Constant)]

@@ -1,7 +1,7 @@
-"""A block's kernel after analysis: its functions with the types of all they contain.
+"""Kernel of a block after analysis: its functions with the types of all their expressions.
 
-A function is analysed once per combination of list sizes that it is called with, so every list
-has a known size and most indices are proven right before anything runs.
+A function is analysed once per combination of list sizes with which it is called, so every list has a known size and
+most indices are proven valid before anything runs.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .subset_table import RULES, MathFunction, SubsetRule
 
 
 class Scalar(Enum):
-    """Type of one number; int has 64 bits in C."""
+    """Type of a number; an int has 64 bits in C."""
 
     FLOAT = "float"
     INT = "int"
@@ -71,7 +71,7 @@ class MatrixType:
 
 @dataclass(frozen=True)
 class RecordType:
-    """Type of a record: a value with named fields."""
+    """Type of a record with named fields."""
 
     record: type[Record]
 
@@ -108,7 +108,7 @@ class BoundFunction:
 
 @dataclass(frozen=True)
 class Several:
-    """Values of a function with several return values; it can only be assigned to as many targets."""
+    """Types of a function's several return values, which can only be assigned to as many targets."""
 
     parts: tuple[Scalar | VectorType | MatrixType | RecordType, ...]
 
@@ -123,9 +123,9 @@ Returned = Value | Several
 
 @dataclass(frozen=True)
 class Constant:
-    """A float, int, bool, vector or tuple of numbers, named in a module and never changed.
+    """Module constant: a float, int, bool, vector or tuple of numbers.
 
-    Compared by its text, since NaN is not equal to itself.
+    It is compared by its text, since NaN is not equal to itself.
     """
 
     module: str
@@ -139,7 +139,7 @@ class Constant:
 
 @dataclass(frozen=True)
 class MathCall:
-    """Call of a function of `math`, or of one that the kernel function ``computed_by`` takes the place of."""
+    """Call of a `math` function, or of the kernel function ``computed_by`` that replaces it."""
 
     name: str
     function: MathFunction
@@ -155,19 +155,19 @@ class BuiltinCall:
 
 @dataclass(frozen=True)
 class MakeVector:
-    """Call of vector, with the components or with a starred list."""
+    """Call of `vector` with components or with a starred list."""
 
 
 @dataclass(frozen=True)
 class MakeMatrix:
-    """Call of matrix, zeros, identity, add_product, or of a matrix's copy, by the function's name."""
+    """Call of `matrix`, `zeros`, `identity`, `add_product` or a matrix's `copy`, by the name of the function."""
 
     name: str
 
 
 @dataclass(frozen=True)
 class MakeRecord:
-    """Call of a record's class with all its fields, or of replace with a record and some."""
+    """Call of a record class with all its fields, or of `replace` with a record and some fields."""
 
     kind: RecordType
 
@@ -195,7 +195,7 @@ class IntegerRange:
 
 @dataclass(frozen=True)
 class Violation:
-    """One thing that a kernel says and the subset does not have."""
+    """Construct of a kernel that is not in the subset."""
 
     file: Path
     line: int
@@ -208,7 +208,7 @@ class Violation:
 
 @dataclass(eq=False)
 class Function:
-    """A function of the kernel for certain list sizes, and the results of its analyses."""
+    """Function of the kernel for particular list sizes, with the results of its analyses."""
 
     source: Source
     block_class: type[Block]
@@ -241,14 +241,16 @@ class Function:
 
     @property
     def takes_block(self) -> bool:
-        """True if the block is an argument: of a method, or of a function that calls one."""
+        """True if the block is an argument in C: for a method, or a function that calls one."""
         return self.is_method or any(
             isinstance(kind, BoundFunction) and kind.owner is not None for kind in self.parameters.values()
         )
 
     @property
     def is_total(self) -> bool:
-        """True if it has a result for every argument, and so no checks: the elementary functions, as tests show."""
+        """True if it has a result for every argument, so no checks are needed: the elementary functions, as tests
+        show.
+        """
         return self.source.module.startswith(f"{elementary.__name__}.")
 
     @property
@@ -268,7 +270,7 @@ class Function:
 
 @dataclass
 class Kernel:
-    """All functions of a block's kernel, callees before callers, and what is wrong with them."""
+    """All functions of a block's kernel, callees before callers, and their violations."""
 
     block_class: type[Block]
     functions: list[Function] = field(default_factory=list)
@@ -314,6 +316,6 @@ def body_of(node: ast.FunctionDef) -> list[ast.stmt]:
 
 
 def targets_of(node: ast.Assign | ast.AnnAssign) -> list[ast.expr]:
-    """Return the targets of an assignment: one, or those of a tuple."""
+    """Return the targets of an assignment: one, or the elements of a tuple."""
     target = node.targets[0] if isinstance(node, ast.Assign) else node.target
     return list(target.elts) if isinstance(target, ast.Tuple) else [target]

@@ -1,4 +1,4 @@
-"""Types of what matrices are written with: operators, elements, blocks, making one."""
+"""Types of matrix expressions: operators, elements, blocks, construction."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MAKERS = {
 
 
 class MatrixTypes(RecordTypes):
-    """Type inference of matrices."""
+    """Type inference of matrix expressions."""
 
     bound: set[str]
 
@@ -100,7 +100,7 @@ class MatrixTypes(RecordTypes):
         return range(first, end)
 
     def _find_block(self, node: ast.expr) -> slice | None:
-        """Return the constant of a module that a name means, where it is a block."""
+        """Return the module constant that a name refers to if it is a block."""
         function = self.function
         if not isinstance(node, ast.Name) or node.id in {*function.parameters, *self.bound}:
             return None
@@ -108,7 +108,7 @@ class MatrixTypes(RecordTypes):
         return value if isinstance(value, slice) else None
 
     def make_matrix(self, node: ast.Call, callee: Any) -> Type | None:
-        """Infer the type of a call that creates a matrix; None where it is another call, or a wrong one."""
+        """Infer the type of a call that creates a matrix; None for another or an invalid call."""
         name = MAKERS.get(callee) if callee is not None else None
         if name is None:
             return self._copy(node)

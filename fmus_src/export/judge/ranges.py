@@ -1,7 +1,7 @@
-"""Ranges of the ints in a kernel: which indices and sums are proven right before anything runs.
+"""Ranges of the ints in a kernel, to prove indices and sums valid before anything runs.
 
-What is not proven is checked at run time. Ranges hold for the whole run of a function, whatever
-the order of its statements; those of arguments cover every call.
+Everything not proven is checked at run time. A range holds for the whole function, regardless of the order of its
+statements; the ranges of arguments cover every call.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ ROUNDS_BEFORE_WIDENING = 4
 
 
 def find_ranges(kernel: Kernel) -> None:
-    """Find ranges callers first, so that those of arguments are known; report what can never be right."""
+    """Determine ranges, callers first so that those of arguments are known; report values that can never be valid."""
     for function in reversed(kernel.functions):
         ranges = _Ranges(kernel, function)
         ranges.settle()
@@ -47,7 +47,7 @@ class _Ranges:
         self.loops = _loops_of_reads(function)
 
     def settle(self) -> None:
-        """Join all that is assigned to each variable until nothing changes any more."""
+        """Join the ranges of all values assigned to each variable until none changes."""
         binding = (ast.For, ast.Assign, ast.AnnAssign)
         parts = [part for part in ast.walk(self.function.source.node) if isinstance(part, binding)]
         parts.sort(key=lambda part: (part.lineno, part.col_offset))  # a variable's first value comes first
@@ -132,7 +132,7 @@ class _Ranges:
         return INT64
 
     def judge(self) -> None:
-        """Keep what needs a check at run time, report what is wrong for certain, pass ranges on to callees."""
+        """Record run-time checks, report definite errors, and pass ranges on to callees."""
         function = self.function
         for node, kind in list(function.types.items()):
             if isinstance(node, ast.Subscript) and node not in function.parts:
@@ -160,8 +160,9 @@ class _Ranges:
             )
 
     def _judge_mixed(self, node: ast.Compare | ast.BinOp, use: str) -> None:
-        """Report mixed operands: Python compares an int with a float, and divides ints, without
-        rounding the int first; C rounds it."""
+        """Report mixed operands: Python compares an int with a float, and divides ints, without rounding; C rounds the
+        int first.
+        """
         operands = [node.left, node.right if isinstance(node, ast.BinOp) else node.comparators[0]]
         kinds = [self.function.types.get(operand) for operand in operands]
         exact = all(
@@ -180,7 +181,7 @@ class _Ranges:
 
 
 def indices_of(function: Function, node: ast.Subscript) -> list[tuple[ast.expr, int]]:
-    """Return the indices of an element, or of a row or column, each with its number of values."""
+    """Return the indices of an element, row or column, each with the size of its dimension."""
     kind = function.types[node.value]
     if not isinstance(kind, MatrixType):
         size = length_of(kind)
@@ -192,8 +193,7 @@ def indices_of(function: Function, node: ast.Subscript) -> list[tuple[ast.expr, 
 
 
 def _loops_of_reads(function: Function) -> dict[ast.expr, ast.Call]:
-    """Return for each read of a loop's variable inside the loop, where nothing else assigns it there, the loop's
-    range."""
+    """Return the loop's range for each read of a loop variable inside its loop, unless it is assigned there."""
     by_read: dict[ast.expr, ast.Call] = {}
     loops = [node for node in ast.walk(function.source.node) if isinstance(node, ast.For)]
     for loop in loops:  # outer loops first, so that inner ones overwrite them

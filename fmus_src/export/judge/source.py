@@ -1,4 +1,4 @@
-"""Source of a kernel function: its file, its tree, its comments."""
+"""Source of a kernel function: file, syntax tree, comments."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PACKAGE_ROOT = Path(__file__).resolve().parents[2]
 
 @dataclass(frozen=True)
 class Source:
-    """One Python function of a kernel; ``owner`` is the class that defines a method."""
+    """Python function of a kernel; ``owner`` is the class that defines a method."""
 
     function: FunctionType
     owner: type | None
@@ -32,17 +32,17 @@ class Source:
 
     @property
     def module(self) -> str:
-        """Full name of the module, as ``perilune.fmus_src.mathlib.vectors``."""
+        """Full name of the module, such as ``perilune.fmus_src.mathlib.vectors``."""
         return self.function.__module__
 
     @property
     def qualified_name(self) -> str:
-        """``quadratic_time`` or ``TerminalGuidance.follow``."""
+        """Name with the class of a method: ``quadratic_time`` or ``TerminalGuidance.follow``."""
         return f"{self.owner.__name__}.{self.name}" if self.owner else self.name
 
 
 def source_of(function: FunctionType, owner: type | None) -> Source | None:
-    """Return the source of a function, or None where its file cannot be read or does not contain it."""
+    """Return the source of a function, or None if its file cannot be read or does not contain it."""
     path = Path(function.__code__.co_filename)
     try:
         tree = _tree(path)
@@ -57,7 +57,7 @@ def source_of(function: FunctionType, owner: type | None) -> Source | None:
 
 
 def with_plain_arguments(source: Source, count: int) -> Source:
-    """Return a function with ``*inputs`` rewritten with that many more arguments, for ``count`` arguments in all."""
+    """Return a function with ``*inputs`` replaced by separate arguments, for ``count`` arguments in total."""
     arguments = source.node.args
     if arguments.vararg is None or arguments.kwonlyargs:
         return source
@@ -79,7 +79,7 @@ def _plain(node: ast.FunctionDef, count: int) -> ast.FunctionDef:
 
 
 def _expand(argument: ast.expr, several: str, names: list[str]) -> list[ast.expr]:
-    """Return the arguments that an argument stands for: ``*inputs`` for as many names."""
+    """Return the replacement of an argument: several names for ``*inputs``."""
     starred = isinstance(argument, ast.Starred) and isinstance(argument.value, ast.Name)
     if starred and argument.value.id == several:  # type: ignore[attr-defined]
         return [ast.copy_location(ast.Name(name, ast.Load()), argument) for name in names]
@@ -87,7 +87,7 @@ def _expand(argument: ast.expr, several: str, names: list[str]) -> list[ast.expr
 
 
 def find_method(block_class: type, name: str, after: type | None = None) -> tuple[FunctionType, type] | None:
-    """Return the method that ``self.name`` means for a block class, or ``super().name`` inside class ``after``."""
+    """Return the method that ``self.name`` refers to for a block class, or ``super().name`` inside class ``after``."""
     order = list(block_class.__mro__)
     if after is not None:
         order = order[order.index(after) + 1 :]
@@ -99,12 +99,12 @@ def find_method(block_class: type, name: str, after: type | None = None) -> tupl
 
 
 def find_global(function: FunctionType, name: str) -> Any:
-    """Return the value of a global name in a function's module; None where it is unknown."""
+    """Return the value of a global name in a function's module, or None if it is unknown."""
     return function.__globals__.get(name)
 
 
 def origin_of_constant(function: FunctionType, name: str) -> str:
-    """Return the full name of the module that defines a constant which the function's module may only import."""
+    """Return the full name of the module that defines a constant, which the function's module may only import."""
     tree = _tree(Path(function.__code__.co_filename))
     for node in tree.body:
         if isinstance(node, ast.ImportFrom):
@@ -115,12 +115,12 @@ def origin_of_constant(function: FunctionType, name: str) -> str:
 
 
 def module_file(module: ModuleType) -> Path:
-    """Return the file that a module was loaded from."""
+    """Return the file from which a module was loaded."""
     return Path(module.__file__ or "")
 
 
 def label(path: Path) -> str:
-    """Return a file's name as it stands in C comments and fault messages; the same on every machine."""
+    """Return a file's name for C comments and fault messages, the same on every machine."""
     resolved = path.resolve()
     if resolved.is_relative_to(PACKAGE_ROOT):
         return f"fmus_src/{resolved.relative_to(PACKAGE_ROOT).as_posix()}"
@@ -128,7 +128,7 @@ def label(path: Path) -> str:
 
 
 def comments_of(path: Path) -> dict[int, str]:
-    """Return comments on separate lines, by line number, without the ``#``."""
+    """Return the comments on separate lines by line number, without ``#``."""
     return _comments(path.read_text(encoding="utf-8"))
 
 
@@ -142,10 +142,10 @@ def _comments(text: str) -> dict[int, str]:
 
 
 def _tree(path: Path) -> ast.Module:
-    """Return a file's tree; one per content, since a function is identified by its node.
+    """Return the syntax tree of a file; one per content, since a function is identified by its node.
 
-    One thread at a time: two would make two trees, and CPython 3.11 counts the depth of a tree for all together, with
-    which `ast.parse` ends now and then (its issue 106905).
+    Access is serialised: two threads would create two trees, and CPython 3.11 counts the depth of a tree for all
+    threads together, so concurrent calls of `ast.parse` sometimes fail (its issue 106905).
     """
     with PARSING:
         return _parse(path.read_text(encoding="utf-8"))
@@ -157,7 +157,7 @@ def _parse(text: str) -> ast.Module:
 
 
 class _Normalise(ast.NodeTransformer):
-    """Writes ``x += y`` as ``x = x + y``, which means the same for what a kernel may change."""
+    """Rewriter of ``x += y`` to ``x = x + y``, which has the same meaning for all that a kernel may change."""
 
     def visit_AugAssign(self, node: ast.AugAssign) -> ast.Assign:
         reading = copy.deepcopy(node.target)

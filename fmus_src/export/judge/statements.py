@@ -1,4 +1,4 @@
-"""The statements of one kernel function: checked, with the types of the variables they assign."""
+"""Statements of one kernel function: checks, and types of the variables that they assign."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ ANY_MATRIX = MatrixType(0, 0)  # declared as Matrix
 
 
 def local_names(node: ast.FunctionDef) -> set[str]:
-    """Return names that a function assigns, which makes them local throughout it."""
+    """Return the names that a function assigns, which are therefore local throughout it."""
     return {part.id for part in ast.walk(node) if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)}
 
 
 class StatementTypes(CallTypes):
-    """Checks the statements of one function and infers the types of its variables."""
+    """Checker of one function's statements, which infers the types of its variables."""
 
     def __init__(self, kernel: Kernel, function: Function, resolve: Resolver) -> None:
         super().__init__(kernel, function, resolve, local_names(function.source.node))
@@ -45,7 +45,7 @@ class StatementTypes(CallTypes):
             self.check(statement)
 
     def check(self, statement: ast.stmt) -> None:
-        """Check a statement of the language; report one that is outside."""
+        """Check a statement of the subset; report any other."""
         match statement:
             case ast.Assign():
                 self.check_assign(statement)
@@ -234,7 +234,9 @@ class StatementTypes(CallTypes):
             self.report(node, "loop else")
 
     def _check_returned_matrices(self, node: ast.Return) -> None:
-        """Report a matrix that would have a second name: an argument, a variable of the block, one that is twice."""
+        """Report a returned matrix that would have two names: an argument, a variable of the block, or one returned
+        twice.
+        """
         results = node.value.elts if isinstance(node.value, ast.Tuple) else [node.value]
         for number, result in enumerate(results):
             if not isinstance(result, ast.expr) or not isinstance(self.function.types.get(result), MatrixType):
@@ -264,7 +266,7 @@ class StatementTypes(CallTypes):
 
 
 def with_size(declared: Returned | None, returned: Type | Several | None) -> Returned | None:
-    """Return a function's declared return type, with the inferred size of a vector or matrix."""
+    """Return a function's declared return type, completed by the inferred size of a vector or matrix."""
     if isinstance(declared, Several) and isinstance(returned, Several) and len(declared.parts) == len(returned.parts):
         return Several(tuple(with_size(*pair) for pair in zip(declared.parts, returned.parts, strict=True)))  # type: ignore[misc]
     if declared == ANY_VECTOR and isinstance(returned, VectorType):
@@ -280,13 +282,13 @@ def is_list_binding(value: ast.expr) -> bool:
 
 
 def is_range(call: ast.Call) -> bool:
-    """Return True if a call is ``range`` with one to three arguments."""
+    """Return True if a call is `range` with one to three arguments."""
     named = isinstance(call.func, ast.Name) and call.func.id == "range"
     return named and not call.keywords and 1 <= len(call.args) <= 3
 
 
 def range_step(call: ast.Call) -> int:
-    """Return the step of a range call; 0 where it is not a literal."""
+    """Return the step of a call of `range`; 0 if it is not a literal."""
     if len(call.args) < 3:
         return 1
     node = call.args[2]

@@ -1,6 +1,6 @@
-"""Checks that a block's kernel is written in the subset of Python of subset_table.py.
+"""Check that a block's kernel is written in the subset of Python of subset_table.py.
 
-What the check accepts runs as plain Python and translates to C99 with the same bits.
+Accepted code runs as plain Python and translates to C99 with identical bits.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ __all__ = ["SubsetError", "Violation", "analyse_kernel", "check", "records_of"]
 
 
 class SubsetError(ValueError):
-    """A block cannot be translated; the message lists file, line, what is refused and what to write instead."""
+    """Error of a block that cannot be translated; the message lists file, line, violation and remedy."""
 
     def __init__(self, block_class: type[Block], violations: list[Violation]) -> None:
         lines = "\n".join(f"  {violation}" for violation in violations)
@@ -29,12 +29,12 @@ class SubsetError(ValueError):
 
 
 def check(block_class: type[Block]) -> list[Violation]:
-    """Return the violations of the subset in `initialize`, `step` and all they reach, in order of file and line."""
+    """Return the violations of the subset in `initialize`, `step` and all functions they reach, by file and line."""
     return sorted(_analyse(block_class).violations, key=lambda violation: (violation.file, violation.line))
 
 
 def analyse_kernel(block_class: type[Block]) -> Kernel:
-    """Return the kernel of a block, ready for translation. Raises `SubsetError` where `check` finds violations."""
+    """Return the kernel of a block, ready for translation. Raises `SubsetError` for violations."""
     kernel = _analyse(block_class)
     if kernel.violations:
         raise SubsetError(block_class, check(block_class))
@@ -42,7 +42,7 @@ def analyse_kernel(block_class: type[Block]) -> Kernel:
 
 
 def records_of(kernel: Kernel) -> list[RecordType]:
-    """Return the records of a kernel, each after those of its fields; each becomes a struct of C under its name."""
+    """Return the records of a kernel, each after those of its fields; each becomes a C struct of its name."""
     ordered: dict[RecordType, None] = {}
 
     def add(kind: object) -> None:
@@ -77,7 +77,7 @@ def _analyse(block_class: type[Block]) -> Kernel:
 
 
 def _check_record_names(kernel: Kernel) -> None:
-    """Report records of one name, of which C would see one."""
+    """Report records with the same name, which would be one struct in C."""
     named: dict[str, type] = {}
     for kind in records_of(kernel):
         record = kind.record

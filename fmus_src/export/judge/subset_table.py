@@ -1,8 +1,7 @@
-"""The subset of Python that kernels are written in: what is allowed, and what to write instead of the rest.
+"""Subset of Python for kernels: allowed constructs, and alternatives for the others.
 
-Kernels are `initialize`, `step` and every method and function they reach. They run as plain
-Python and are translated to C99 with results equal to the last bit, so the subset holds what
-means the same in both languages.
+Kernels are `initialize`, `step` and every method and function they reach. They run as plain Python and are translated
+to C99 with results equal to the last bit, so the subset contains only what has the same meaning in both languages.
 """
 
 from __future__ import annotations
@@ -24,11 +23,11 @@ class SubsetRule:
 
 @dataclass(frozen=True)
 class MathFunction:
-    """A function of numbers whose Python and C results have equal bits.
+    """Function of numbers with identical bits in Python and C.
 
-    ``faults`` are the exceptions that Python raises; without any, the C function is called as it
-    is, otherwise through its checked form in kernel_math.h. ``takes`` and ``returns`` are types of
-    the subset; several are returned together.
+    ``faults`` are the exceptions that Python raises; without any, the C function is called directly, otherwise in its
+    checked form in kernel_math.h. ``takes`` and ``returns`` are types of the subset; several values are returned
+    together.
     """
 
     takes: tuple[str, ...] = ("float",)

@@ -1,10 +1,10 @@
-"""Proof from a block's kernel of which parameters may change between steps; for each other one the reason.
+"""Proof which parameters of a block may change between steps, with the reason for each that may not.
 
-A parameter is tunable where functions that `step` reaches read it, and nothing that the steps read without ever writing
-it follows from it in `initialize`: the next step then computes what it would have computed with that value all along,
-from the states of now. What follows from what is computed by dependence analysis without regard to the order of
-assignments, but with control dependence (Ferrante, Ottenstein and Warren 1987): a test decides what its branches
-assign, and what stands after a return, break or continue inside them.
+A parameter is tunable if functions reached by `step` read it, and if no variable that the steps read but never write
+follows from it in `initialize`: the next step then computes, from the present states, what it would have computed with
+that value from the beginning. Dependences are found without regard to the order of assignments but with control
+dependence (Ferrante, Ottenstein and Warren 1987): a test affects the assignments in its branches, and statements after
+a return, break or continue inside them.
 """
 
 from __future__ import annotations
@@ -45,14 +45,14 @@ KNOWN: WeakKeyDictionary[type[Block], Mapping[str, str | None]] = WeakKeyDiction
 
 
 def find_fixed(block_class: type[Block]) -> Mapping[str, str | None]:
-    """Return for each parameter, by name, why it is fixed after initialisation; None for a tunable one."""
+    """Return by name the reason why each parameter is fixed after initialisation, or None if it is tunable."""
     if block_class not in KNOWN:
         KNOWN[block_class] = _find_reasons(block_class)
     return KNOWN[block_class]
 
 
 def tunable_parameters(block_class: type[Block]) -> list[str]:
-    """Return the names of the parameters of a block that may change between steps, in order of declaration."""
+    """Return the names of a block's tunable parameters in order of declaration."""
     return [name for name, reason in find_fixed(block_class).items() if reason is None]
 
 
@@ -98,7 +98,7 @@ def _prove(kernel: Kernel, parameters: Iterable[str]) -> dict[str, str | None]:
 
 
 def _following(sources: dict[str, Names], name: str) -> set[str]:
-    """Return all that follows from a name, directly or by way of others."""
+    """Return all names that follow from a name, directly or indirectly."""
     reached = {name}
     while True:
         more = {each for each, origins in sources.items() if not origins.isdisjoint(reached)}
@@ -124,15 +124,17 @@ def _reads(function: Function) -> set[str]:
 
 
 def _holder(target: ast.AST) -> ast.AST:
-    """Return the name or ``self.name`` that an assignment to an element or a block changes."""
+    """Return the name, or ``self.name``, that an assignment to an element or block changes."""
     while isinstance(target, ast.Subscript):
         target = target.value
     return target
 
 
 class _Flow:
-    """Dependences in one function: ``sources`` of each local, argument and ``self.NAME`` that it assigns, those of the
-    value that it returns; each is a set of its arguments and of the block's variables."""
+    """Dependences in one function: ``sources`` of each local, argument and ``self.NAME`` that it assigns.
+
+    Sources of the returned value are included. Each is a set of the function's arguments and of the block's variables.
+    """
 
     def __init__(self, function: Function, flows: dict[Function, _Flow]) -> None:
         self.function = function
@@ -151,7 +153,7 @@ class _Flow:
         return len(self.returned) + sum(1 + len(origins) for origins in self.sources.values())
 
     def _block(self, statements: list[ast.stmt], deciding: Names) -> None:
-        """Take in statements that are reached where what depends on ``deciding`` says so."""
+        """Process statements whose execution depends on ``deciding``."""
         for statement in statements:
             self._statement(statement, deciding)
             deciding |= self._leaving([statement], JUMPS) or frozenset()
@@ -179,7 +181,7 @@ class _Flow:
         return self._read(node.iter if isinstance(node, ast.For) else node.test, frozenset())
 
     def _leaving(self, statements: list[ast.stmt], jumps: tuple[type[ast.stmt], ...]) -> Names | None:
-        """Return what decides that one of the jumps leaves the statements; None where none does."""
+        """Return the names that decide whether a jump leaves the statements; None if no jump does."""
         origins: Names | None = None
         for node in statements:
             inside: Names | None = frozenset() if isinstance(node, jumps) else None

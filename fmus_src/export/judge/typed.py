@@ -1,4 +1,4 @@
-"""From a block class to its kernel: the functions it reaches, with the types of all they contain."""
+"""Type inference of a block's kernel: the functions it reaches, with the types of all their expressions."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ ANNOTATIONS |= {kind.__name__: VectorType(size) for size, kind in VECTORS.items(
 
 
 def typecheck(block_class: type[Block]) -> Kernel:
-    """Infer the types of the functions that `initialize` and `step` of a block reach; violations are collected."""
+    """Return the typed functions that `initialize` and `step` of a block reach; violations are collected."""
     kernel = Kernel(block_class)
     finder = _FunctionMaker(kernel)
     if not block_class.variables:
@@ -106,7 +106,7 @@ class _FunctionMaker:
     def _parameters(
         self, source: Source, caller: Function | None, call: ast.Call | None, types: list
     ) -> dict[str, Type] | None:
-        """Return declared arguments with their types; those of lists come from the call."""
+        """Return the declared arguments with their types; the types of lists come from the call."""
         node = source.node
         place: tuple[Source, ast.AST] = (source, node) if caller is None or call is None else (caller.source, call)
         if node.decorator_list:
@@ -182,8 +182,10 @@ def _fits(given: Type, declared: Value | str) -> bool:
 
 
 def _annotation(source: Source, node: ast.expr | None) -> Value | str | None:
-    """Return ``float`` as Scalar, ``Vector3`` as Vector, a record's class as RecordType; else
-    one of the texts of `OTHERS`."""
+    """Return the type of an annotation: Scalar for ``float``, Vector for ``Vector3``, RecordType for a record class.
+
+    Other annotations are returned as one of the texts of `OTHERS`.
+    """
     if isinstance(node, ast.Subscript):
         node = node.value
     if not isinstance(node, ast.Name):

@@ -1,4 +1,4 @@
-"""Types of what vectors and records are written with: operators, components, fields, parts, making one."""
+"""Types of vector and record expressions: operators, components, fields, slices, construction."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ BY_NUMBERS = (ast.Mult, ast.Div)  # of a vector and a number
 
 
 class VectorTypes(ABC):
-    """Type inference of vectors."""
+    """Type inference of vector expressions."""
 
     function: Function
 
@@ -47,7 +47,7 @@ class VectorTypes(ABC):
     def operate_on_vectors(
         self, node: ast.AST, operator: ast.operator, left: Type | Several, right: Type | Several
     ) -> Type | None:
-        """Infer the type of ``left operator right``, at least one of which is a vector."""
+        """Infer the type of ``left operator right`` if at least one is a vector."""
         name = type(operator).__name__
         if isinstance(left, List) or isinstance(right, List):
             self.report(node, "list for vector", left=left, right=right)
@@ -76,7 +76,7 @@ class VectorTypes(ABC):
         return FLOAT
 
     def part(self, node: ast.Subscript, container: Type | None) -> int | None:
-        """Return the number of elements that ``v[1:4]`` of a vector or list has."""
+        """Return the number of elements of a slice ``v[1:4]`` of a vector or list."""
         assert isinstance(node.slice, ast.Slice)
         if not isinstance(container, VectorType | List):
             if container is not None:
@@ -95,7 +95,7 @@ class VectorTypes(ABC):
         return end - first  # type: ignore[operator]
 
     def part_of_vector(self, node: ast.Subscript, container: Type | None) -> Type | None:
-        """Infer the type of ``v[1:4]`` as a value, which only vectors have."""
+        """Infer the type of ``v[1:4]`` as a value, which exists only for vectors."""
         if isinstance(container, List):
             self.report(node, "part of a list", part=ast.unparse(node))
             return None
@@ -133,7 +133,7 @@ class VectorTypes(ABC):
         return VectorType(size)
 
     def _unpack_starred(self, node: ast.expr) -> int | None:
-        """Return the number of elements of ``*wrench[0:3]`` or ``*row``; its range is stored."""
+        """Return the number of elements of ``*wrench[0:3]`` or ``*row``, and store its range."""
         holder = node.value if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice) else node
         container = self.infer(holder)
         if isinstance(container, List) and container.element is not FLOAT:
@@ -151,12 +151,12 @@ class VectorTypes(ABC):
 
 
 class RecordTypes(VectorTypes):
-    """Type inference of records."""
+    """Type inference of record expressions."""
 
     def operate_on_records(
         self, node: ast.AST, operator: ast.operator, left: Type | Several, right: Type | Several
     ) -> Type | None:
-        """Infer the type of ``left operator right``, at least one of which is a record."""
+        """Infer the type of ``left operator right`` if at least one is a record."""
         kind = left if isinstance(left, RecordType) else right
         assert isinstance(kind, RecordType)
         both = left == right and isinstance(operator, ast.Add | ast.Sub)
@@ -201,5 +201,5 @@ class RecordTypes(VectorTypes):
 
 
 def is_variable(node: ast.expr) -> bool:
-    """Return True if an expression is a name or ``self.name``, which C can write several times."""
+    """Return True if an expression is a name or ``self.name``, which can be repeated in C."""
     return isinstance(node, ast.Name) or is_self_attribute(node)

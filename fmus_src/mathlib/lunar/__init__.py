@@ -1,1 +1,1 @@
-"""The Moon, its landing sites, and terminal guidance. Kernel functions."""
+"""Moon, landing sites and terminal guidance. Kernel functions."""

@@ -1,4 +1,4 @@
-"""The Moon as a sphere, relative to the landing site. Kernel functions.
+"""Gravity and vertical of a spherical Moon, relative to the landing site. Kernel functions.
 
 Frame: landing site, origin on the sphere of ``radius`` (m), z up, not rotating: the Moon's centre is at (0, 0,
 -radius).
@@ -12,17 +12,17 @@ STANDARD_GRAVITY = 9.80665  # m/s2, which specific impulse refers to
 
 
 def from_centre(position: Vector3, radius: float) -> Vector3:
-    """Return the position (m) from the Moon's centre."""
+    """Return the position (m) relative to the Moon's centre."""
     return vector(position.x, position.y, position.z + radius)
 
 
 def altitude_of(position: Vector3, radius: float) -> float:
-    """Return altitude (m) above the sphere of ``radius`` (m)."""
+    """Return the altitude (m) above the sphere of ``radius`` (m)."""
     return norm(from_centre(position, radius)) - radius
 
 
 def vertical_at(position: Vector3, radius: float) -> Vector3:
-    """Return the unit vector upwards at ``position`` (m); z at the Moon's centre itself."""
+    """Return the upward unit vector at ``position`` (m); z at the Moon's centre."""
     centred = from_centre(position, radius)
     distance = norm(centred)
     if distance > 0.0:
@@ -31,7 +31,7 @@ def vertical_at(position: Vector3, radius: float) -> Vector3:
 
 
 def central_gravity(position: Vector3, radius: float, gravitational_parameter: float) -> Vector3:
-    """Return gravity (m/s2) of a central field at ``position`` (m); not at the centre itself."""
+    """Return the central gravity (m/s2) at ``position`` (m), which must not be the centre."""
     centred = from_centre(position, radius)
     square = dot(centred, centred)
     return -(gravitational_parameter / (square * math.sqrt(square))) * centred
@@ -40,7 +40,7 @@ def central_gravity(position: Vector3, radius: float, gravitational_parameter: f
 def gravity_difference(displacement: Vector3, up: Vector3, gradient: float) -> Vector3:
     """Return the change of gravity (m/s2) over a small displacement (m): gradient (3 up up' - 1) displacement.
 
-    ``up`` is the unit vector away from the centre, ``gradient`` the gravitational parameter over the cube of the
+    ``up`` is the unit vector away from the centre, ``gradient`` the gravitational parameter divided by the cube of the
     distance from it (1/s2). Source: Battin 1999, section 8.1.
     """
     return gradient * (3.0 * dot(up, displacement) * up - displacement)

@@ -11,7 +11,7 @@ from ...kernel.records import Field, Record
 
 
 class GravityTurn(Record):
-    """A gravity turn that ends at rest at the target's height."""
+    """Gravity turn that ends at rest at the height of the target."""
 
     ratio = Field(
         unit="1", description="ratio of thrust acceleration to gravity; 0: no gravity turn ends at rest at this height"
@@ -21,9 +21,10 @@ class GravityTurn(Record):
 
 
 def gravity_turn(speed: float, descent_cosine: float, height: float, g: float) -> GravityTurn:
-    """Return the turn from a ``speed`` (m/s) at this cosine to the downward vertical, ``height`` (m) above.
+    """Return the turn from a ``speed`` (m/s) at a ``height`` (m) above its end.
 
-    There is none from a speed so small that thrust and gravity balance to rounding.
+    ``descent_cosine`` is that of the angle between velocity and downward vertical. No turn exists for a speed so small
+    that thrust balances gravity within rounding.
     """
     speed_square = speed * speed
     if not (height > 0.0 and descent_cosine > 0.0 and speed_square > 0.0 and g > 0.0):

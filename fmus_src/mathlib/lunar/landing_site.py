@@ -1,4 +1,4 @@
-"""Landing sites on a sphere, and places above them. Kernel functions.
+"""Landing sites on a sphere, and positions above them. Kernel functions.
 
 Frame: landing site, z up; the Moon's centre is ``radius`` (m) below the origin.
 """
@@ -17,17 +17,17 @@ def above_site(site: Vector3, altitude: float, radius: float) -> Vector3:
 
 
 def site_below(position: Vector3, radius: float) -> Vector3:
-    """Return the point (m) on the sphere straight below ``position`` (or above it)."""
+    """Return the point (m) on the sphere on the vertical of ``position``."""
     return above_site(position, 0.0, radius)
 
 
 def redesignate(site: Vector3, move: Vector2, radius: float) -> Vector3:
-    """Return the site moved by x and y (m), put back on the sphere along its vertical."""
+    """Return the site moved by x and y (m) and projected on the sphere along its vertical."""
     return site_below(vector(site.x + move.x, site.y + move.y, site.z), radius)
 
 
 def within_reach(move: Vector2, reach: float) -> tuple[bool, Vector2]:
-    """Return if a move is no longer than ``reach`` (m), and the move, shortened to it where it is longer."""
+    """Return True if a move is not longer than ``reach`` (m), and the move, shortened to it if it is longer."""
     length = math.sqrt(move.x * move.x + move.y * move.y)
     if length <= reach:
         return True, move

@@ -20,7 +20,7 @@ SETTLED = 1e-6  # of the time
 
 
 class DescentShape(Record):
-    """The numbers that make the law."""
+    """Parameters of the control law."""
 
     final = Field(Vector3, unit="m/s2", description="thrust acceleration at the target")
     gamma = Field(unit="1", description="first exponent of the time to go")
@@ -28,7 +28,7 @@ class DescentShape(Record):
 
 
 class DescentProfile(Record):
-    """A thrust acceleration over the fraction s of the time to go: final + first s^gamma + second s^gamma_2."""
+    """Thrust acceleration over the fraction s of the time to go: final + first s^gamma + second s^gamma_2."""
 
     final = Field(Vector3, unit="m/s2", description="thrust acceleration at the target")
     first = Field(Vector3, unit="m/s2", description="coefficient of s^gamma")
@@ -43,13 +43,13 @@ def second_exponent(shape: DescentShape) -> float:
 
 
 def is_regular(shape: DescentShape) -> bool:
-    """Return True if both exponents are 0 or more and differ, so that a profile exists."""
+    """Return True if both exponents are nonnegative and differ, so that a profile exists."""
     gamma_2 = second_exponent(shape)
     return shape.gamma >= 0.0 and gamma_2 >= 0.0 and gamma_2 != shape.gamma
 
 
 def feedback(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float, shape: DescentShape) -> Vector3:
-    """Return the thrust acceleration (m/s2) now, with ``time`` (s) to go. Source: Lu 2019, equation 22."""
+    """Return the present thrust acceleration (m/s2) with ``time`` (s) to go. Source: Lu 2019, equation 22."""
     gamma = shape.gamma
     ratio = shape.kr / (gamma + 2.0)
     down = vector(0.0, 0.0, -g)
@@ -58,7 +58,7 @@ def feedback(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float, shape:
 
 
 def descent_profile(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float, shape: DescentShape) -> DescentProfile:
-    """Return the profile that meets both ends in ``time`` (s), of a regular shape."""
+    """Return the profile that satisfies the conditions at both ends in ``time`` (s), for a regular shape."""
     gamma_2 = second_exponent(shape)
     a1 = 1.0 / (shape.gamma + 1.0)
     b1 = 1.0 / (shape.gamma + 2.0)
@@ -78,7 +78,7 @@ def descent_profile(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float,
 
 
 def raise_fraction(s: float, exponent: float) -> float:
-    """Return s^exponent of a fraction s, by products where the exponent is whole and small; 0^0 = 1."""
+    """Return s^exponent for a fraction s, by products if the exponent is a small integer; 0^0 = 1."""
     if exponent == 0.0:
         return 1.0
     if exponent == 1.0:
@@ -97,7 +97,7 @@ def thrust_at(profile: DescentProfile, s: float) -> Vector3:
 
 
 def offset_at(profile: DescentProfile, target_velocity: Vector3, g: float, time: float, s: float) -> Vector3:
-    """Return the position (m) from the target at the fraction s of ``time`` (s) to go, in constant gravity."""
+    """Return the position (m) relative to the target at the fraction s of ``time`` (s) to go, in constant gravity."""
     square = time * time
     half = 0.5 * s * s * square * (profile.final + vector(0.0, 0.0, -g))
     gamma = profile.gamma
@@ -110,10 +110,11 @@ def offset_at(profile: DescentProfile, target_velocity: Vector3, g: float, time:
 def jerk_time(
     dr: Vector3, v: Vector3, dv: Vector3, constant: Vector3, forward: Vector3, jerk: float, time: float
 ) -> float:
-    """Return the time to go (s) of a quartic with this ``jerk`` (m/s3) at the target along ``forward``; 0 if none.
+    """Return the time to go (s) of a quartic with this ``jerk`` (m/s3) at the target along ``forward``; 0 if none
+    exists.
 
-    ``constant`` is thrust and gravity (m/s2) at the target, ``time`` (s) the guess that Newton's method starts from.
-    Source: Klumpp 1974, equation 12.
+    ``constant`` is the sum of thrust acceleration and gravity (m/s2) at the target; ``time`` (s) is the initial value
+    of Newton's method. Source: Klumpp 1974, equation 12.
     """
     arrival = v + dv
     square = 6.0 * dot(constant, forward)

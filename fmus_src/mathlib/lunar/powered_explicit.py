@@ -24,7 +24,7 @@ MOST_OF_MAXIMUM = 1.3  # ... of the largest, which an iteration may try
 
 
 class SteeringState(Record):
-    """Unknowns of the guidance, as an iteration leaves them."""
+    """Unknowns of the guidance after an iteration."""
 
     time = Field(unit="s", description="time to go of the linear-tangent steering")
     thrust = Field(unit="N", description="constant thrust of the linear-tangent steering")
@@ -41,7 +41,7 @@ class SteeringState(Record):
 
 
 class SteeringProblem(Record):
-    """Errors and engine of an iteration."""
+    """Required changes of position and velocity, and engine data, for an iteration."""
 
     way = Field(Vector3, unit="m", description="vector to the target, minus the contribution of gravity")
     gain = Field(Vector3, unit="m/s", description="velocity to gain, minus the contribution of gravity")
@@ -53,7 +53,7 @@ class SteeringProblem(Record):
 
 
 class ThrustIntegrals(Record):
-    """Integrals of a constant thrust over mass."""
+    """Integrals and moments of the acceleration under constant thrust."""
 
     S = Field(
         unit="m", description="integral of the thrust acceleration over the remaining time, weighted by the time left"
@@ -117,7 +117,7 @@ def iterate_steering(s: SteeringState, p: SteeringProblem) -> SteeringState:
 
 
 def missing(s: SteeringState) -> SteeringState:
-    """Return a state without a solution."""
+    """Return a state marked as without solution."""
     return replace(s, change=-1.0)
 
 

@@ -1,7 +1,9 @@
 """Terminal guidance with a thrust acceleration linear in time, a(t) = a0 + a1 t. Kernel functions.
 
-Gravity g acts along -k (k up, third axis). With dr = r_T - r, dV = V_T - V and time-to-go T:
-A = dV + g T k, B = dr - V T + g T^2/2 k, a0 = -(2/T^2)(A T - 3 B), a1 = (6/T^3)(A T - 2 B).
+Gravity g acts along -k (k up, third axis). With dr = r_T - r, dV = V_T - V and time to go T:
+
+    A = dV + g T k, B = dr - V T + g T^2/2 k, a0 = -(2/T^2)(A T - 3 B), a1 = (6/T^3)(A T - 2 B).
+
 Source: Fomichev and Li 2017, with the corrections of docs/systems/lunar_terminal_guidance.md.
 """
 
@@ -13,7 +15,7 @@ from ..vectors import Vector3, dot, norm, vector
 
 
 class LinearThrust(Record):
-    """A thrust over mass that is linear in time."""
+    """Thrust acceleration linear in time, over one span."""
 
     size = Field(unit="m/s2", description="mean thrust over mass in the span")
     direction = Field(Vector3, unit="1", description="thrust direction at the start of the span, unit vector")
@@ -21,17 +23,17 @@ class LinearThrust(Record):
 
 
 def impulse_and_miss(dr: Vector3, v: Vector3, dv: Vector3, g: float, time_to_go: float) -> tuple[Vector3, Vector3]:
-    """Return A (m/s), velocity still to gain, and B (m), the miss without thrust, both after time_to_go."""
+    """Return A (m/s), the velocity to gain, and B (m), the miss without thrust, both after time_to_go."""
     drift = dr - time_to_go * v
     fall = 0.5 * g * time_to_go * time_to_go
     return vector(dv.x, dv.y, dv.z + g * time_to_go), vector(drift.x, drift.y, drift.z + fall)
 
 
 def quadratic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
-    """Return time-to-go (s) from |A| T = 2 |B| without its cubic term, on the published branch.
+    """Return the time to go (s) from |A| T = 2 |B| without its cubic term, on the published branch; 0 if none exists.
 
-    0 where there is none. The branch is that of fast approaches, a2 < 0; for slow or hovering starts above the target
-    (a2 > 0) it gives a negative time. A negative discriminant counts as 0, which happens in the last steps.
+    The branch is that of fast approaches, a2 < 0; for slow or hovering starts above the target (a2 > 0) it gives a
+    negative time. A negative discriminant, which occurs in the last steps, is taken as 0.
     """
     speed = norm(v)
     gain = norm(dv)
@@ -48,12 +50,12 @@ def quadratic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
 
 
 def cubic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
-    """Return time-to-go (s) from |A| T = 2 |B| in full, on the published branch; 0 where that has none.
+    """Return the time to go (s) from the complete |A| T = 2 |B|, on the published branch; 0 if none exists.
 
-    |A| T - 2 |B| begins below 0. The first root, where it rises through 0, is a thrust that turns
-    round on the way: A T = -2 B on a line, 5 W one way to 7 W the other. The branch is the second,
-    where it falls through 0, with A T = 2 B on a line. There is none at rest, receding or slow
-    above the target, nor always where errors of knowledge have grown as large as the way left.
+    |A| T - 2 |B| is negative at T = 0. At its first root, where it rises through 0, the thrust reverses on the way: A T
+    = -2 B on a line, 5 W one way to 7 W the other. The published branch is the second root, where it falls through 0,
+    with A T = 2 B on a line. It does not exist at rest, receding or slow above the target, nor always when navigation
+    errors are as large as the remaining distance.
     """
     c = [0.0] * 5
     c[0] = -4.0 * dot(dr, dr)
@@ -80,14 +82,13 @@ def cubic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
 
 
 def steady(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
-    """Return True if a thrust that meets |A| T = 2 |B| with ``time`` (s) does not turn round: A.B > 0."""
+    """Return True if a thrust that satisfies |A| T = 2 |B| with ``time`` (s) does not reverse: A.B > 0."""
     a, b = impulse_and_miss(dr, v, dv, g, time)
     return dot(a, b) > 0.0
 
 
 def effort_slope(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight: float, c: list) -> None:
-    """Set c to T^4 dJ/dT as a polynomial of T, where J is the time integral of |a0 + a1 t|^2 plus twice ``weight``
-    (m2/s4).
+    """Set c to the polynomial T^4 dJ/dT in T, with J the time integral of |a0 + a1 t|^2 plus twice ``weight`` (m2/s4).
 
     Without weight J = (|A T|^2 + 3 |A T - 2 B|^2)/T^3, and A T - 2 B = (dV + 2 V) T - 2 dr.
     """
@@ -107,18 +108,18 @@ def effort_rises(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) ->
 
 
 def least_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
-    """Return the time-to-go (s) with the least integral of |a0 + a1 t|^2 (the first minimum), 0 where there is none.
+    """Return the time to go (s) with the least integral of |a0 + a1 t|^2 (the first minimum); 0 if none exists.
 
-    With g > 0 and dr other than 0 it exists: hovering a height h above or below the target, or at that distance to its
-    side, it is sqrt(6 h/g). Source: D'Souza 1997, with a velocity at the target.
+    It exists for g > 0 and dr other than 0: for a hover at a distance h above, below or beside the target it is sqrt(6
+    h/g). Source: D'Souza 1997, with a velocity at the target.
     """
     return weighted_effort_time(dr, v, dv, g, 0.0)
 
 
 def weighted_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight: float) -> float:
-    """Return time-to-go (s) as `least_effort_time`, with the time itself in the integral with a ``weight`` (m2/s4).
+    """Return the time to go (s) with the least integral of |a0 + a1 t|^2/2 + weight (m2/s4); 0 if none exists.
 
-    The integrand is |a0 + a1 t|^2/2 + weight. Source: D'Souza 1997, equation 12.
+    Source: D'Souza 1997, equation 12.
     """
     c = [0.0] * 5
     effort_slope(dr, v, dv, g, weight, c)
@@ -139,8 +140,8 @@ def weighted_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float, weight:
 def linear_thrust(a: Vector3, b: Vector3, time: float, span: float, direction: Vector3, rate: Vector3) -> LinearThrust:
     """Return the thrust a0 + a1 t over ``span`` (s).
 
-    The size is that of the mean vector. Where a0 = 0, the direction is that of the mean and its rate 0; where there is
-    no thrust at all, direction and rate are the arguments.
+    The size is that of the mean vector. For a0 = 0 the direction is that of the mean and its rate is 0; without thrust,
+    direction and rate are the arguments.
     """
     p = 3.0 * b - time * a
     q = time * a - 2.0 * b

@@ -1,12 +1,13 @@
 """Second-order cones under the scaling of Nesterov and Todd. Kernel functions.
 
-A cone is a few rows x with x_0 >= |x_1|; a number that is not negative is a cone of one row. With J = diag(1, -1, ..),
-s of the slack, zeta of the multiplier, each over the root of its x'Jx, w = (s + J zeta)/2g, g^2 = (1 + s'zeta)/2,
-and a = (w + e)/sqrt(2 (w_0 + 1)) the scaling is
+A cone consists of a few rows x with x_0 >= |(x_1, ..)|; a nonnegative number is a cone of one row. With J = diag(1, -1,
+..), s of the slack and zeta of the multiplier, each divided by the root of its x'Jx, w = (s + J zeta)/2g, g^2 = (1 +
+s'zeta)/2, and a = (w + e)/sqrt(2 (w_0 + 1)) the scaling is
 
     W = b (2 a a' - J),  W^-1 = (2 J a a' J - J)/b,  W^-2 = (2 J w w' J - J)/b^2,  lambda = W zeta = W^-1 s.
 
-The numbers of all cones lie in one list, a field of ROWS rows after another.
+The numbers of all cones are stored in one list, as consecutive fields of ROWS rows.
+
 Source: Vandenberghe 2010, "The CVXOPT linear and quadratic cone program solvers", sections 4 and 5.
 """
 
@@ -31,7 +32,7 @@ FIELDS = 13 * ROWS + 4  # with as many as the largest cone has behind the last, 
 
 
 def lorentz(c: list, at: int, size: int) -> float:
-    """Return x'Jx of the rows from ``at`` on, not above 0 where they are no inner point of the cone."""
+    """Return x'Jx of the rows starting at ``at``; 0 or less if they are not an interior point of the cone."""
     square = 0.0
     for i in range(1, size):
         square = square + c[at + i] * c[at + i]
@@ -42,7 +43,7 @@ def lorentz(c: list, at: int, size: int) -> float:
 
 
 def product(c: list, left: int, right: int, size: int) -> float:
-    """Return the scalar product of the rows from ``left`` and from ``right`` on."""
+    """Return the scalar product of the rows starting at ``left`` and at ``right``."""
     total = 0.0
     for i in range(size):
         total = total + c[left + i] * c[right + i]
@@ -50,7 +51,7 @@ def product(c: list, left: int, right: int, size: int) -> float:
 
 
 def mirrored_product(c: list, left: int, right: int, size: int) -> float:
-    """Return x'Jy of the rows from ``left`` and from ``right`` on."""
+    """Return x'Jy of the rows starting at ``left`` and at ``right``."""
     total = c[left] * c[right]
     for i in range(1, size):
         total = total - c[left + i] * c[right + i]
@@ -58,7 +59,7 @@ def mirrored_product(c: list, left: int, right: int, size: int) -> float:
 
 
 def scale_cone(c: list, row: int, size: int) -> bool:
-    """Set the scaling and lambda of a cone; False where a slack, multiplier or lambda is no inner point."""
+    """Set scaling and lambda of a cone; return False if slack, multiplier or lambda is not an interior point."""
     slack_square = lorentz(c, SLACK + row, size)
     multiplier_square = lorentz(c, MULTIPLIER + row, size)
     if not (slack_square > 0.0 and multiplier_square > 0.0):
@@ -80,7 +81,7 @@ def scale_cone(c: list, row: int, size: int) -> bool:
 
 
 def scale_up(c: list, row: int, size: int, source: int, target: int) -> None:
-    """Set the field ``target`` of a cone to W times ``source``."""
+    """Set the field ``target`` of a cone to W times the field ``source``."""
     double = 2.0 * product(c, AXIS + row, source + row, size)
     factor = c[FACTOR + row]
     c[target + row] = factor * (double * c[AXIS + row] - c[source + row])
@@ -89,7 +90,7 @@ def scale_up(c: list, row: int, size: int, source: int, target: int) -> None:
 
 
 def scale_down(c: list, row: int, size: int, source: int, target: int) -> None:
-    """Set the field ``target`` of a cone to W^-1 times ``source``."""
+    """Set the field ``target`` of a cone to W^-1 times the field ``source``."""
     double = 2.0 * mirrored_product(c, AXIS + row, source + row, size)
     factor = 1.0 / c[FACTOR + row]
     c[target + row] = factor * (double * c[AXIS + row] - c[source + row])
@@ -98,7 +99,7 @@ def scale_down(c: list, row: int, size: int, source: int, target: int) -> None:
 
 
 def add_weighted(c: list, row: int, size: int, factor: float, source: int, target: int) -> None:
-    """Add ``factor`` W^-2 times the field ``source`` of a cone to ``target``."""
+    """Add ``factor`` W^-2 times the field ``source`` of a cone to the field ``target``."""
     double = 2.0 * mirrored_product(c, CENTRE + row, source + row, size)
     scale = factor / (c[FACTOR + row] * c[FACTOR + row])
     c[target + row] = c[target + row] + scale * (double * c[CENTRE + row] - c[source + row])
@@ -107,7 +108,7 @@ def add_weighted(c: list, row: int, size: int, factor: float, source: int, targe
 
 
 def weight_at(c: list, row: int, i: int, j: int) -> float:
-    """Return element i, j of W^-2 of the cone that begins at ``row``."""
+    """Return element i, j of W^-2 of the cone that starts at ``row``."""
     entry = 2.0 * c[CENTRE + row + i] * c[CENTRE + row + j]
     if i == j:
         if i == 0:
@@ -120,7 +121,7 @@ def weight_at(c: list, row: int, i: int, j: int) -> float:
 
 
 def multiply_scaled(c: list, row: int, size: int, centring: float) -> None:
-    """Set the correction of a cone: ``centring`` e less the product of the scaled steps."""
+    """Set the correction of a cone: ``centring`` e minus the product of the scaled steps."""
     slack = SCALED_SLACK + row
     multiplier = SCALED_MULTIPLIER + row
     c[CORRECTION + row] = centring - product(c, slack, multiplier, size)
@@ -142,7 +143,8 @@ def divide_by_lambda(c: list, row: int, size: int) -> None:
 
 
 def inverse_step(c: list, row: int, size: int, field: int) -> float:
-    """Return 1 over the step along the scaled ``field`` at which lambda leaves the cone, 0 or less where it never does.
+    """Return the inverse of the step along the scaled ``field`` at which lambda leaves the cone; 0 or less if it never
+    does.
 
     Source: Vandenberghe 2010, section 8.3.
     """

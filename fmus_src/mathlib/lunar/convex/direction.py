@@ -1,4 +1,4 @@
-"""Directions of the interior-point method: residuals, predictor and corrector, the largest step. Kernel functions.
+"""Search directions of the interior-point method: residuals, predictor, corrector, largest step. Kernel functions.
 
 Source: Mehrotra 1992, "On the implementation of a primal-dual interior point method"; Vandenberghe 2010, section 7.
 """
@@ -40,7 +40,7 @@ def gap_along(p: DescentProblem, c: list, step: float) -> float:
 
 
 def set_residual(p: DescentProblem, expansion: list, point: list, c: list) -> float:
-    """Set the residual of the slacks, and return the largest."""
+    """Set the residual of the slacks and return the largest magnitude."""
     set_rows(p, expansion, point, 1.0, c, RESIDUAL)
     largest = 0.0
     for j in range(CONES):
@@ -56,7 +56,7 @@ def set_residual(p: DescentProblem, expansion: list, point: list, c: list) -> fl
 def set_direction(
     p: DescentProblem, expansion: list, c: list, gains: list, centring: float, gradient: list, step: list
 ) -> None:
-    """Set the direction in point, slacks and multipliers for the corrections in ``c``, and both scaled ones."""
+    """Set the directions of point, slacks and multipliers, and their scaled forms, for the corrections in ``c``."""
     keep = 1.0 - centring
     for j in range(CONES):
         row = cone_row(j) % ROWS
@@ -84,7 +84,7 @@ def set_direction(
 
 
 def largest_step(p: DescentProblem, c: list) -> float:
-    """Return the largest step that leaves slacks and multipliers in their cones, infinite where any does."""
+    """Return the largest step that keeps slacks and multipliers in their cones; infinite without a bound."""
     inverse = 0.0
     for j in range(CONES):
         row = cone_row(j) % ROWS
@@ -102,7 +102,7 @@ def largest_step(p: DescentProblem, c: list) -> float:
 
 
 def set_correction(p: DescentProblem, c: list, centring: float, second_order: bool) -> None:
-    """Set the right sides of the complementarity: none for the predictor, with ``second_order`` Mehrotra's."""
+    """Set the right-hand sides of complementarity: none for the predictor, Mehrotra's with ``second_order``."""
     for j in range(CONES):
         row = cone_row(j) % ROWS
         size = cone_size(p, j) % LARGER
@@ -115,7 +115,7 @@ def set_correction(p: DescentProblem, c: list, centring: float, second_order: bo
 
 
 def scale_cones(p: DescentProblem, c: list) -> bool:
-    """Set the scaling of all cones; False where one of them is not inside its cone."""
+    """Set the scaling of all cones; return False if one of them is not at an interior point."""
     for j in range(CONES):
         row = cone_row(j) % ROWS
         size = cone_size(p, j) % LARGER
@@ -127,7 +127,7 @@ def scale_cones(p: DescentProblem, c: list) -> bool:
 
 
 def advance(c: list, point: list, step: list, length: float) -> None:
-    """Go a ``length`` along a direction."""
+    """Move point, slacks and multipliers by ``length`` along the direction."""
     for i in range(POINT):
         point[i] = point[i] + length * step[i]
     for i in range(ROWS):

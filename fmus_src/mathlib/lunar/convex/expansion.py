@@ -1,7 +1,7 @@
-"""A descent in SI units as a convex problem expanded about a plan, and its solution as the next plan. Kernel functions.
+"""Descent in SI units as a convex problem expanded about a plan, with its solution as the next plan. Kernel functions.
 
 A plan is a flat list: thrust acceleration (m/s2) of the intervals; position (m), velocity (m/s), gravity (m/s2) and
-log mass over the mass at its start of the nodes, landing-site frame.
+logarithm of the mass over the initial mass at the nodes, in the landing-site frame.
 """
 
 import math
@@ -37,7 +37,7 @@ SEED_BURNT = 0.75  # of the mass, and of what the largest thrust burns
 
 
 class DescentTask(Record):
-    """Start, end and limits of a descent, landing-site frame."""
+    """Start, target and limits of a descent, landing-site frame."""
 
     position = Field(Vector3, unit="m", description="current position")
     velocity = Field(Vector3, unit="m/s", description="current velocity")
@@ -70,26 +70,26 @@ class PlanSummary(Record):
 
 
 def gravity_of(task: DescentTask, position: Vector3) -> Vector3:
-    """Return gravity (m/s2) at a position (m)."""
+    """Return the gravity (m/s2) at a position (m)."""
     if task.central:
         return central_gravity(position, task.radius, task.parameter)
     return vector(0.0, 0.0, -task.gravity)
 
 
 def vector_of(plan: list, at: int) -> Vector3:
-    """Return three numbers of a plan."""
+    """Return three consecutive numbers of a plan as a vector."""
     return vector(plan[at], plan[at + 1], plan[at + 2])
 
 
 def store(plan: list, at: int, v: Vector3) -> None:
-    """Set three numbers of a plan."""
+    """Store a vector as three consecutive numbers of a plan."""
     plan[at] = v.x
     plan[at + 1] = v.y
     plan[at + 2] = v.z
 
 
 def seed_plan(task: DescentTask, time: float, plan: list) -> None:
-    """Set what a first problem is expanded about: positions on a straight line, and a mass that falls evenly."""
+    """Set the plan about which the first problem is expanded: a straight line with linearly decreasing mass."""
     burnt = clip(SEED_BURNT * task.maximum / task.mass * time / task.exhaust, 0.0, SEED_BURNT)
     for k in range(NODES):
         fraction = float(k) / float(INTERVALS)
@@ -98,7 +98,7 @@ def seed_plan(task: DescentTask, time: float, plan: list) -> None:
 
 
 def expand(task: DescentTask, time: float, plan: list, expansion: list) -> DescentProblem:
-    """Return the scaled problem of a ``time`` (s) expanded about a plan, and set its data."""
+    """Return the scaled problem for a ``time`` (s) expanded about a plan, and set its data."""
     acceleration = task.maximum / task.mass
     length = norm(task.position - task.target)
     if not length > 1.0:
@@ -130,7 +130,7 @@ def expand(task: DescentTask, time: float, plan: list, expansion: list) -> Desce
 
 
 def take_point(task: DescentTask, p: DescentProblem, expansion: list, point: list, time: float, plan: list) -> None:
-    """Set a plan of a ``time`` (s) from the point of a solution."""
+    """Set a plan for a ``time`` (s) from a solution's point."""
     h = time / float(INTERVALS)
     r = task.position
     v = task.velocity
@@ -149,12 +149,12 @@ def take_point(task: DescentTask, p: DescentProblem, expansion: list, point: lis
 
 
 def improve_plan(task: DescentTask, time: float, plan: list) -> PlanSummary:
-    """Solve the problem of a ``time`` (s) expanded about a plan, and set the plan to its solution."""
+    """Solve the problem for a ``time`` (s) expanded about a plan, and set the plan to the solution."""
     return improve_plan_to(task, time, TOLERANCE, plan)
 
 
 def improve_plan_to(task: DescentTask, time: float, tolerance: float, plan: list) -> PlanSummary:
-    """Solve as `improve_plan`, to another ``tolerance`` of gap and residuals."""
+    """Improve a plan like `improve_plan` with another ``tolerance`` of gap and residuals."""
     expansion = [0.0] * EXPANSION
     point = [0.0] * POINT
     p = expand(task, time, plan, expansion)

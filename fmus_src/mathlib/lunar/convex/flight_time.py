@@ -1,8 +1,8 @@
-"""The time of flight of least propellant, by bisection on plans. Kernel functions.
+"""Time of flight of least propellant, by bisection on plans. Kernel functions.
 
-Propellant over time falls steeply where the thrust does not suffice, and then rises gently: the time looked for is the
-shortest at which a plan is solved, meets its place and has propellant rise with time. Plans are expanded about the
-last one that was solved.
+As a function of time, the propellant falls steeply where the thrust does not suffice, then rises slowly. The result is
+the shortest time for which a plan is solved, reaches its target and needs more propellant for more time. Plans are
+expanded about the last solved plan.
 """
 
 from ....kernel.records import Field, Record, replace
@@ -22,7 +22,7 @@ VELOCITY_TOLERANCE = 0.1  # m/s
 
 
 class TimeBracket(Record):
-    """Times between which a search continues."""
+    """Bounds of the time of flight in a search."""
 
     time = Field(unit="s", description="time of flight to try next")
     low = Field(unit="s", description="time of flight known to be too short")
@@ -37,26 +37,26 @@ def is_met(s: PlanSummary) -> bool:
 
 
 def is_long_enough(s: PlanSummary) -> bool:
-    """Return True if a plan ends at its target and would take more with more time."""
+    """Return True if a plan ends at its target and would need more propellant for more time."""
     return is_met(s) and s.slope > 0.0
 
 
 def first_bracket(time: float, lowest: float) -> TimeBracket:
-    """Return the bracket of a first plan, from a guess of the ``time`` (s) and the ``lowest`` fraction of it."""
+    """Return the bracket of a first plan, from an estimate ``time`` (s) and the ``lowest`` fraction of it."""
     return TimeBracket(time=time, low=lowest * time, high=FIRST_HIGH * time, growths=GROWTHS, bisections=BISECTIONS)
 
 
 def replan_bracket(time: float) -> TimeBracket:
-    """Return the bracket of a replan with ``time`` (s) to go."""
+    """Return the bracket of a new plan with ``time`` (s) to go."""
     return TimeBracket(
         time=time, low=REPLAN_LOW * time, high=REPLAN_HIGH * time, growths=0, bisections=REPLAN_BISECTIONS
     )
 
 
 def plan_descent(task: DescentTask, bracket: TimeBracket, plan: list) -> PlanSummary:
-    """Set a plan of the best time in a bracket, whose upper time may grow; ``iterations`` of the summary are of all.
+    """Set a plan for the best time in a bracket, whose upper bound may grow; return its summary with all iterations.
 
-    Where no time is long enough, the summary is that of the last: not solved, or solved with its least miss.
+    If no time is long enough, the summary is that of the last plan: not solved, or solved with its least miss.
     """
     low = bracket.low
     high = bracket.high

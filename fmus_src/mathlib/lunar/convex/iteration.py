@@ -1,6 +1,7 @@
-"""A primal-dual interior-point method for the problem of a descent. Kernel functions.
+"""Primal-dual interior-point method for a descent problem. Kernel functions.
 
-The dynamics hold in every point, slacks and multipliers are inside their cones, and steps are 0.99 of the largest.
+Every point satisfies the dynamics, slacks and multipliers are inside their cones, and steps are 0.99 of the largest.
+
 Source: Mehrotra 1992; Vandenberghe 2010, section 7.
 """
 
@@ -54,7 +55,7 @@ FIRST_CONE_SLACK = 1e-1
 
 
 class ConeSolution(Record):
-    """Outcome of the iterations."""
+    """Result of the iterations."""
 
     solved = Field(bool, description="true: gap and residuals below their tolerances")
     iterations = Field(int, description="number of iterations")
@@ -63,7 +64,7 @@ class ConeSolution(Record):
 
 
 def begin(p: DescentProblem, expansion: list, point: list, c: list) -> None:
-    """Set the first point without thrust direction, and slacks and multipliers inside their cones."""
+    """Set the first point with thrust of no direction, and slacks and multipliers inside their cones."""
     for i in range(POINT):
         point[i] = 0.0
     for i in range(3):
@@ -99,7 +100,7 @@ def begin(p: DescentProblem, expansion: list, point: list, c: list) -> None:
 
 
 def raise_to(c: list, at: int, lowest: float) -> None:
-    """Raise a number to ``lowest``."""
+    """Return the larger of a number and ``lowest``."""
     if not c[at] > lowest:
         c[at] = lowest
 
@@ -113,7 +114,7 @@ def sum_impulse(p: DescentProblem, point: list) -> float:
 
 
 def time_slope(p: DescentProblem, expansion: list, point: list, c: list, costate: list) -> float:
-    """Return the derivative of the objective by the time of flight, with the expansion unchanged."""
+    """Return the derivative of the objective with respect to the time of flight, with the expansion unchanged."""
     h = p.step
     total = 0.0
     for k in range(INTERVALS):

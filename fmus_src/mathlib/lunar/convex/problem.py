@@ -57,7 +57,7 @@ WEIGHT = 30.0  # of the misses
 
 
 class DescentProblem(Record):
-    """Scaled numbers of a convex problem, and the units they are scaled by."""
+    """Scaled data of a convex problem, and the units of the scaling."""
 
     step = Field(unit="1", description="duration h of an interval")
     exhaust = Field(unit="1", description="exhaust speed v_e")
@@ -87,7 +87,7 @@ def cone_row(j: int) -> int:
 
 
 def cone_size(p: DescentProblem, j: int) -> int:
-    """Return the number of rows of cone ``j``; 0 where the problem is without it."""
+    """Return the number of rows of cone ``j``; 0 if the problem does not have it."""
     kind = j % KINDS
     if kind == 0 or j // KINDS == INTERVALS:
         return CONTROL
@@ -101,7 +101,7 @@ def cone_size(p: DescentProblem, j: int) -> int:
 
 
 def count_cones(p: DescentProblem) -> float:
-    """Return the number of cones, which is the degree of the complementarity."""
+    """Return the number of cones, the degree of complementarity."""
     count = 0
     for j in range(CONES):
         if cone_size(p, j) > 0:
@@ -115,7 +115,7 @@ def gravity_at(expansion: list, k: int) -> Vector3:
 
 
 def roll_out(p: DescentProblem, expansion: list, k: int, point: list) -> None:
-    """Set the state of node ``k`` + 1 from that of ``k`` and the control between."""
+    """Set the state of node ``k`` + 1 from the state of node ``k`` and the control of the interval between them."""
     h = p.step
     now = gravity_at(expansion, k)
     then = gravity_at(expansion, k + 1)
@@ -130,7 +130,7 @@ def roll_out(p: DescentProblem, expansion: list, k: int, point: list) -> None:
 
 
 def set_rows(p: DescentProblem, expansion: list, x: list, affine: float, c: list, field: int) -> None:
-    """Set rows from ``field`` of ``c`` on: slacks of the point x with ``affine`` = 1, and with 0 their linear terms."""
+    """Set the rows of ``c`` from ``field`` on: slacks of the point x for ``affine`` = 1, their linear terms for 0."""
     half = 0.5 * p.step / p.exhaust
     for k in range(INTERVALS):
         at = field + STAGE * k
@@ -153,7 +153,9 @@ def set_rows(p: DescentProblem, expansion: list, x: list, affine: float, c: list
 
 
 def set_gradient(p: DescentProblem, expansion: list, c: list, field: int, weight: float, gradient: list) -> None:
-    """Set the gradient (as a point) of ``weight`` times the objective less the rows of slacks by those of ``field``."""
+    """Set the gradient (as a point) of ``weight`` times the objective minus the product of slacks and the rows of
+    ``field``.
+    """
     half = 0.5 * p.step / p.exhaust
     for k in range(INTERVALS):
         at = field + STAGE * k

@@ -1,7 +1,8 @@
-"""The linear-quadratic problem of a direction, by a Riccati recursion from the end. Kernel functions.
+"""Linear-quadratic problem of a search direction, solved by a backward Riccati recursion. Kernel functions.
 
-Minimised over controls with the dynamics x+ = A x + B u of `problem` is x'Hx/2 + gradient'x, H = G' W^-2 G of the
-slacks' rows. The bounds on the misses, which only the end has, are eliminated first.
+Over all controls with the dynamics x+ = A x + B u of `problem`, x'Hx/2 + gradient'x is minimised, with H = G' W^-2 G
+for the rows G of the slacks. The bounds on the end misses are eliminated first.
+
 Source: Rao, Wright and Rawlings 1998, "Application of interior-point methods to model predictive control".
 """
 
@@ -45,7 +46,7 @@ def set_end_hessian(c: list, cost: list) -> None:
 
 
 def add_stage_hessian(p: DescentProblem, expansion: list, c: list, k: int, r: list, m: list, cost: list) -> None:
-    """Add the Hessian of interval ``k`` to R (4 x 4), to its mixed terms (4 x 7) and to those of the state (7 x 7)."""
+    """Add the Hessian of interval ``k`` to R (4 x 4), to the mixed terms (4 x 7) and to those of the state (7 x 7)."""
     row = STAGE * k
     half = 0.5 * p.step / p.exhaust
     upper_limit = expansion[UPPER_LIMIT + k]
@@ -78,7 +79,9 @@ def add_stage_hessian(p: DescentProblem, expansion: list, c: list, k: int, r: li
 
 
 def decompose(r: list, gains: list, at: int) -> bool:
-    """Set the Cholesky factor of R (4 x 4) in ``gains``, its diagonal inverted; False where a pivot is not above 0."""
+    """Store the Cholesky factor of R (4 x 4), with inverted diagonal, in ``gains``; return False if a pivot is not
+    positive.
+    """
     for j in range(CONTROL):
         for i in range(j, CONTROL):
             entry = r[4 * i + j]
@@ -94,7 +97,7 @@ def decompose(r: list, gains: list, at: int) -> bool:
 
 
 def substitute(gains: list, at: int, x: list, first: int, stride: int) -> None:
-    """Replace four numbers of x, ``stride`` apart from ``first`` on, by R^-1 times them."""
+    """Replace four numbers of x, from ``first`` on and ``stride`` apart, by R^-1 times them."""
     for i in range(CONTROL):
         entry = x[first + stride * i]
         for n in range(i):
@@ -108,7 +111,7 @@ def substitute(gains: list, at: int, x: list, first: int, stride: int) -> None:
 
 
 def factorise(p: DescentProblem, expansion: list, c: list, gains: list) -> bool:
-    """Set the factors and gains of all intervals for the present scaling; False where a pivot is not above 0."""
+    """Set factors and gains of all intervals for the present scaling; return False if a pivot is not positive."""
     cost = [0.0] * 49
     forced = [0.0] * 28
     mixed = [0.0] * 28
@@ -157,7 +160,7 @@ def factorise(p: DescentProblem, expansion: list, c: list, gains: list) -> bool:
 
 
 def solve_direction(p: DescentProblem, c: list, gains: list, gradient: list, step: list) -> None:
-    """Set the direction ``step`` (as a point) that minimises, with a ``gradient``, the factorised problem."""
+    """Set ``step`` (as a point) to the minimiser of the factorised problem with a ``gradient``."""
     h = p.step
     half = 0.5 * h * h
     burn = -h / p.exhaust
@@ -207,7 +210,7 @@ def solve_direction(p: DescentProblem, c: list, gains: list, gradient: list, ste
 
 
 def dual_residual(p: DescentProblem, gradient: list, costate: list) -> float:
-    """Return the largest derivative of the Lagrangian by a control or a bound; set the costates (7 of each node).
+    """Set the costates (7 of each node) and return the largest derivative of the Lagrangian by a control or a bound.
 
     ``gradient`` is that of `set_gradient` with the multipliers.
     """

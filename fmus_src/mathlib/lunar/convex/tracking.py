@@ -1,4 +1,4 @@
-"""Flight along a plan of a descent: the reference, and what corrects deviations from it. Kernel functions."""
+"""Tracking of a descent plan: reference motion and correction of deviations. Kernel functions."""
 
 from ...vectors import Vector3, clip, limit_length, norm, vector
 from .expansion import GRAVITY, POSITION, THRUST, VELOCITY, vector_of
@@ -12,7 +12,7 @@ COAST_CORRECTION = 0.7  # ... corrections are limited to so much of it, and the 
 
 
 def interval_at(step: float, elapsed: float) -> int:
-    """Return the interval of ``step`` (s) in which a plan is after ``elapsed`` (s)."""
+    """Return the index of the plan's interval, of length ``step`` (s), at ``elapsed`` (s) after its start."""
     k = 0
     for i in range(1, INTERVALS):
         if elapsed >= float(i) * step:
@@ -21,7 +21,9 @@ def interval_at(step: float, elapsed: float) -> int:
 
 
 def reference(plan: list, step: float, elapsed: float) -> tuple[Vector3, Vector3]:
-    """Return position (m) and velocity (m/s) of a plan with intervals of ``step`` (s) after ``elapsed`` (s)."""
+    """Return position (m) and velocity (m/s) of a plan with intervals of ``step`` (s) at ``elapsed`` (s) after its
+    start.
+    """
     k = interval_at(step, elapsed)
     time = elapsed - float(k) * step
     u = vector_of(plan, THRUST + 3 * k)
@@ -35,9 +37,9 @@ def reference(plan: list, step: float, elapsed: float) -> tuple[Vector3, Vector3
 
 
 def mean_thrust(plan: list, step: float, elapsed: float, span: float) -> Vector3:
-    """Return the mean thrust acceleration (m/s2) of a plan over a ``span`` (s) from ``elapsed`` (s) on.
+    """Return the mean thrust acceleration (m/s2) of a plan over ``span`` (s) from ``elapsed`` (s) on.
 
-    Before its start and after its end a plan continues with its first and its last thrust.
+    Before its start and after its end, a plan has its first and last thrust.
     """
     k = interval_at(step, elapsed)
     end = elapsed + span
@@ -54,10 +56,10 @@ def mean_thrust(plan: list, step: float, elapsed: float, span: float) -> Vector3
 
 
 def tracking_thrust(feedforward: Vector3, position_error: Vector3, velocity_error: Vector3, largest: float) -> Vector3:
-    """Return the thrust acceleration (m/s2) that follows a plan.
+    """Return the thrust acceleration (m/s2) for tracking a plan.
 
-    ``feedforward`` (m/s2) is the plan's, ``position_error`` (m) and ``velocity_error`` (m/s) are its position and
-    velocity less the present ones, and ``largest`` (m/s2) is the largest thrust over mass.
+    ``feedforward`` (m/s2) is that of the plan; ``position_error`` (m) and ``velocity_error`` (m/s) are planned minus
+    actual values; ``largest`` (m/s2) is the largest thrust over mass.
     """
     correction = FREQUENCY * FREQUENCY * position_error + 2.0 * DAMPING * FREQUENCY * velocity_error
     limit = CORRECTION * largest
