@@ -1,1 +1,1 @@
-"""Allocation of commands to engines and attitude."""
+"""Actuator allocation: from demanded forces, torques and accelerations to engines, jets, gyros and wheels."""

@@ -1,4 +1,4 @@
-"""The slot of gyro steering: from the demanded torque of the gyro cluster to its gimbal rates."""
+"""Slot of gyro steering: from the demanded torque of the gyro cluster to its gimbal rates."""
 
 from ..block import Block, Output, Parameter
 from ..interfaces.ports import body, robot, sampling
@@ -87,10 +87,12 @@ class GyroSteering(Block, interface=True):
     start_time = sampling.START_TIME.state()
 
     def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
-        """Set gimbal_rates (rad/s) and status for a rate of the momentum (1/s, in units of one rotor's)."""
+        """Set gimbal_rates (rad/s) and status for a rate of change of the momentum (1/s, in units of one rotor's
+        momentum).
+        """
 
     def sample(self, time: float) -> None:
-        """Set rates for the torque and angles of ``time`` (s)."""
+        """Set the gimbal rates for torque and gimbal angles at ``time`` (s)."""
         momentum_rate = -self.torque_command / self.rotor_momentum
         if all_below(momentum_rate, LARGEST) and all_below(self.gimbal_angles, LARGEST):
             self.singularity = singularity_measure(self.gimbal_angles)
@@ -102,13 +104,13 @@ class GyroSteering(Block, interface=True):
             self.gimbal_rates = vector(0.0, 0.0, 0.0, 0.0)
 
     def turn(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
-        """Set rates within their limit for gimbal angles (rad)."""
+        """Set gimbal rates within their limit for these gimbal angles (rad)."""
         self.status = GyroSteeringStatus.GOOD
         self.steer(angles, momentum_rate, time)
         self.limit()
 
     def limit(self) -> None:
-        """Scale the rates into their limit."""
+        """Scale the gimbal rates to their limit if one exceeds it."""
         largest = 0.0
         for i in range(4):
             size = abs(self.gimbal_rates[i])

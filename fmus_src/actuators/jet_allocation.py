@@ -1,4 +1,4 @@
-"""The slot of jet allocation: from the demanded force and torque to the thrusts of eight jets."""
+"""Slot of jet allocation: from demanded force and torque to the thrusts of eight jets."""
 
 from ..block import Block, Output, State
 from ..interfaces.ports import body, inertial, robot, sampling
@@ -21,13 +21,14 @@ class JetAllocationStatus(Enumeration):
 class JetAllocation(Block, interface=True):
     """Allocation of a force (inertial axes) and a torque (body axes) to eight jets of adjustable thrust.
 
-    A new command is signalled by a change of command_count; the one at the start counts. It is allocated at once, with
-    the attitude of that moment, and applied delay_fraction times translation_period later, until the next command's
-    thrusts. Before the first command thrusts are 0. A command replaces one that is still waiting. The status is that of
-    the newest command; allocated_force and allocated_torque are those of jet_thrust with jets as declared.
+    A change of command_count signals a new command; the command at the start counts as new. It is allocated immediately
+    with the present attitude, and its thrusts are applied after a delay of delay_fraction times translation_period,
+    until the next command's thrusts. Before the first command thrusts are 0. A new command replaces one whose thrusts
+    are not yet applied. The status is that of the newest command; allocated_force and allocated_torque are computed
+    from jet_thrust with the declared jet geometry.
 
     An allocation defines `allocate`, which sets new_thrust and status. jet_tilt is the elevation of the nozzles above
-    the body's xy plane, jet_azimuth their angle from x in it, jet_arm the position of the first jet.
+    the body's xy plane, jet_azimuth their angle from x in this plane, jet_arm the position of the first jet.
 
     Frames: inertial; body.
 
@@ -85,7 +86,7 @@ class JetAllocation(Block, interface=True):
         return finite
 
     def take(self, time: float) -> None:
-        """Share out the command of ``time`` (s)."""
+        """Allocate the command of ``time`` (s)."""
         self.counted = self.command_count
         self.waiting = True
         finite = self.read_demand()
@@ -102,7 +103,7 @@ class JetAllocation(Block, interface=True):
                 self.new_thrust[p] = 0.0
 
     def put_out(self, time: float) -> None:
-        """Put the waiting thrusts out if they are due at ``time`` (s)."""
+        """Output the pending thrusts if they are due at ``time`` (s)."""
         if self.waiting and time >= self.due_time - sampling.TIME_ROUNDING:
             self.waiting = False
             wrench = jet_wrench(self.strength, self.new_thrust)

@@ -1,4 +1,4 @@
-"""Jet allocation by the pseudo-inverse, lifted and scaled."""
+"""Jet allocation by the pseudo-inverse, shifted and scaled."""
 
 from ..mathlib.actuators.jets import pseudo_inverse, shift_and_scale
 from .jet_allocation import JetAllocation, JetAllocationStatus

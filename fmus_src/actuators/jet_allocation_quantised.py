@@ -1,4 +1,4 @@
-"""Jet allocation in whole levels of thrust, without torque."""
+"""Jet allocation in quantised thrusts, without torque."""
 
 import math
 

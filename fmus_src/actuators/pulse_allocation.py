@@ -1,4 +1,4 @@
-"""Pulses of jets from the demanded torque, with the rest carried over."""
+"""Jet pulses for a demanded torque, with the remainder carried over."""
 
 import math
 
@@ -23,10 +23,11 @@ class PulseAllocation(Block):
 
         r = r + u T/M    τ = min(|r|, T)    r = r - τ sgn(r)
 
-    τ is 0 below shortest_pulse, and r is 0 after τ = T. Otherwise the remainder stays below shortest_pulse, and the
-    fired impulse differs from the demand by less than that from the start, and by less than twice that over any window.
-    At a sample without demand r is multiplied by rest_kept. With mean, the demand is passed as a torque held over the
-    sample period, within the level, and no jet fires: for linear studies. A demand that is not finite fires nothing.
+    τ is 0 if it would be shorter than shortest_pulse, and r is 0 after τ = T. Otherwise the remainder stays below
+    shortest_pulse; the fired impulse since the start differs from the demand by less than shortest_pulse, and that of
+    any interval by less than twice as much. At a sample without demand r is multiplied by rest_kept. With mean, the
+    demand is output as a torque over the sample period, limited to the level, and no jet fires: for linear studies. A
+    demand that is not finite fires nothing.
 
     Frame: body.
 
@@ -73,7 +74,7 @@ class PulseAllocation(Block):
         self.allocate()
 
     def pulse(self, k: int) -> None:
-        """Set length and rest of axis k."""
+        """Set pulse length and remainder of axis k."""
         self.rests[k] = self.rests[k] + self.torque_command[k] * self.sample_period / self.jet_torque[k]
         length = abs(self.rests[k])
         if length >= self.sample_period:
@@ -94,14 +95,14 @@ class PulseAllocation(Block):
         return clip(self.torque_command[k], -self.jet_torque[k], self.jet_torque[k])
 
     def pass_mean(self) -> None:
-        """Set the mean torque to the demand within the levels."""
+        """Set the mean torque to the demand limited to the torque levels."""
         x = self.within_level(0)
         y = self.within_level(1)
         z = self.within_level(2)
         self.mean_torque = vector(x, y, z)
 
     def allocate(self) -> None:
-        """Set pulses for the demand of this tick."""
+        """Set the pulses for the demand of this sample."""
         self.pulse_count = self.pulse_count + 1
         self.status = PulseStatus.GOOD
         for k in range(3):

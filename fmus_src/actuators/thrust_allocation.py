@@ -1,4 +1,4 @@
-"""Allocation to one engine fixed to the body: throttle and attitude with their limits."""
+"""Allocation to one body-fixed engine: throttle and attitude with their limits."""
 
 from ..block import Parameter, State
 from ..interfaces.allocation import Allocation, AllocationStatus
@@ -105,7 +105,7 @@ class ThrustAllocation(Allocation):
         self.commanded_thrust = allowed * self.thrust_factor
 
     def leave_dead_band(self, demanded: float) -> float:
-        """Return the thrust (N) for a ``demanded`` one, outside the dead band where there is one."""
+        """Return the thrust (N) for a ``demanded`` thrust, moved out of the dead band if there is one."""
         if self.dead_band_high <= 0.0 or self.maximum_thrust <= 0.0:
             return demanded
         if demanded > self.dead_band_high * self.maximum_thrust:
@@ -117,7 +117,7 @@ class ThrustAllocation(Allocation):
         return demanded
 
     def is_contradictory(self) -> bool:
-        """Return True if limits exclude each other."""
+        """Return True if the limits contradict each other."""
         if self.dead_band_low > self.dead_band_high:
             return True
         if self.dead_band_high > 0.0 and self.maximum_thrust <= 0.0:
@@ -125,14 +125,14 @@ class ThrustAllocation(Allocation):
         return self.maximum_thrust > 0.0 and self.minimum_thrust > self.maximum_thrust
 
     def duration(self) -> float:
-        """Return the duration of thrust from demand_time on (s)."""
+        """Return the burn duration from demand_time on (s)."""
         shortened = self.demanded_duration - self.thrust_lead
         if self.thrust_lead > 0.0 and shortened < 0.0:
             shortened = 0.0
         return shortened
 
     def pass_direction(self) -> None:
-        """Pass direction and timing as demanded, with their leads."""
+        """Output the demanded direction and timing with their lead times."""
         self.thrust_direction = self.demanded_direction
         self.thrust_direction_rate = self.demanded_direction_rate
         # counted from earlier, the direction is further on at any time

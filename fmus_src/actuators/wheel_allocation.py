@@ -1,4 +1,4 @@
-"""The slot of wheel allocation: from the demanded torque of four reaction wheels to the torques of their motors."""
+"""Slot of wheel allocation: from the demanded torque of four reaction wheels to their motor torques."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, sampling, satellite
@@ -84,7 +84,7 @@ class WheelAllocation(Block, interface=True):
     invertible = State(False, description="true: spin axes of the available wheels span three axes")
 
     def distribute(self) -> None:
-        """Set wheel_torques (N m) for torque_command, and speed_change (rad/s)."""
+        """Set wheel_torques (N m) and speed_change (rad/s) for torque_command."""
 
     def initialize(self) -> None:
         self.axes = unit_axes(self.wheel_axes)
@@ -96,7 +96,7 @@ class WheelAllocation(Block, interface=True):
         self.allocate()
 
     def null_torque(self) -> Vector4:
-        """Return torque (N m) along the null direction, within the rest of every motor's limit."""
+        """Return the torque (N m) along the null direction that every motor's limit allows in addition."""
         amount = 0.0
         for j in range(WHEELS):
             amount = amount + self.null[j] * self.speed_change[j]
@@ -116,7 +116,7 @@ class WheelAllocation(Block, interface=True):
         return amount * self.null
 
     def allocate(self) -> None:
-        """Set motor torques for the present command."""
+        """Set the motor torques for the present command."""
         self.motor_torques = vector(0.0, 0.0, 0.0, 0.0)
         if not self.invertible:
             self.status = WheelAllocationStatus.NO_INVERSE

@@ -1,4 +1,4 @@
-"""Wheel allocation with the smallest largest torque."""
+"""Wheel allocation that minimises the largest motor torque."""
 
 from ..mathlib.actuators.wheels import minimax_shift
 from .wheel_allocation import WheelAllocation

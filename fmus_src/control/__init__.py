@@ -1,1 +1,1 @@
-"""Control laws: from the estimate and the plan to demanded force and torque."""
+"""Control laws: from estimate and plan to demanded force and torque."""

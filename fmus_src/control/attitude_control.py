@@ -1,4 +1,4 @@
-"""Torque demand from the error of attitude and angular velocity."""
+"""Torque demand of the gyros from attitude and angular velocity errors."""
 
 import math
 
@@ -98,8 +98,9 @@ class AttitudeControl(Block):
         self.command()
 
     def correction(self) -> Vector3:
-        """Return the correction to the angular acceleration (rad/s2), to be subtracted; move the lead to the next
-        tick."""
+        """Return the correction to be subtracted from the angular acceleration (rad/s2), and advance the lead
+        compensator.
+        """
         if self.law == ControlLaw.LEAD:
             law = tustin_lead(self.lead_gain, self.lead_time, self.lag_time, self.period)
             m = lead_output(law, self.lead_state, self.attitude_error)
@@ -109,7 +110,7 @@ class AttitudeControl(Block):
         return w * (w * self.attitude_error + 2.0 * self.damping * self.rate_error)
 
     def to_true_axes(self, v: Vector3) -> Vector3:
-        """Return a vector of the plan's body axes in the true ones."""
+        """Return a vector in planned body axes transformed to the true body axes."""
         square = dot(self.attitude_error, self.attitude_error)
         if square > 1.0:
             square = 1.0  # the sine of an angle; angles beyond 90 deg look smaller
@@ -124,7 +125,7 @@ class AttitudeControl(Block):
         return errors and plan and known
 
     def command(self) -> None:
-        """Command a new torque."""
+        """Compute a new torque command."""
         if not self.finite():
             self.status = AttitudeControlStatus.NOT_FINITE
             return

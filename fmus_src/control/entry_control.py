@@ -1,4 +1,4 @@
-"""The slot of regulators of an entry capsule: from measured bank and rates to the torque over a tick."""
+"""Slot of controllers of an entry capsule: from measured bank and rates to the torque over a sample period."""
 
 import math
 
@@ -17,15 +17,15 @@ class EntryControlStatus(Enumeration):
 
 
 class EntryControl(Block, interface=True):
-    """Torque that holds a capsule at trim and at the bank of a programme, from bank and rates alone.
+    """Torque that holds a capsule at trim and at the programmed bank angle, from bank and rates alone.
 
-    Angle of attack, sideslip, speed and pressure are not measured; dynamic_pressure is for scheduled gains. At trim
-    with trim_attack α_0 the capsule rotates about its velocity by
+    Angle of attack, sideslip, speed and pressure are not measured; dynamic_pressure serves gain scheduling. At trim
+    with trim_attack α_0 the capsule rotates about its velocity at
 
         ω = γ' (cos α_0, -sin α_0, 0)
 
-    Demands below dead_zone of a level are set to 0, and inputs that are not finite give no torque. A regulator defines
-    `regulate`, which sets demand.
+    Demands below dead_zone times the torque level are set to 0, and inputs that are not finite give no torque. A
+    controller defines `regulate`, which returns the demanded torque.
 
     Frame: body.
 
@@ -59,19 +59,19 @@ class EntryControl(Block, interface=True):
     status = Output(EntryControlStatus, direct=True)
 
     def regulate(self) -> Vector3:
-        """Return the torque (N m, body) for the present inputs."""
+        """Return the demanded torque (N m, body) for the present inputs."""
         return vector(0.0, 0.0, 0.0)
 
     def wrap_angle(self, angle: float) -> float:
-        """Return an angle (rad) within +-pi."""
+        """Return an angle (rad) wrapped to +-pi."""
         return angle - 2.0 * math.pi * float(math.floor(angle / (2.0 * math.pi) + 0.5))
 
     def bank_error(self) -> float:
-        """Return measured bank less the reference (rad), within error_limit."""
+        """Return measured minus reference bank angle (rad), limited to error_limit."""
         return clip(self.wrap_angle(self.measured_bank - self.reference.bank), -self.error_limit, self.error_limit)
 
     def beyond(self, demand: float, level: float) -> float:
-        """Return a demand, 0 within the dead zone of a level (N m)."""
+        """Return a torque demand (N m), or 0 if it lies within the dead zone of the torque level."""
         if abs(demand) < self.dead_zone * level:
             return 0.0
         return demand

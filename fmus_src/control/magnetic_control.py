@@ -1,4 +1,4 @@
-"""Dipole of magnetorquers that brakes a rotation, or unloads wheels."""
+"""Dipole of magnetorquers for detumbling and wheel unloading."""
 
 from ..block import Block, Input, Output, Parameter, State
 from ..interfaces.ports import body, sampling, satellite, space
@@ -84,7 +84,7 @@ class MagneticControl(Block):
         self.command(self.start_time)
 
     def plan(self, field: Vector3) -> Vector3:
-        """Return the dipole (A m2) of a new sample of the field (T), without a limit."""
+        """Return the unlimited dipole (A m2, body) for a new field sample (T, body)."""
         square = dot(field, field)
         if self.mode == MagneticMode.DETUMBLE and self.has_field:
             return -(self.detumble_gain / (square * self.field_period)) * (field - self.previous_field)
@@ -93,7 +93,7 @@ class MagneticControl(Block):
         return vector(0.0, 0.0, 0.0)
 
     def take_sample(self, t: float) -> None:
-        """Plan the dipole of a new sample."""
+        """Compute the dipole for a new field sample."""
         field = self.measured_field
         self.planned_dipole = vector(0.0, 0.0, 0.0)
         self.active_until = t + self.active_fraction * self.field_period

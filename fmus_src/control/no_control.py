@@ -1,4 +1,4 @@
-"""No torque."""
+"""Control without torque."""
 
 from ..mathlib.vectors import Vector3, vector
 from .entry_control import EntryControl

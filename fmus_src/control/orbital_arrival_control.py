@@ -1,4 +1,4 @@
-"""Orbital attitude by arriving everywhere at one time."""
+"""Control of the orbital attitude with simultaneous arrival of all angles."""
 
 import math
 
@@ -23,7 +23,7 @@ class OrbitalArrivalControl(OrbitalControl):
     """
 
     def lead_yaw(self, time: float) -> tuple[float, float]:
-        """Return the commanded yaw (rad) and its rate (rad/s), ``time`` (s) after the start."""
+        """Return the commanded yaw (rad) and its rate (rad/s) at ``time`` (s) after the start."""
         ramp = abs(self.turn_angle) / self.turn_rate
         rate = math.copysign(self.turn_rate, self.turn_angle)
         since = time - self.turn_start
@@ -37,7 +37,7 @@ class OrbitalArrivalControl(OrbitalControl):
         return self.turn_angle - rate * back, -rate
 
     def torque_about(self, k: int, error: float, led: float, rate: float, time: float) -> float:
-        """Return torque (N m) about axis k for an angle's error (rad), the rate it is led at and its own (rad/s)."""
+        """Return the torque (N m) about axis k from an angle's error (rad), commanded and actual rate (rad/s)."""
         left = self.arrival_time - time
         if left < self.least_time:
             left = self.least_time

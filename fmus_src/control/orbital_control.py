@@ -1,4 +1,4 @@
-"""The slot of regulators of the orbital attitude: from the estimate to the torque over a tick."""
+"""Slot of controllers of the orbital attitude: from the estimate to the torque over a sample period."""
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports import body, sampling
@@ -19,9 +19,9 @@ class OrbitalControlStatus(Enumeration):
 class OrbitalControl(OrbitalBody, interface=True):
     """Torque that turns a body into the orbital frame and holds it there.
 
-    At each sample a regulator gets angles and rates and sets the torque of the next sample period. The parameters are
-    common to all regulators of the slot; inertia and jets are those known on board. Inputs that are not finite give no
-    torque. A regulator defines `begin`, which may compute gains, and `regulate`, which sets torque_command.
+    At each sample a controller receives angles and rates and sets the torque of the next sample period. All controllers
+    of the slot have the same parameters; inertia and jets are those known on board. Inputs that are not finite give no
+    torque. A controller defines `begin`, which may compute gains, and `regulate`, which sets torque_command.
 
     Frames: orbital; body.
 
@@ -78,13 +78,13 @@ class OrbitalControl(OrbitalBody, interface=True):
     usable = State(True, description="true: gains of the control law computed")
 
     def begin(self) -> None:
-        """Make gains from the parameters."""
+        """Compute gains from the parameters."""
 
     def regulate(self, time: float) -> None:
-        """Set torque_command for the estimate, ``time`` (s) after the start."""
+        """Set torque_command from the estimate at ``time`` (s) after the start."""
 
     def command(self, time: float) -> None:
-        """Set torque and status, ``time`` (s) after the start."""
+        """Set torque_command and status at ``time`` (s) after the start."""
         self.status = OrbitalControlStatus.GOOD
         self.torque_command = vector(0.0, 0.0, 0.0)
         if not self.usable:

@@ -1,4 +1,4 @@
-"""Orbital attitude by placed poles, fed back from the derivative of the state."""
+"""Control of the orbital attitude by pole placement with state-derivative feedback."""
 
 from ..block import Parameter, State
 from ..interfaces.ports import body
@@ -62,7 +62,7 @@ class OrbitalDerivativeControl(OrbitalControl):
     )
 
     def decay(self, poles: Matrix) -> Matrix:
-        """Return S of a level: minus the poles (1/s) on the diagonal, and the coupling."""
+        """Return the matrix S of a level: minus the poles (1/s) on the diagonal, and the coupling."""
         s = -poles
         s[ROLL, PITCH] = -self.coupling
         s[PITCH, ROLL] = self.coupling

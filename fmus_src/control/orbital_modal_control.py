@@ -1,4 +1,4 @@
-"""Orbital attitude by placed poles."""
+"""Control of the orbital attitude by pole placement."""
 
 from ..block import State
 from ..kernel.matrices import diagonal

@@ -1,4 +1,4 @@
-"""Bank, roll rate and yaw rate of the capsule fed back by a constant or scheduled gain that places the poles."""
+"""Feedback of bank, roll rate and yaw rate of a capsule, with a constant or scheduled gain from pole placement."""
 
 from ..block import Parameter
 from ..kernel.functions import cos, log, sin
@@ -36,7 +36,7 @@ class OutputFeedback(EntryControl):
     )
 
     def gain_row(self, i: int, fraction: float) -> Vector3:
-        """Return row i of gains, a fraction of the way to that of the next pressure."""
+        """Return row i of the gains, interpolated by a fraction to that of the next pressure."""
         low = self.gains[i, :]
         return low + fraction * (self.gains[i + 2, :] - low)
 

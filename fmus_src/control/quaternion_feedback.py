@@ -1,4 +1,4 @@
-"""Torque of reaction wheels from attitude and angular velocity, estimated and commanded."""
+"""Torque demand of reaction wheels from attitude and angular velocity errors."""
 
 import math
 
@@ -102,7 +102,7 @@ class QuaternionFeedback(Block):
         return attitudes and rates and known and is_finite(self.feedforward_torque)
 
     def correction(self, error: Vector3, rate_error: Vector3) -> Vector3:
-        """Return the correction to the angular acceleration (rad/s2), to be subtracted; integrate to the next tick."""
+        """Return the correction to be subtracted from the angular acceleration (rad/s2), and advance the integral."""
         w = self.natural_frequency
         stiffness = w * w
         damping = 2.0 * self.damping * w
@@ -114,7 +114,7 @@ class QuaternionFeedback(Block):
         return stiffness * limit_length(error, self.error_limit) + damping * rate_error + self.integral
 
     def command(self) -> None:
-        """Command a new torque."""
+        """Compute a new torque command."""
         if not self.active:
             self.status = QuaternionFeedbackStatus.OFF
             self.torque_command = vector(0.0, 0.0, 0.0)
@@ -142,7 +142,7 @@ class QuaternionFeedback(Block):
             self.torque_command = self.torque_command + self.feedforward_torque
 
     def tick(self) -> None:
-        """Command a new torque; let the one act that is due."""
+        """Compute a new torque command, and output the one that is due."""
         if self.delay == 0:
             self.command()
             return

@@ -1,4 +1,4 @@
-"""Trim and bank held without knowing speed or pressure."""
+"""Control of trim and bank without knowledge of speed and pressure."""
 
 from ..block import Parameter
 from ..kernel.functions import cos, sin

@@ -1,4 +1,4 @@
-"""Bank and rates held by relays, as capsules are flown."""
+"""Control of bank and rates by relays, as usual for capsules."""
 
 import math
 
@@ -43,7 +43,7 @@ class StandardControl(EntryControl):
     )
 
     def relay(self, k: int, x: float) -> float:
-        """Return demand (N m) of relay k for its signal."""
+        """Return the torque demand (N m) of relay k for its signal."""
         if self.signs[k] * x < 0.5 * self.thresholds[k]:
             self.signs[k] = 0.0
         if abs(x) > self.thresholds[k]:

@@ -1,4 +1,4 @@
-"""Turns a thrust axis to a moving direction."""
+"""Rotation of a thrust axis to a moving direction."""
 
 import math
 
@@ -11,7 +11,7 @@ from ..units import deg
 
 
 def has_direction(length: float) -> bool:
-    """Return True if a vector of this length has a direction; NaN counts as one, so that it is not lost on the way."""
+    """Return True if a vector of this length has a direction; also for NaN, so that it propagates."""
     return length != 0.0 and length != math.inf
 
 
@@ -92,7 +92,7 @@ class ThrustAxisControl(Block):
         return rate
 
     def command_rate(self, time: float) -> Vector3:
-        """Return the angular rate (rad/s) that follows the command and closes the error at ``time`` (s)."""
+        """Return the angular rate (rad/s) that follows the command and reduces the error at ``time`` (s)."""
         direction = self.thrust_direction + (time - self.command_time) * self.thrust_direction_rate
         length = norm(direction)
         self.direction_error = 0.0
@@ -107,7 +107,7 @@ class ThrustAxisControl(Block):
         return following + self.closing_rate(self.direction_error) * axis
 
     def control(self, time: float) -> None:
-        """Set the command for ``time`` (s)."""
+        """Set the angular acceleration command for ``time`` (s)."""
         commanded_rate = self.command_rate(time)
         demanded = self.angular_acceleration_feed + self.rate_gain * (commanded_rate - self.angular_rate)
         self.angular_acceleration = demanded

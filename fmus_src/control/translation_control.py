@@ -1,4 +1,4 @@
-"""Force demand from the error of position and velocity."""
+"""Force demand of the jets from position and velocity errors."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import inertial, landing, robot
@@ -92,7 +92,7 @@ class TranslationControl(Block):
         self.command()
 
     def design(self) -> int:
-        """Return the number of the design for translation_period."""
+        """Return the index of the design for translation_period."""
         nearest = 0
         first = abs(self.translation_period - self.design_period[0])
         second = abs(self.translation_period - self.design_period[1])
@@ -101,7 +101,7 @@ class TranslationControl(Block):
         return nearest
 
     def correction(self) -> Vector3:
-        """Return the correction to the acceleration (m/s2), to be subtracted; move the lead to the next tick."""
+        """Return the correction to be subtracted from the acceleration (m/s2), and advance the lead compensator."""
         k = self.design()
         if self.law == ControlLaw.LEAD:
             law = tustin_lead(self.lead_gain[k], self.lead_time[k], self.lag_time[k], self.translation_period)
@@ -117,7 +117,7 @@ class TranslationControl(Block):
         return w * (w * self.position_error + 2.0 * self.damping[k] * self.velocity_error)
 
     def command(self) -> None:
-        """Command a new force."""
+        """Compute a new force command."""
         known = is_finite(self.position_error) and is_finite(self.velocity_error)
         if not (known and is_finite(self.planned_acceleration)):
             self.status = TranslationControlStatus.NOT_FINITE

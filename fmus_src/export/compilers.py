@@ -26,7 +26,7 @@ class CompilationFailed(RuntimeError):  # noqa: N818
 
 @dataclass(frozen=True)
 class Platform:
-    """Platform of an FMI version: extension of its libraries and zig's target names; several make a universal library."""
+    """Platform of an FMI version: library extension and zig's target names; several make a universal library."""
 
     fmi: int
     extension: str

@@ -1,4 +1,4 @@
-"""A block as an FMU that runs its Python source, built with pythonfmu."""
+"""FMU of a block that runs its Python source, built with pythonfmu."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ class {script_class}(BlockSlave):
 def build_python_fmu(block_class: type[Block], path: Path) -> Path:
     """Build the pythonfmu FMU of a block at ``path``; two builds are byte-identical.
 
-    The FMU holds the block's import closure under a package name with its content's hash, and
-    needs Python and what the block ``requires`` where it runs. Raises `ClosureError` and `UndeclaredError`.
+    The FMU contains the block's import closure under a package name with the hash of its content. To run, it needs
+    Python and the block's ``requires``. Raises `ClosureError` and `UndeclaredError`.
     """
     check_attributes(block_class)
     closure = closure_of(block_class)
@@ -80,10 +80,10 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
 
 
 def _with_pythonfmu(closure: Closure, script_name: str, script: str) -> dict[str, bytes]:
-    """Return the FMU that pythonfmu's builder builds of script and closure, as files.
+    """Return the files of the FMU that pythonfmu's builder makes of script and closure.
 
-    The builder imports the script; sys.path and sys.modules are put back afterwards. Its zip carries dates, so only the
-    content is taken.
+    The builder imports the script; sys.path and sys.modules are restored afterwards. Its zip contains dates, so only
+    the content is used.
     """
     path_before = list(sys.path)
     modules_before = set(sys.modules)

@@ -1,4 +1,4 @@
-"""Bridge inside a pythonfmu FMU: FMI calls passed on to a block's life cycle."""
+"""Bridge inside a pythonfmu FMU, from FMI calls to a block's life cycle."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ..runtime import BlockInstance
 
 
 def keep_source(package: str) -> None:
-    """Keep the source lines of a package for tracebacks, which outlive the folder it was imported from."""
+    """Cache the source lines of a package for tracebacks, as the folder it was imported from may disappear."""
     for name, module in list(sys.modules.items()):
         file = getattr(module, "__file__", None) if name.startswith(f"{package}.") else None
         if file is not None and file not in linecache.cache:
@@ -28,10 +28,9 @@ def keep_source(package: str) -> None:
 class BlockSlave(Fmi2Slave):
     """FMI 2.0 slave around one block; the FMU's script names the block.
 
-    Values are reached by reference straight in the block, without pythonfmu's registered
-    variables; modelDescription.xml comes from the block's declaration at build time. A failing
-    step logs its traceback and ends as fmi2Discard, the only failure pythonfmu's wrapper can
-    report without losing the instance.
+    Values are accessed by reference directly in the block, without pythonfmu's registered variables;
+    modelDescription.xml is written from the block's declaration at build time. A failing step logs its traceback and
+    returns fmi2Discard, the only failure that pythonfmu's wrapper can report without losing the instance.
     """
 
     block_class: ClassVar[type[Block]]
@@ -57,7 +56,7 @@ class BlockSlave(Fmi2Slave):
             raise
 
     def set_values(self, references: list[int], values: list) -> None:
-        """Set inputs or parameters by reference; a refusal is logged and raised."""
+        """Set inputs or parameters by reference; a rejected value is logged and raised."""
         try:
             self.component.set(references, values)
         except Exception:
@@ -65,7 +64,7 @@ class BlockSlave(Fmi2Slave):
             raise
 
     def log_failure(self) -> None:
-        """Send the traceback under way to the importer's log, a printf format as FMI 2.0 has it."""
+        """Send the current traceback to the importer's log, escaped for FMI 2.0's printf format."""
         self.log(traceback.format_exc().replace("%", "%%"), Fmi2Status.error)
 
     def setup_experiment(self, start_time: float, stop_time: float | None, *_: object) -> None:

@@ -1,6 +1,7 @@
-"""Source files of the user's FMUs: stored in sources.json next to the FMUs, so that a change is noticed.
+"""Record of the source files of a user's FMUs, in sources.json next to the FMUs, by which changes are detected.
 
-Files are named from the folder of sources.json, whatever machine it lies on; FMUs and sources by their SHA-256.
+File names are relative to the folder of sources.json and valid on any machine; FMUs and sources are identified by their
+SHA-256.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ NAME = "sources.json"
 
 
 def record_source(folder: Path, source: Path, fmus: Sequence[Path], others: Iterable[Path] = ()) -> None:
-    """Write down that ``fmus``, which lie in ``folder``/FLAVOUR, were built of a file, with others of its folder."""
+    """Record that ``fmus`` in ``folder``/FLAVOUR were built from a file and others of its folder."""
     try:
         place = _relative(source, folder)
     except ValueError:  # on another drive, to which no way leads from here
@@ -31,7 +32,7 @@ def record_source(folder: Path, source: Path, fmus: Sequence[Path], others: Iter
 
 
 def remove_outdated(folder: Path, source: Path, fmu: Path) -> None:
-    """Remove an FMU built of a file that no longer defines it: it would be used before the others."""
+    """Remove an FMU whose source file no longer defines it, since it would take precedence over others."""
     entry = _read(folder).get(_relative(fmu, folder))
     if entry is None or not fmu.is_file():
         return
@@ -40,9 +41,9 @@ def remove_outdated(folder: Path, source: Path, fmu: Path) -> None:
 
 
 def find_changed_source(fmu: Path) -> tuple[Path, Path] | None:
-    """Return the first file changed since the FMU was built of it, and the file to export again.
+    """Return the first file changed since the FMU was built from it, and the file to export again.
 
-    None where no such change is certain.
+    Returns None if no change is certain.
     """
     folder = fmu.resolve().parents[1]
     entry = _read(folder).get(f"{fmu.resolve().parent.name}/{fmu.name}")

@@ -1,4 +1,4 @@
-"""From a system's folder to its .ssp archive."""
+"""Packing of a system's folder into an .ssp archive."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ CAMPAIGN_FOLDER = "extra/org.perilune/campaigns"
 
 
 def system_files(folder: Path) -> dict[str, Path]:
-    """Return archive name -> file of a system folder, without the FMUs that are built elsewhere.
+    """Return archive name -> file of a system folder, without FMUs that are built elsewhere.
 
-    SSDs and FMUs next to them stay at the root, parameter sets, mappings and dictionaries go to resources/, campaigns
-    below extra/, the README to documentation/; everything under the folder's resources/ as it is.
+    SSDs and the FMUs next to them are at the root; parameter sets, mappings and dictionaries in resources/, campaigns
+    in extra/, the README in documentation/; the folder's resources/ is copied unchanged.
     """
     files: dict[str, Path] = {}
     for path in sorted(folder.rglob("*")):
@@ -42,7 +42,7 @@ def system_files(folder: Path) -> dict[str, Path]:
 
 
 def list_fmus(folder: Path) -> dict[str, str]:
-    """List FMUs that the SSDs of a system name and its folder does not hold: source -> the SSD that names it first."""
+    """Return the FMUs that a system's SSDs name and its folder does not contain: source -> first SSD that names it."""
     files = system_files(folder)
     sources: dict[str, str] = {}
     for name in [name for name in files if name.endswith(".ssd")]:
@@ -54,10 +54,10 @@ def list_fmus(folder: Path) -> dict[str, str]:
 
 
 def pack_system(folder: Path, fmus: Sequence[Path], target: Path) -> Path:
-    """Write ``target``/NAME.ssp with the system's files and the FMUs its SSDs name.
+    """Write ``target``/NAME.ssp with the system's files and the FMUs that its SSDs name.
 
-    An FMU is taken from the first of the folders ``fmus`` that has it. Raises ValueError naming
-    the SSD and the FMU that is in none.
+    An FMU is taken from the first of the folders ``fmus`` that contains it. Raises ValueError for an FMU in none of
+    them, naming it and the SSD.
     """
     files = {name: path.read_bytes() for name, path in system_files(folder).items()}
     for source, name in list_fmus(folder).items():

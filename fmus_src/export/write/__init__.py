@@ -1,1 +1,1 @@
-"""A judged kernel written as C99, statement by statement, with the bits that Python gives."""
+"""Generation of C99 from an analysed kernel, statement by statement, with results identical to Python's in all bits."""

@@ -1,4 +1,4 @@
-"""Calls in a kernel function as C text."""
+"""C text of the calls in a kernel function."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ WHOLE = {"floor": "whole_floor", "ceil": "whole_ceil", "int": "whole_trunc"}
 
 
 class CallWriter(ABC):
-    """Writer of calls in expressions; hoisted operands are statements of ``out`` before."""
+    """Writer of calls in expressions; hoisted operands become preceding statements of ``out``."""
 
     def __init__(self, out: FunctionWriter) -> None:
         self.function = out.function
@@ -40,10 +40,10 @@ class CallWriter(ABC):
 
     @abstractmethod
     def write(self, node: ast.expr, outer: int = CONDITIONAL) -> str:
-        """Return the C text of an expression, in parentheses where the operator around it binds tighter."""
+        """Return the C text of an expression, in parentheses if the surrounding operator has higher precedence."""
 
     def write_as_float(self, node: ast.expr, outer: int) -> str:
-        """Write an operand that Python widens to float."""
+        """Return the C text of an operand that Python widens to float."""
         if self.function.types[node] is not INT:
             return self.write(node, outer)
         if isinstance(node, ast.Constant):
@@ -55,11 +55,11 @@ class CallWriter(ABC):
         return f"{name}({', '.join(arguments)})"
 
     def write_checked(self, node: ast.expr, name: str, *arguments: str) -> tuple[str, int]:
-        """Write a call of a function of kernel_math.h that can record a fault at the node's line."""
+        """Return the call of a function of kernel_math.h that can record a fault at the node's line."""
         return self.call(name, f"AT({node.lineno})", *arguments), ATOM
 
     def elements(self, node: ast.expr) -> list[str]:
-        """Return the elements of a slice, ``wrench[0:3]``, or of a whole list."""
+        """Return the C texts of the elements of a slice, ``wrench[0:3]``, or of a whole list."""
         holder = node.value if isinstance(node, ast.Subscript) else node
         member = ".x" if isinstance(self.function.types[holder], VectorType) else ""
         return [f"{self.write(holder, ATOM)}{member}[{k}]" for k in self.function.parts[node]]
@@ -98,7 +98,7 @@ class CallWriter(ABC):
         return self.call(self.names.functions[callee], *arguments, *[self._argument(argument) for argument in passed])
 
     def _argument(self, node: ast.expr) -> str:
-        """Write an argument; a matrix by its address."""
+        """Return the C text of an argument; a matrix is passed by its address."""
         text = self.write(node)
         if not isinstance(self.function.types[node], MatrixType):
             return text
@@ -107,7 +107,7 @@ class CallWriter(ABC):
         return text[2:-1] if text.startswith("(*") else f"&{text}"
 
     def _make_record(self, node: ast.Call, kind: RecordType) -> str:
-        """Write a record of all its fields, or one with some of another's."""
+        """Return the C text of a record of all its fields, or of a copy with some fields replaced."""
         given = {keyword.arg: self.write(keyword.value) for keyword in node.keywords}
         holder = self.write(node.args[0], ATOM) if node.args else ""
         values = [given.get(name, f"{holder}.{identifier(name)}") for name in kind.record.fields]
@@ -137,7 +137,7 @@ class CallWriter(ABC):
         return f"({C_TYPES[target]}){self.write(argument, UNARY)}", UNARY
 
     def _whole(self, node: ast.Call, name: str, checked: str) -> tuple[str, int]:
-        """Write math.floor, math.ceil or int of a float, as int or as float."""
+        """Return the C text of math.floor, math.ceil or int of a float, as int or as float."""
         if self.function.is_total:
             cast = "(int64_t)" if checked == "py_whole_int" else ""
             return f"{cast}{self.call(WHOLE[name], self.write(node.args[0]))}", UNARY

@@ -1,4 +1,4 @@
-"""Expressions of a kernel function as C text."""
+"""C text of the expressions in a kernel function."""
 
 from __future__ import annotations
 
@@ -35,25 +35,25 @@ from .operators import (
 
 
 class MatrixText(Protocol):
-    """The writer of matrices, as the writer of expressions sees it."""
+    """Interface of the matrix writer that the expression writer uses."""
 
     def write(self, node: ast.expr) -> tuple[str, int]:
-        """Return a matrix that is no variable, or a vector computed by one, with its precedence."""
+        """Return the C text and precedence of a matrix that is not a variable, or of a vector computed from one."""
 
     def write_part(self, node: ast.Subscript) -> str:
-        """Return ``p[i, j]`` or ``p[i, 0:3]``."""
+        """Return the C text of ``p[i, j]`` or ``p[i, 0:3]``."""
 
 
 class ExpressionWriter(CallWriter):
-    """Writes one function's expressions.
+    """Writer of one function's expressions.
 
-    The writer of statements sets ``matrices``, in whose elements are expressions again.
+    The statement writer sets ``matrices``, whose elements contain expressions again.
     """
 
     matrices: MatrixText
 
     def write(self, node: ast.expr, outer: int = CONDITIONAL) -> str:
-        """Write the C text of an expression, in parentheses where the operator around it binds tighter."""
+        """Return the C text of an expression, in parentheses if the surrounding operator has higher precedence."""
         if makes_matrix(self.function, node) and not isinstance(self.function.calls.get(node), KernelCall):  # type: ignore[call-overload]
             return parenthesise(self.matrices.write(node), outer)
         text, precedence = self._write_by_syntax(node)
@@ -62,7 +62,7 @@ class ExpressionWriter(CallWriter):
         return parenthesise((text, precedence), outer)
 
     def _write_by_syntax(self, node: ast.expr) -> tuple[str, int]:
-        """Return the text of an expression that the judge lets pass, with its precedence."""
+        """Return the C text of an accepted expression with its precedence."""
         match node:
             case ast.Constant():
                 return self.write_constant(node)
@@ -119,13 +119,13 @@ class ExpressionWriter(CallWriter):
         return f"{member}[{index or self.index(node)}]"
 
     def write_tuple(self, node: ast.Tuple) -> tuple[str, int]:
-        """Write several return values."""
+        """Return the C text of several return values."""
         kind = self.function.types[node]
         assert isinstance(kind, Several)
         return f"({c_type(kind)}){{{', '.join(self.write(part) for part in node.elts)}}}", ATOM
 
     def index(self, node: ast.Subscript) -> str:
-        """Write the index of an element; checked where it was not proven right."""
+        """Return the C text of an element's index, checked if it was not proven valid."""
         container = self.function.types[node.value]
         assert isinstance(container, List | VectorType)
         text = self.write(node.slice)
@@ -155,7 +155,7 @@ class ExpressionWriter(CallWriter):
         return self.call(name, *operands), ATOM
 
     def _vector_operation(self, node: ast.BinOp) -> tuple[str, int]:
-        """Write an operator on vectors of one size, or on a vector and a number."""
+        """Return the C text of an operator on two vectors of one size, or on a vector and a number."""
         operands = [node.left, node.right]
         both = all(isinstance(self.function.types[operand], VectorType) for operand in operands)
         if isinstance(node.op, ast.Mult) and not both:
@@ -173,7 +173,7 @@ class ExpressionWriter(CallWriter):
         return self.call(f"{name}{kind.size}", *texts), ATOM
 
     def _record_operation(self, node: ast.BinOp) -> tuple[str, int]:
-        """Write an operator on two records, or on a record and a number."""
+        """Return the C text of an operator on two records, or on a record and a number."""
         operands = [node.left, node.right]
         kind = self.function.types[node]
         assert isinstance(kind, RecordType)

@@ -1,4 +1,4 @@
-"""One kernel function as a C definition."""
+"""C definition of one kernel function."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .statements import StatementWriter
 
 
 def signature(function: Function, name: str, block_type: str) -> str:
-    """Return ``static double terminal_cubic_time(Fault *fault, const double *dr, double g)``."""
+    """Return a signature like ``static double terminal_cubic_time(Fault *fault, const double *dr, double g)``."""
     arguments = []
     if function.takes_block:
         arguments.append(f"{'' if function.changes_block else 'const '}{block_type} *self")
@@ -46,7 +46,7 @@ def write_function(function: Function, names: Names, block_type: str) -> list[st
 
 
 def _find_unused(function: Function) -> list[str]:
-    """Return C names of the arguments that the function does not use."""
+    """Return the C names of the arguments that the function does not use."""
     read = {part.id for part in ast.walk(function.source.node) if isinstance(part, ast.Name)}
     valued = [name for name, kind in function.parameters.items() if not isinstance(kind, BoundFunction)]
     unused = [identifier(name) for name in valued if name not in read]

@@ -25,7 +25,7 @@ class CodeLines:
         self.depth = depth
 
     def add(self, text: str, python_line: int = 0) -> None:
-        """Add one statement, broken where it is too long, with the Python line at the right of its end."""
+        """Add one statement, broken if it is too long, with the Python line as a comment on its right."""
         *heads, text = text.split("\n")
         self.text += [INDENT * self.depth + head for head in heads]
         parts = textwrap.wrap(
@@ -53,7 +53,7 @@ class CodeLines:
         self.text.append(f"{indent} */")
 
     def member(self, text: str, about: str) -> None:
-        """Add a member of a struct with its meaning at its right."""
+        """Add a member of a struct with its meaning as a comment on its right."""
         line = f"{INDENT * self.depth}{text}"
         about_lines = textwrap.wrap(about, WIDTH - MEMBER_COLUMN - 6, break_on_hyphens=False)
         for number, part in enumerate(about_lines):
@@ -72,6 +72,6 @@ class CodeLines:
         self.add(text)
 
     def reopen(self, text: str, python_line: int = 0) -> None:
-        """Add a line that ends a block and opens the next, as ``} else {``."""
+        """Add a line that ends a block and opens the next, such as ``} else {``."""
         self.depth -= 1
         self.open(text, python_line)

@@ -1,6 +1,6 @@
-"""Matrices of a kernel function as C text: each element of what is assigned by one expression.
+"""C text of the matrices in a kernel function, with one expression for each assigned element.
 
-Small matrices are written out, others are loops.
+Small matrices are unrolled, others use loops.
 """
 
 from __future__ import annotations
@@ -15,10 +15,12 @@ from .operators import ATOM
 
 
 class MatrixWriter(MatrixEntries):
-    """Writes the matrices of one function."""
+    """Writer of the matrices of one function."""
 
     def write(self, node: ast.expr) -> tuple[str, int]:
-        """Write a matrix that is no variable, or a vector computed by one: C text after the statements it needs."""
+        """Return the C text of a matrix that is not a variable, or of a vector computed from one, after adding its
+        statements.
+        """
         kind = self.function.types[node]
         if isinstance(kind, VectorType):
             entry = self.prepare(node)
@@ -26,7 +28,7 @@ class MatrixWriter(MatrixEntries):
         return self.materialise(node), ATOM
 
     def write_part(self, node: ast.Subscript) -> str:
-        """Write ``p[i, j]`` as a number, ``p[i, 0:3]`` as a vector."""
+        """Return the C text of ``p[i, j]`` as a number or ``p[i, 0:3]`` as a vector."""
         rows, columns = self.function.blocks[node]
         if rows is None and columns is None:
             return f"{self.holder(node.value)}[{self.place(node)}]"
@@ -35,7 +37,7 @@ class MatrixWriter(MatrixEntries):
         return self.expressions.vector([entry(k, 0)[0] if rows else entry(0, k)[0] for k in range(size)])
 
     def assign(self, statement: ast.stmt, target: ast.expr, expression: ast.expr) -> None:
-        """Write ``target = expression``, of a matrix, or of a block, row or column."""
+        """Write ``target = expression`` for a matrix, block, row or column."""
         if isinstance(target, ast.Subscript):
             self._assign_block(target, expression)
             return
@@ -68,7 +70,7 @@ class MatrixWriter(MatrixEntries):
         self._each(kind, self.plan.is_small(expression), lambda i, j: [f"{stored(i, j)[0]} = {entry(i, j)[0]};"])
 
     def materialise(self, node: ast.expr) -> str:
-        """Return the name of a new matrix that holds an expression."""
+        """Return the name of a new matrix that contains an expression."""
         name = self.out.fresh("part")
         kind = self.function.types[node]
         assert isinstance(kind, MatrixType)
@@ -76,7 +78,7 @@ class MatrixWriter(MatrixEntries):
         return name
 
     def _fill(self, node: ast.expr, left: str, name: str, declares: bool) -> None:
-        """Compute a matrix that nothing else reads meanwhile."""
+        """Compute a matrix that nothing else reads in the meantime."""
         kind = self.function.types[node]
         assert isinstance(kind, MatrixType)
         call = self.function.calls.get(node) if isinstance(node, ast.Call) else None

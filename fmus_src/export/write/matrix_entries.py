@@ -1,6 +1,6 @@
-"""The elements of a matrix expression as C text, after the statements that they need.
+"""C text of the elements of a matrix expression, after the statements that they need.
 
-Operands that an element would need more than once, products and results of calls, are computed before, in a new matrix.
+Operands of which an element is needed several times, products and results of calls are first computed in a new matrix.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Entry = Callable[[Index, Index], tuple[str, int]]  # of row and column: text and
 
 
 class MatrixEntries:
-    """Writes the elements of the matrices of one function."""
+    """Writer of the elements of one function's matrices."""
 
     def __init__(self, out: FunctionWriter, expressions: ExpressionWriter) -> None:
         self.out = out
@@ -31,11 +31,11 @@ class MatrixEntries:
         self.plan = MatrixPlan(out.function)
 
     def materialise(self, node: ast.expr) -> str:
-        """Return the name of a new matrix that holds an expression."""
+        """Return the name of a new matrix that contains an expression."""
         raise NotImplementedError
 
     def prepare(self, node: ast.expr) -> Entry:
-        """Return the elements of a matrix, or of a vector as its column, after the statements that they need."""
+        """Return the elements of a matrix, or of a vector as a column, after adding the statements that they need."""
         kind = self.function.types[node]
         if isinstance(kind, VectorType) and not is_matmul(node):
             text = self.expressions.write(node)
@@ -58,7 +58,7 @@ class MatrixEntries:
         return self._product(node) if is_matmul(node) else self._elementwise(node)
 
     def holder(self, node: ast.expr) -> str:
-        """Return the text that is indexed for an element: ``p->x``, ``self->covariance.x``."""
+        """Return the C text that is indexed for an element: ``p->x``, ``self->covariance.x``."""
         text = self.expressions.write(node, ATOM)
         return f"{text[2:-1]}->x" if text.startswith("(*") else f"{text}.x"
 
@@ -70,7 +70,7 @@ class MatrixEntries:
         return str(row_order_index(row, column, kind.columns))
 
     def _index(self, node: ast.Subscript, index: ast.expr, size: int) -> Index:
-        """Write an index, checked where it was not proven."""
+        """Return the C text of an index, checked if it was not proven valid."""
         text = self.expressions.write(index, SUM)
         if index in self.function.unproven_indices:
             return self.expressions.write_checked(node, "py_index", text, str(size))[0]
@@ -117,7 +117,7 @@ class MatrixEntries:
         )
 
     def _elementwise(self, node: ast.BinOp) -> Entry:
-        """Return ``+`` and ``-`` of matrices, ``*`` and ``/`` with a number."""
+        """Return the elements of ``+`` and ``-`` of matrices, or of ``*`` and ``/`` with a number."""
         if isinstance(node.op, ast.Add | ast.Sub):
             left, right = self.prepare(node.left), self.prepare(node.right)
             sign = "+" if isinstance(node.op, ast.Add) else "-"
@@ -134,7 +134,7 @@ class MatrixEntries:
         return lambda i, j: (f"{factor} * {parenthesise(entry(i, j), PRODUCT + 1)}", PRODUCT)
 
     def _scalar(self, node: ast.expr, division: ast.BinOp | None = None) -> str:
-        """Write a number that all elements are multiplied with, or divided by."""
+        """Return the C text of a number by which all elements are multiplied or divided."""
         text = self.expressions.write_as_float(node, ATOM)
         if division is not None and own_outcome(self.function, division):
             text = self.expressions.write_checked(division, "py_divisor", text)[0]
@@ -147,7 +147,7 @@ class MatrixEntries:
         return name
 
     def _product(self, node: ast.expr) -> Entry:
-        """Write ``a @ b``, whose sums run from the first product on, or ``add_product(q, a, b)``."""
+        """Return the elements of ``a @ b``, whose sums start with the first product, or of ``add_product(q, a, b)``."""
         if self.plan.is_long(node):
             kind = self.function.types[node]
             assert isinstance(kind, MatrixType)
@@ -163,9 +163,9 @@ class MatrixEntries:
         return entry
 
     def factors(self, node: ast.expr) -> tuple[Entry | None, Entry, Entry]:
-        """Return elements of the addend of a product, and of both factors.
+        """Return the elements of the addend of a product and of both factors.
 
-        Factors are in a separate matrix where an element is used more than once and takes computing.
+        A factor is computed in a separate matrix if its elements are used several times and need computation.
         """
         *addend, first, second = terms_of(node)
         kind, right = self.function.types[first], self.function.types[second]

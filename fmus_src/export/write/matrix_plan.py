@@ -1,4 +1,4 @@
-"""Form of an expression of matrices in C: written out, in loops, or computed before in a new matrix."""
+"""Choice of the form of a matrix expression in C: unrolled, in loops, or computed first in a new matrix."""
 
 from __future__ import annotations
 
@@ -13,34 +13,34 @@ SHORT = 4  # terms of a sum that is one expression
 
 
 class MatrixPlan:
-    """Requirements of the expressions of one function."""
+    """Forms of the matrix expressions of one function."""
 
     def __init__(self, function: Function) -> None:
         self.function = function
 
     def inner(self, node: ast.expr) -> int:
-        """Return the number of products in a sum of a product."""
+        """Return the number of products in each sum of a matrix product."""
         left = self.function.types[terms_of(node)[-2]]
         assert isinstance(left, MatrixType)
         return left.columns
 
     def _is_product(self, node: ast.AST) -> bool:
-        """Return True if an expression is a product, or one that is added to something."""
+        """Return True if an expression is a product, or a product added to a matrix."""
         call = self.function.calls.get(node) if isinstance(node, ast.Call) else None
         return is_matmul(node) or (isinstance(call, MakeMatrix) and call.name == "add_product")
 
     def is_long(self, node: ast.expr) -> bool:
-        """Return True if sums of a product take a loop."""
+        """Return True if the sums of a product need a loop."""
         return self._is_product(node) and self.inner(node) > SHORT
 
     def is_cheap(self, node: ast.expr) -> bool:
-        """Return True if an element is read, not computed."""
+        """Return True if elements of an expression are read without computation."""
         if isinstance(node, ast.Attribute | ast.Subscript) and not is_variable(node):
             return self.is_cheap(node.value)
         return is_variable(node) or isinstance(self.function.calls.get(node), KernelCall)  # type: ignore[call-overload]
 
     def is_small(self, node: ast.expr) -> bool:
-        """Return True if a matrix is written out."""
+        """Return True if a matrix is unrolled."""
         kind = self.function.types[node]
         assert isinstance(kind, MatrixType)
         if isinstance(node, ast.Call) and any(isinstance(row, ast.List) for row in node.args):
@@ -52,9 +52,9 @@ class MatrixPlan:
         return size <= FEW and size * max([1, *(count for count in terms if count <= SHORT)]) <= FEW_TERMS
 
     def is_disturbed(self, node: ast.expr, target: str, variable: str) -> bool:
-        """Return True if an element of a value reads the variable elsewhere than at the element that is assigned.
+        """Return True if an element of a value reads elements of the assigned variable other than the assigned one.
 
-        An argument may be the block's matrix that is assigned.
+        An argument may be the matrix of the block that is assigned.
         """
         if ast.unparse(node) == target or (self._is_argument(node) and target == variable):
             return False
@@ -78,7 +78,7 @@ def is_matmul(node: ast.AST) -> bool:
 
 
 def terms_of(node: ast.expr) -> list[ast.expr]:
-    """Return the factors of a product, after the matrix it may be added to."""
+    """Return the factors of a product, preceded by the matrix to which it is added, if any."""
     if isinstance(node, ast.Call):
         return node.args
     assert isinstance(node, ast.BinOp)

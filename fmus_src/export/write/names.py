@@ -70,33 +70,33 @@ WRAPPER_NAMES = frozenset(
 
 
 def identifier(name: str) -> str:
-    """Return a Python name as a C name."""
+    """Return the C name of a Python name."""
     return f"{name}_" if name in RESERVED or name.startswith("py_") else name
 
 
 def module_prefix(module: str) -> str:
-    """Return the prefix of a module: ``perilune.fmus_src.mathlib.rng`` -> ``rng``."""
+    """Return the prefix of a module: ``rng`` for ``perilune.fmus_src.mathlib.rng``."""
     return re.sub(r"\W", "_", module.split(".")[-1])
 
 
 @dataclass(frozen=True)
 class Names:
-    """C names of a kernel's functions and of the module constants it uses."""
+    """C names of a kernel's functions and module constants."""
 
     functions: dict[Function, str]
     constants: dict[Constant, str]
 
 
 def names_of(kernel: Kernel) -> Names:
-    """Return names for all of a kernel, no two of them the same."""
+    """Return unique C names for all functions and constants of a kernel."""
     constants = [constant for function in kernel.functions for constant in function.constants.values()]
     return Names(_function_names(kernel.functions), _constant_names(constants))
 
 
 def _function_names(functions: list[Function]) -> dict[Function, str]:
-    """Return a C name per function: its module (a method's class) and its own name.
+    """Return a C name per function: its module (the class of a method) and its own name.
 
-    Where that is not enough, the folder of the module or the sizes of its lists follow.
+    If this is not unique, the module's folder or the sizes of its lists are added.
     """
     names: dict[Function, str] = {}
     owners: dict[str, object] = {}
@@ -133,10 +133,10 @@ def block_type_name(name: str) -> str:
 
 
 def _constant_names(constants: list[Constant]) -> dict[Constant, str]:
-    """Return C names of constants: ``UNLIMITED`` of terminal_guidance -> ``TERMINAL_GUIDANCE_UNLIMITED``; with folders
-    where needed.
+    """Return C names of constants: ``TERMINAL_GUIDANCE_UNLIMITED`` for ``UNLIMITED`` of terminal_guidance.
 
-    Members of several enumerations of one module may share a name; then they are numbered.
+    Folders are added if needed. Members of several enumerations of one module may have the same name; they are
+    numbered.
     """
     names: dict[Constant, str] = {}
     for constant in dict.fromkeys(constants):
@@ -149,7 +149,7 @@ def _constant_names(constants: list[Constant]) -> dict[Constant, str]:
 
 
 def literal(value: float | int | bool) -> str:
-    """Return a number as C reads it back to the same bits."""
+    """Return a C literal of a number that reads back to the same bits."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):

@@ -1,4 +1,4 @@
-"""C's operators: their precedence, those of Python's, and functions that take the place of one."""
+"""Operators in C: their precedence, that of Python's operators, and functions that replace some of them."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ VECTOR_NAMES: dict[type[ast.AST], str] = {
 
 
 def parenthesise(expression: tuple[str, int], outer: int) -> str:
-    """Return the text of an expression, in parentheses where the operator around it binds tighter.
+    """Return the text of an expression, in parentheses if the surrounding operator has higher precedence.
 
-    The expression is its text and its precedence.
+    The expression is given as text and precedence.
     """
     text, precedence = expression
     return f"({text})" if precedence < outer else text

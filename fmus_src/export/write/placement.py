@@ -1,4 +1,4 @@
-"""Placement of the C declarations of one kernel function: as far in as every use allows."""
+"""Placement of the C declarations of one kernel function, in the innermost scope that every use allows."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ Path = tuple[tuple[int, int], ...]  # (block, position in it) from the function'
 class LocalDeclarations:
     """Declarations of local variables, and the loops whose variable C can declare in the for itself.
 
-    ``with_value`` maps an assignment to the names it declares; ``before`` maps a statement to the
-    names that are declared, without a value, in front of it.
+    ``with_value`` maps an assignment to the names it declares; ``before`` maps a statement to names declared without a
+    value before it.
     """
 
     def __init__(self, function: Function) -> None:
@@ -37,7 +37,7 @@ class LocalDeclarations:
         return name in self.with_value.get(node, ())
 
     def _plain_loops(self, root: ast.FunctionDef) -> None:
-        """Find loops over a variable that nothing else assigns and that is not read after the loop."""
+        """Return the loops over a variable that nothing else assigns and that is not read after the loop."""
         loops = [node for node in ast.walk(root) if isinstance(node, ast.For)]
         by_name: dict[str, list[ast.For]] = {}
         for loop in loops:
@@ -90,7 +90,7 @@ class LocalDeclarations:
         self.before.setdefault(first, []).append(name)
 
     def _is_plain_target(self, path: Path, name: str) -> bool:
-        """Return True if a use is in a loop that declares the variable itself."""
+        """Return True if a use is inside a loop that declares the variable."""
         for block, position in path[:-1]:
             statement = self._blocks[block][position]
             if statement in self.plain_loops and _is_use(statement.target, name, ast.Store):  # type: ignore[attr-defined]
@@ -103,6 +103,6 @@ def _is_use(node: ast.AST, name: str, context: type[ast.expr_context]) -> bool:
 
 
 def list_assigned(statements: list[ast.stmt]) -> set[str]:
-    """Return names that statements assign, loops inside them included."""
+    """Return the names that statements assign, including loops inside them."""
     parts = (part for statement in statements for part in ast.walk(statement))
     return {part.id for part in parts if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)}

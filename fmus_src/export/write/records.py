@@ -1,4 +1,4 @@
-"""The records of a kernel as C: a struct each, and its operations."""
+"""C structs of a kernel's records, and their operations."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ OPERATIONS: dict[str, tuple[str, str, str]] = {
 
 
 def write_records(kernel: Kernel) -> list[str]:
-    """Write definitions of the records of a kernel, each after those of its fields."""
+    """Write the definitions of a kernel's records, each after those of its fields."""
     return [_definition(kind) for kind in records_of(kernel)]
 
 
@@ -43,7 +43,7 @@ def _definition(kind: RecordType) -> str:
 
 
 def _field_writer(kind: RecordType, of_float: str, of_vector: str) -> Callable[[str], str]:
-    """Return a writer of an operation on a field."""
+    """Return a function that writes an operation on a field."""
 
     def write(name: str) -> str:
         inner = kind.field(name)

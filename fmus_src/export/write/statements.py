@@ -1,4 +1,4 @@
-"""Statements of a kernel function as C text."""
+"""C text of the statements in a kernel function."""
 
 from __future__ import annotations
 
@@ -17,11 +17,10 @@ FEW = 8  # elements that are written out where a loop would do
 
 
 class StatementWriter(FunctionWriter):
-    """Writes the statements of one function.
+    """Writer of one function's statements.
 
-    After a statement that can record a fault comes the return; what it assigns to the block or
-    to an argument goes through a variable first, so that a fault leaves the same values as an
-    exception does in Python.
+    A statement that can record a fault is followed by a return; what it assigns to the block or an argument is first
+    stored in a local variable, so that a fault leaves the same values as an exception in Python.
     """
 
     def __init__(self, function: Function, names: Names) -> None:
@@ -30,7 +29,7 @@ class StatementWriter(FunctionWriter):
         self.matrices = self.expressions.matrices = MatrixWriter(self, self.expressions)
 
     def block(self, statements: list[ast.stmt]) -> None:
-        """Write statements in order, with the comments that stand before each."""
+        """Write statements in order, each preceded by its comments."""
         outer_names = set(self.used)
         for statement in statements:
             self.comments_before(statement)
@@ -42,7 +41,7 @@ class StatementWriter(FunctionWriter):
         self.used = outer_names  # C forgets a block's variables at its end
 
     def write(self, statement: ast.stmt) -> None:
-        """Write a statement that the judge lets pass."""
+        """Write an accepted statement."""
         match statement:
             case ast.Assign():
                 self.write_assign(statement)
@@ -88,7 +87,7 @@ class StatementWriter(FunctionWriter):
         self.assign(node, node.target, node.value)
 
     def assign(self, node: ast.stmt, target: ast.expr, value: ast.expr) -> None:
-        """Write ``target = value``; a local variable's first assignment declares it where its uses allow."""
+        """Write ``target = value``; the first assignment of a local variable declares it if its uses allow."""
         if is_list_binding(value):
             assert isinstance(target, ast.Name)
             self.bind_list(node, target.id, value)
@@ -145,7 +144,7 @@ class StatementWriter(FunctionWriter):
             self.add(f"{self.expressions.write(target)} = {text};")
 
     def _is_local_element(self, target: ast.expr) -> bool:
-        """Return True if a target is an element of a list that ends with the function, its index proven."""
+        """Return True if a target is an element, with a proven index, of a list local to the function."""
         if not isinstance(target, ast.Subscript) or not isinstance(target.value, ast.Name):
             return False
         return target.value.id in self.function.locals and not self.can_fault(target)
@@ -195,12 +194,12 @@ class StatementWriter(FunctionWriter):
         self.lines.close("}")
 
     def _condition(self, test: ast.expr, name: str) -> str:
-        """Write a condition, in a separate checked variable where it can fail."""
+        """Return the C text of a condition, stored in a checked variable if it can fail."""
         text = self.expressions.write(test)
         return self.keep(test, text, name) if self.can_fault(test) else text
 
     def _else(self, statements: list[ast.stmt]) -> None:
-        """Write an else branch; ``else if`` where nothing has to come between."""
+        """Write an else branch, as ``else if`` if no statement must precede the condition."""
         inner = statements[0]
         if len(statements) == 1 and isinstance(inner, ast.If) and self._is_plain(inner):
             self.comments_before(inner)
@@ -213,13 +212,13 @@ class StatementWriter(FunctionWriter):
             self.block(statements)
 
     def _is_plain(self, node: ast.If) -> bool:
-        """Return True if an if statement needs no declaration or check in front of it."""
+        """Return True if an if statement needs no declaration or check before it."""
         declares = node in self.placement.before
         hoists = any(part in self.function.hoisted for part in ast.walk(node.test))
         return not (declares or hoists or self.can_fault(node.test) or self._makes_matrices(node.test))
 
     def _makes_matrices(self, test: ast.expr) -> bool:
-        """Return True if a condition needs statements in front of it."""
+        """Return True if a condition needs statements before it."""
         return any(makes_matrix(self.function, part) for part in ast.walk(test))
 
     def write_while(self, node: ast.While) -> None:
@@ -253,7 +252,7 @@ class StatementWriter(FunctionWriter):
         self.lines.close("}")
 
     def _bounds(self, node: ast.For, call: ast.Call) -> list[str]:
-        """Return first and last bound; in separate variables where evaluating them again could differ."""
+        """Return first and last bound, stored in variables if their value could change during the loop."""
         changed = list_assigned([node])
         stop = call.args[:2][-1]
         texts = []

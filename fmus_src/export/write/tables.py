@@ -1,4 +1,4 @@
-"""The tables of a block's C file, which the FMI wrappers read: starts, elements, variables, names."""
+"""Tables of a block's C file for the FMI wrappers: starts, elements, variables, names."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) 
 
 
 def _ranges(block_class: type[Block]) -> list[str]:
-    """Return the ranges of Real parameters and inputs, and of Integers that have bounds, a row for each variable."""
+    """Return the ranges of Real parameters and inputs, and of Integers with bounds, one row per variable."""
     rows: list[tuple[int, int, float, float]] = []
     first = 0
     for variable in block_class.variables.values():
@@ -118,7 +118,7 @@ def _references(block_class: type[Block], fmi: int) -> list[str]:
 
 
 def _initialise(start: Any) -> str:
-    """Return a number, vector or record as C initialises it."""
+    """Return the C initialiser of a number, vector or record."""
     if isinstance(start, vector_types.Vector):
         return f"{{{{{', '.join(map(literal, start))}}}}}"
     if isinstance(start, Record):
@@ -127,7 +127,9 @@ def _initialise(start: Any) -> str:
 
 
 def _alike(traits: list[str]) -> list[int]:
-    """Count for each element those from it on with its traits: members of one kind are contiguous in the struct."""
+    """Count, for each element, the consecutive elements from it on with equal traits; they are contiguous in the
+    struct.
+    """
     counts: list[int] = []
     for number in range(len(traits) - 1, -1, -1):
         goes_on = counts and traits[number] == traits[number + 1]

@@ -1,4 +1,4 @@
-"""A block as one readable C99 file: its struct, its kernel, the tables that the FMI wrapper reads."""
+"""Translation of a block to one readable C99 file: struct, kernel, tables for the FMI wrapper."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ FOOTER = """\
 def translate(block_class: type[Block], guid: str, fmi: int = 2) -> str:
     """Return the C source of a block for an FMU with this GUID; it includes the wrapper of FMI 2.0 or 3.0.
 
-    Raises `SubsetError` where the block is outside the subset of Python.
+    Raises `SubsetError` if the block is outside the subset of Python.
     """
     header = HEADER.format(
         name=block_class.fmu_name,
@@ -64,9 +64,9 @@ def translate(block_class: type[Block], guid: str, fmi: int = 2) -> str:
 
 
 def translate_functions(block_class: type[Block]) -> tuple[str, dict[str, str]]:
-    """Return the C of the functions that a block calls, without the block, and their names in it by those in Python.
+    """Return the C of the functions that a block calls, without the block, and their C names by Python name.
 
-    Functions have the name of their Python file in front. Raises `SubsetError` as `translate`.
+    The functions are prefixed with the name of their Python file. Raises `SubsetError` like `translate`.
     """
     kernel = analyse_kernel(block_class)
     names = names_of(kernel)
@@ -77,7 +77,7 @@ def translate_functions(block_class: type[Block]) -> tuple[str, dict[str, str]]:
 
 @cache  # an FMU is translated twice, without its GUID, which is a hash of that, and with it
 def _around_tables(block_class: type[Block]) -> tuple[list[str], str]:
-    """Return the kernel and its entry points, before and after the tables, in which the GUID is."""
+    """Return the C before the tables, which contain the GUID, and after them: kernel and entry points."""
     kernel = analyse_kernel(block_class)
     names = names_of(kernel)
     type_name = block_type_name(block_class.__name__)
@@ -183,14 +183,14 @@ def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
 
 
 def _define_checked(function: Function, c_name: str, error: str) -> str:
-    """Return the form of an elementary function that records a fault, ``py_sin``, at its caller's line."""
+    """Return the form of an elementary function that records a fault, such as ``py_sin``, at its caller's line."""
     if error == EITHER_ERROR:
         return f"CHECKED_POWER({function.source.name}, {c_name})\n"
     return f"CHECKED_FUNCTION({function.source.name}, {c_name}, {C_ERRORS[error]})\n"
 
 
 def _by_file(functions: list[Function]) -> list[Function]:
-    """Sort callees before callers still, with those of one file together where that is possible."""
+    """Return functions with callees before callers, grouped by file where possible."""
     waiting = list(functions)
     ordered: list[Function] = []
     while waiting:

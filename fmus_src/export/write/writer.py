@@ -1,4 +1,4 @@
-"""Writer of the statements of a kernel function: names, checks, comments, declarations."""
+"""Base of the writers of a kernel function: names, checks, comments, declarations."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ZERO = {FLOAT: "0.0", INT: "0", BOOL: "false"}
 
 
 class FunctionWriter:
-    """Lines of C for one function, as they come."""
+    """Lines of C for one function in order of writing."""
 
     def __init__(self, function: Function, names: Names) -> None:
         self.function = function
@@ -28,7 +28,7 @@ class FunctionWriter:
         self.line = 0  # of the statement being written
 
     def fresh(self, name: str) -> str:
-        """Return a name that the function does not have yet."""
+        """Return a name that the function does not use yet."""
         candidate = name
         number = 2
         while candidate in self.used:
@@ -38,11 +38,11 @@ class FunctionWriter:
         return candidate
 
     def add(self, text: str) -> None:
-        """Add a line of C with the Python line at its right."""
+        """Add a line of C with the Python line as a comment on its right."""
         self.lines.add(text, self.line)
 
     def check(self) -> None:
-        """Return when a fault was recorded."""
+        """Add a return for the case of a recorded fault."""
         returns = self.function.returns
         value = ""
         if isinstance(returns, Scalar):
@@ -52,7 +52,7 @@ class FunctionWriter:
         self.lines.add(f"if (fault->what) return{value};")
 
     def keep(self, node: ast.expr, text: str, name: str) -> str:
-        """Store the value of an expression in a new variable, checked where it can fail."""
+        """Store the value of an expression in a new variable, checked if it can fail."""
         kind = self.function.types[node]
         assert isinstance(kind, Value | Several)
         variable = self.fresh(name)
@@ -62,11 +62,11 @@ class FunctionWriter:
         return variable
 
     def hoist(self, node: ast.expr, text: str) -> str:
-        """Put an operand of the statement in front of it."""
+        """Store an operand of the statement in a variable before it."""
         return self.keep(node, text, "part")
 
     def can_fault(self, node: ast.expr) -> bool:
-        """Return True if evaluating an expression can record a fault, hoisted operands left aside."""
+        """Return True if evaluating an expression, without its hoisted operands, can record a fault."""
         if node in self.function.hoisted:
             return False
         children = [child.value if isinstance(child, ast.keyword) else child for child in ast.iter_child_nodes(node)]
@@ -74,7 +74,7 @@ class FunctionWriter:
         return bool(own_outcome(self.function, node)) or any(self.can_fault(part) for part in parts)
 
     def declare(self, name: str) -> str:
-        """Return a local variable with its type, as a declaration begins."""
+        """Return type and name of a local variable, as a declaration begins."""
         kind = self.function.locals[name]
         assert isinstance(kind, Value | List)
         if isinstance(kind, List):
@@ -82,7 +82,7 @@ class FunctionWriter:
         return f"{c_type(kind)} {identifier(name)}"
 
     def comments_before(self, statement: ast.stmt) -> None:
-        """Add the Python comments between the statement before and this one."""
+        """Add the Python comments between the previous statement and this one."""
         for number in range(self.last_line + 1, statement.lineno):
             if number in self.comments:
                 self.lines.comment(self.comments[number])

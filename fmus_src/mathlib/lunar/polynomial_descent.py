@@ -4,9 +4,12 @@ With t the time to go, a_f the final thrust acceleration, gamma_2 = kr/(gamma + 
 
     a(t) = a_f + d1 t^gamma + d2 t^gamma_2,
 
-whose coefficients meet position and velocity at the end. Apollo's P63 and P64 have gamma = 1, kr = 12 (Klumpp 1974),
-E-guidance and ZEM/ZEV gamma = 1, kr = 6 (Cherry 1964; Ebrahimi et al. 2008; Guo, Hawkins and Wie 2011), where a_f
-drops out. Frame: landing site; dr = r_T - r and dv = v_T - v in constant gravity.
+where d1 and d2 follow from position and velocity at the end. Apollo's P63 and P64 have gamma = 1, kr = 12 (Klumpp
+1974); E-guidance and ZEM/ZEV have gamma = 1, kr = 6 (Cherry 1964; Ebrahimi et al. 2008; Guo, Hawkins and Wie 2011) and
+do not depend on a_f.
+
+Frame: landing site; dr = r_T - r and dv = v_T - v in constant gravity.
+
 Source: Lu 2019 and 2020, "Augmented Apollo powered descent guidance", "Theory of fractional-polynomial powered descent
 guidance", JGCD 42(3), 43(3).
 """

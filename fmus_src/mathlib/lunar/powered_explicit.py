@@ -1,13 +1,14 @@
-"""Powered explicit guidance with one phase of constant thrust that meets position and velocity. Kernel functions.
+"""Powered explicit guidance with one phase of constant thrust for position and velocity targets. Kernel functions.
 
-The direction of thrust is that of lambda + lambda' (t - K), lambda perpendicular to lambda', t from now; time to go and
-thrust are unknown, too. With tau = v_e m/F the integrals of thrust acceleration and its moments are
+The thrust direction is that of lambda + lambda' (t - K), with lambda perpendicular to lambda' and t from now; time to
+go and thrust are unknowns, too. With tau = v_e m/F the integrals of the thrust acceleration and its moments are
 
     L = v_e ln(tau/(tau - T)),  J = tau L - v_e T,  S = L T - J,  Q = S tau - v_e T^2/2,  P = Q tau - v_e T^3/6,
     H = J T - Q,  K = J/L.
 
 Source: Jaggers 1977, "An explicit solution to the exoatmospheric powered flight guidance and trajectory optimization
-problem for rocket propelled vehicles"; McHenry et al. 1979. The thrust as the sixth unknown, for descent, is ours.
+problem for rocket propelled vehicles"; McHenry et al. 1979. The thrust as the sixth unknown, for descent, was added in
+this repository.
 """
 
 from ...kernel.functions import exp, expm1, log

@@ -1,12 +1,13 @@
-"""The convex problem of a powered descent, and where its numbers lie in flat lists. Kernel functions.
+"""Convex problem of a powered descent, and the layout of its data in flat lists. Kernel functions.
 
-INTERVALS intervals of h = T/INTERVALS, in each of which the thrust acceleration u and its size s >= |u| are constant;
-a node's state is position and velocity from the target's, and z, the logarithm of mass over the mass now:
+The time of flight T is divided into INTERVALS intervals of h = T/INTERVALS, with constant thrust acceleration u of
+magnitude |u| <= s. The state of a node is position and velocity relative to the target's position and z, the logarithm
+of mass over present mass:
 
     r+ = r + h v + h^2/2 u + h^2 (g/3 + g+/6),  v+ = v + h u + h/2 (g + g+),  z+ = z - h s/v_e.
 
-Minimised is the sum of h s and WEIGHT times the bounds on the miss of position and velocity, which make every time
-solvable and are 0 where the place can be reached (exact penalty). Slacks, of which each cone has a few rows:
+The objective is the sum of h s plus WEIGHT times the bounds on the misses of position and velocity, which make the
+problem feasible for every time and are 0 if the target can be reached (exact penalty). The slacks of the cones are
 
     thrust (4 rows)   s, u
     upper, lower      upper limit (1 - y) - s,  s - lower limit (1 - y),  with y = (z + z+)/2 - middle
@@ -14,8 +15,9 @@ solvable and are 0 where the place can be reached (exact penalty). Slacks, of wh
     glide (3 rows)    r_z + depth, tan(glide slope) (r_x, r_y)
     ends (4 rows)     bound, r_N;  bound, v_N - v_T
 
-The limits are those of thrust over the mass of the expansion at the middle of an interval. Lengths are scaled by
-the distance from the target, accelerations by the largest thrust over mass, times by the root of their quotient.
+The limits are thrust over mass of the expansion in the middle of an interval. Lengths are scaled by the distance from
+the target, accelerations by the largest thrust over mass, times by the square root of their quotient.
+
 Source: Acikmese and Ploen 2007, "Convex programming approach to powered descent guidance for Mars landing"; Blackmore,
 Acikmese and Scharf 2010, for the least miss.
 """
