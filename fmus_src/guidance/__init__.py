@@ -1,1 +1,1 @@
-"""Guidance laws, interchangeable behind their interface."""
+"""Guidance laws, interchangeable within their slots."""

@@ -1,4 +1,4 @@
-"""Analytic terminal guidance: time-to-go from a quadratic, linear pitch and yaw programmes."""
+"""Analytic terminal guidance: time to go from a quadratic equation, linear pitch and yaw programmes."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Analytic terminal guidance with nothing dropped: cubic time-to-go, exact rates, exact last burn."""
+"""Analytic terminal guidance without approximations: cubic time to go, exact direction rates, exact last burn."""
 
 from ..interfaces.ports.landing import TerminalStatus
 from ..mathlib.lunar.terminal import impulse_and_miss

@@ -1,4 +1,4 @@
-"""Apollo's lunar descent guidance: a quartic to the target, its time from the jerk there."""
+"""Apollo's lunar descent guidance: a quartic polynomial to the target, with the time to go from the jerk there."""
 
 from ..block import Parameter, State
 from ..mathlib.lunar.polynomial_descent import DescentShape, jerk_time
@@ -41,7 +41,7 @@ class ApolloGuidance(PolynomialGuidance):
     )
 
     def final_thrust(self) -> Vector3:
-        """Return the thrust acceleration (m/s2) at the end."""
+        """Return the thrust acceleration (m/s2) at the target."""
         along = self.final_deceleration * self.forward
         return vector(-along.x, -along.y, self.final_lift - along.z)
 
@@ -52,7 +52,7 @@ class ApolloGuidance(PolynomialGuidance):
         return self.lead_time
 
     def face_target(self) -> None:
-        """Set the forward axis."""
+        """Set the forward axis, horizontal towards the target."""
         way = self.aim_position - self.position
         level = vector(way.x, way.y, 0.0)
         length = norm(level)
@@ -60,7 +60,7 @@ class ApolloGuidance(PolynomialGuidance):
             self.forward = level / length
 
     def choose_time(self) -> float:
-        """Return the time (s) from the jerk, from that of least propellant; 0 where there is none."""
+        """Return the time to go (s) for target_jerk, starting from the time of least propellant; 0 if none exists."""
         self.choices = self.choices + 1
         self.face_target()
         first = self.first_time()
@@ -69,7 +69,9 @@ class ApolloGuidance(PolynomialGuidance):
         return self.time_from_jerk(self.search_time(first))
 
     def time_from_jerk(self, time: float) -> float:
-        """Return the time (s) of target_jerk from a guess of it; 0 where Newton's method finds none."""
+        """Return the time to go (s) for target_jerk, starting from an estimate; 0 if Newton's method does not
+        converge.
+        """
         dr, dv = self.remaining_over(time)
         constant = self.final_thrust() + vector(0.0, 0.0, -self.gravity)
         return jerk_time(dr, self.velocity, dv, constant, self.forward, self.target_jerk, time)

@@ -1,4 +1,4 @@
-"""Method A* as published: time-to-go by Newton's method, which fails where there is no root."""
+"""Method A* as published: time to go by Newton's method, which fails if there is no root."""
 
 from ..block import State
 from ..interfaces.ports.landing import TerminalStatus
@@ -56,7 +56,7 @@ class AstarGuidance(AstarProgramme):
         return 0.0
 
     def newton_time(self, dr: Vector3, dv: Vector3) -> float:
-        """Return time-to-go (s) from the remaining gain, or 0, and set the status where it is."""
+        """Return the time to go (s), or 0 with the status set if there is none."""
         speed = norm(self.velocity)
         self.status = TerminalStatus.NO_SOLUTION
         start = self.last_root

@@ -1,4 +1,4 @@
-"""The angle programme that the three guidances of method A* share."""
+"""Angle programme shared by the three guidances of method A*."""
 
 from ..block import Output
 from ..interfaces.ports.landing import TerminalStatus
@@ -28,19 +28,19 @@ class AstarProgramme(TerminalGuidance, interface=True):
     )
 
     def angle(self, sine: float) -> float:
-        """Return the arcsine, clamped and counted outside [-1, 1] (1e-12 allowed for rounding)."""
+        """Return the arcsine, with arguments outside [-1, 1] clamped and, beyond a rounding of 1e-12, counted."""
         if abs(sine) > 1.000000000001:
             self.clamp_count = self.clamp_count + 1
             self.status = TerminalStatus.CLAMPED
         return asin(clip(sine, -1.0, 1.0))
 
     def apply_weights(self, weight: float, theta: float, psi: float) -> Vector3:
-        """Weight times the unit vector of the angles, landing-site frame."""
+        """Return ``weight`` times the unit vector of the angles, landing-site frame."""
         forward = weight * cos(theta) * cos(psi)
         return vector(forward, weight * sin(psi), weight * sin(theta) * cos(psi))
 
     def point(self, a: Vector3, b: Vector3, time: float, acceleration: float) -> None:
-        """Set the command from A, B (landing-site frame), time-to-go (s) and acceleration (m/s2)."""
+        """Set the command from A, B (landing-site frame), time to go (s) and acceleration W (m/s2)."""
         ay = a.z
         az = -a.y
         by = b.z

@@ -1,4 +1,6 @@
-"""Method A* modified to work for every start: time-to-go from the cubic or the least effort, thrust from |a0|."""
+"""Method A* modified to work for every start: time to go from the cubic equation or the least effort, thrust from
+|a0|.
+"""
 
 from ..interfaces.ports.landing import TerminalStatus
 from ..mathlib.lunar.terminal import impulse_and_miss

@@ -1,4 +1,4 @@
-"""Bank over the time of an entry: a target, and how to get from one to the next."""
+"""Bank angle during an entry: a target with reversals, and a reference that leads from one target to the next."""
 
 import math
 
@@ -75,7 +75,7 @@ class BankProgramme(Block):
         self.programme(0.0)
 
     def programme(self, time: float) -> None:
-        """Set outputs ``time`` (s) after the start."""
+        """Set the outputs for ``time`` (s) after the start."""
         self.target_bank = self.first_target
         self.time_since_reversal = NEVER
         before = self.first_target
@@ -94,7 +94,7 @@ class BankProgramme(Block):
             self.lead(before, self.time_since_reversal)
 
     def lead(self, before: float, s: float) -> None:
-        """Lead the reference from one target to the present one, ``s`` (s) after the command."""
+        """Set the reference on its way from the previous target to the present one, ``s`` (s) after the reversal."""
         way = abs(self.target_bank - before)
         if way <= 0.0:
             return

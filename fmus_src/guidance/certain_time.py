@@ -1,4 +1,4 @@
-"""A time-to-go for every start, shared by the two guidances that have one."""
+"""Time to go for every start, shared by the two guidances that have one."""
 
 from ..block import State
 from ..mathlib.lunar.terminal import cubic_time, effort_rises, least_effort_time, linear_thrust, steady
@@ -39,7 +39,7 @@ class CertainTime(TerminalGuidance, interface=True):
         self.least_effort = False
 
     def time_left(self, dr: Vector3, dv: Vector3) -> float:
-        """Return time-to-go (s) from the remaining gain, and set least_effort; 0 where there is none."""
+        """Return the time to go (s) and set least_effort; 0 if no time exists."""
         if self.plan_frozen():
             self.least_effort = True
             return self.frozen_time_to_go
@@ -63,7 +63,7 @@ class CertainTime(TerminalGuidance, interface=True):
         return time
 
     def thrust_linearly(self, a: Vector3, b: Vector3, time: float) -> None:
-        """Command the mean of a0 + a1 t over the next burn, with A (m/s), B (m) and the time-to-go (s)."""
+        """Command the mean of a0 + a1 t over the next burn, from A (m/s), B (m) and the time to go (s)."""
         thrust = linear_thrust(
             a, b, time, self.burn_span(time), self.command.thrust_direction, self.command.thrust_direction_rate
         )

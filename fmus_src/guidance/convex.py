@@ -67,7 +67,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.since_plan = 0.0
 
     def task(self) -> DescentTask:
-        """Return the descent from here with the limits that plans keep."""
+        """Return the descent from the present state with the limits for plans."""
         return DescentTask(
             position=self.position,
             velocity=self.velocity,
@@ -87,7 +87,7 @@ class ConvexGuidance(ZemZevGuidance):
         )
 
     def take(self, s: PlanSummary, plan: list) -> None:
-        """Fly a plan from now on."""
+        """Start the execution of a plan."""
         for i in range(PLAN):
             self.plan[i] = plan[i]
         self.plan_time = s.time
@@ -96,7 +96,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.expected_time = s.time
 
     def plan_first(self) -> None:
-        """Plan from the guess of the time, and fly that; or hand over."""
+        """Compute the first plan from an estimate of the time and start it, or hand over to ZEM/ZEV."""
         time = self.braking_time()
         lowest = LOWEST_BRAKING
         if not time > 0.0:
@@ -118,7 +118,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.handed_over = not self.chosen
 
     def find_plan(self, bracket: TimeBracket, plan: list) -> PlanSummary:
-        """Set a plan, where none is solved with the glide slope: with one that the start is above, then without."""
+        """Set a plan; if none exists with the glide slope, with a lower one that contains the start, then without."""
         task = self.task()
         first = bracket
         outside = self.glide_slope > 0.0 and self.glide_margin < 0.0
@@ -138,10 +138,11 @@ class ConvexGuidance(ZemZevGuidance):
         return s
 
     def replan(self) -> None:
-        """Plan from here with about the time that is left; an old plan stays unless the target is met.
+        """Compute a plan from the present state with about the remaining time; it replaces the old one if it meets the
+        target.
 
-        A plan uses all the thrust that it may, so that a late correction of knowledge can make the next one far longer:
-        that one has half of the reserve of thrust instead.
+        A plan uses all the thrust that it may, so a late correction of the estimate could make the next plan far
+        longer; therefore the next plan may use half of the thrust reserve.
         """
         plan = [0.0] * PLAN
         bracket = replan_bracket(self.expected_time)
@@ -163,8 +164,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.solver_iterations = iterations
 
     def is_end_due(self) -> bool:
-        """Return True if ZEM/ZEV is to command: near the end where it leaves no limit by much, and for the last
-        burn."""
+        """Return True if ZEM/ZEV is due: near the end if it hardly violates a limit, and for the last burn."""
         if self.expected_time <= self.hold_time() + self.cycle:
             return True
         if self.expected_time > self.end_time:
@@ -173,7 +173,7 @@ class ConvexGuidance(ZemZevGuidance):
         return cost.depth <= GLIDE_TOLERANCE and cost.tilt_excess <= 0.0 and cost.load <= END_LOAD
 
     def hand_over(self) -> None:
-        """Go over to ZEM/ZEV, with the time that is left unless its thrust does not suffice."""
+        """Hand over to ZEM/ZEV with the remaining time, or with another time if the thrust does not suffice."""
         self.handed_over = True
         self.chosen = True
         if self.cost_of(self.expected_time, self.flown_kr, 1.0).load > self.thrust_margin:
@@ -183,7 +183,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.check(self.expected_time)
 
     def is_sound(self) -> bool:
-        """Return True if the vehicle's estimated state can be planned with."""
+        """Return True if the vehicle's estimated state is usable for planning."""
         known = all_below(self.position, LARGEST) and all_below(self.velocity, LARGEST)
         return known and self.mass > SMALLEST_MASS and self.mass < LARGEST and self.maximum_thrust > 0.0
 
@@ -204,7 +204,7 @@ class ConvexGuidance(ZemZevGuidance):
             self.track()
 
     def stay_on_course(self) -> None:
-        """Plan again, or hand over, where it is due."""
+        """Compute a new plan or hand over to ZEM/ZEV, if due."""
         if self.is_end_due():
             self.hand_over()
             return
@@ -217,7 +217,7 @@ class ConvexGuidance(ZemZevGuidance):
             self.replan()
 
     def track(self) -> None:
-        """Command the plan's thrust with the correction back to it."""
+        """Command the plan's thrust with a correction of deviations from the plan."""
         self.time_to_go = self.expected_time
         step = self.plan_time / float(INTERVALS)
         elapsed = self.plan_time - self.expected_time
@@ -233,7 +233,7 @@ class ConvexGuidance(ZemZevGuidance):
         self.report()
 
     def end_linearly(self) -> None:
-        """Command ZEM/ZEV."""
+        """Command ZEM/ZEV guidance."""
         time = self.time_left()
         self.time_to_go = time
         self.report()
@@ -241,7 +241,7 @@ class ConvexGuidance(ZemZevGuidance):
             self.command_profile(time)
 
     def report(self) -> None:
-        """Set the status from the limits that are left."""
+        """Set the status from the violated limits."""
         self.status = TerminalStatus.GOOD
         if self.limit > 0:
             self.status = TerminalStatus.CLAMPED

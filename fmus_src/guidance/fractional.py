@@ -1,4 +1,4 @@
-"""Fractional-polynomial guidance, shaped by its final thrust, the glide slope and the tilt."""
+"""Fractional-polynomial guidance, shaped by its final thrust, the glide slope and the tilt limit."""
 
 from ..block import Parameter
 from ..kernel.enumerations import Enumeration, member
@@ -50,12 +50,12 @@ class FractionalGuidance(PolynomialGuidance):
             self.flown_kr = self.kr
 
     def objective(self, time: float, kr: float) -> float:
-        """Return the impulse (m/s) with prices on thrust, glide slope and tilt."""
+        """Return the impulse (m/s) with penalties on thrust, glide slope and tilt."""
         cost = self.cost_of(time, kr, self.thrust_margin)
         return cost.objective + GLIDE_PRICE * cost.depth + TILT_PRICE * cost.tilt_excess
 
     def search_time(self, first: float) -> float:
-        """Return the time to go (s) of the least objective, and set flown_kr; of a ``first`` time (s)."""
+        """Return the time to go (s) of the least objective, starting from ``first`` (s), and set flown_kr."""
         if self.gain_choice == GainChoice.FIXED:
             self.take_gain()
             if not is_regular(self.shape(self.kr)):

@@ -1,4 +1,4 @@
-"""Gravity turn: thrust against the velocity, to rest at the target's height."""
+"""Gravity turn: thrust opposite to the velocity, to rest at the target's height."""
 
 from ..block import Parameter, State
 from ..interfaces.ports.landing import TerminalStatus
@@ -12,11 +12,11 @@ from .informed_guidance import LIMIT_THRUST, InformedGuidance
 class GravityTurnGuidance(InformedGuidance):
     """Gravity turn: thrust of constant ratio to gravity against the velocity, to rest at the target height.
 
-    It meets no place and no velocity: the horizontal part of target_position, target_velocity, minimum_thrust,
-    thrust_margin and largest_tilt have no effect, and frozen_time_to_go is not supported. With gravity_correction
-    gravity is central minus the centrifugal part. With ignition_fraction there is no thrust until the demand is that
-    fraction of maximum_thrust. Status 1 if the demand exceeds maximum_thrust, 3 at or below the target's height or
-    ascending.
+    The law controls neither horizontal position nor velocity: the horizontal part of target_position, target_velocity,
+    minimum_thrust, thrust_margin and largest_tilt have no effect, and frozen_time_to_go is not supported. With
+    gravity_correction gravity is central gravity minus the centrifugal acceleration. With ignition_fraction there is no
+    thrust until the demand reaches that fraction of maximum_thrust. Status 1 if the demand exceeds maximum_thrust, 3 at
+    or below the target's height or while ascending.
 
     Assumes constant gravity over the rest of the flight.
 
@@ -36,14 +36,14 @@ class GravityTurnGuidance(InformedGuidance):
     burning = State(False, description="true: engine ignited")
 
     def plan_frozen(self) -> bool:
-        """Return False: the law has no time to hold."""
+        """Return False, since the law has no time to go to hold constant."""
         return False
 
     def forget(self) -> None:
         self.burning = self.burning and self.commanding  # a divert leaves the engine on
 
     def local_gravity(self) -> tuple[Vector3, float]:
-        """Return the local vertical and gravity (m/s2) less the centrifugal acceleration along it."""
+        """Return the local vertical, and gravity (m/s2) minus the centrifugal acceleration along it."""
         up = vector(0.0, 0.0, 1.0)
         g = self.gravity
         if self.gravity_correction:
@@ -76,7 +76,7 @@ class GravityTurnGuidance(InformedGuidance):
                 self.brake(turn.ratio * g, speed, g * up)
 
     def predict(self, turn: GravityTurn, thrust: float, up: Vector3) -> None:
-        """Set propellant and miss of a turn with a thrust acceleration (m/s2), over level ground."""
+        """Set predicted propellant and miss of a turn with a thrust acceleration (m/s2), over level ground."""
         self.predicted_propellant = -self.mass * expm1(-thrust * turn.duration / self.exhaust_speed())
         way = across(self.aim_position - self.position, up)
         level = across(self.velocity, up)
@@ -86,7 +86,7 @@ class GravityTurnGuidance(InformedGuidance):
         self.predicted_miss = norm(way)
 
     def brake(self, thrust: float, speed: float, gravity: Vector3) -> None:
-        """Command a thrust acceleration (m/s2) against the velocity, of a ``speed`` (m/s), under ``gravity``."""
+        """Command a thrust acceleration (m/s2) opposite to the velocity, at ``speed`` (m/s) and ``gravity`` (m/s2)."""
         direction = -1.0 / speed * self.velocity
         demand = thrust * self.mass
         self.burning = self.burning or demand >= self.ignition_fraction * self.maximum_thrust

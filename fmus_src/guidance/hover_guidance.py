@@ -1,4 +1,4 @@
-"""Guidance from hover to hover: plans, and the law that tracks them."""
+"""Guidance between hovers: modes, and the control law that tracks their plans."""
 
 from ..block import Input, Output, Outputs, Parameter, State
 from ..interfaces.ports import landing, sampling
@@ -140,7 +140,7 @@ class HoverGuidance(HoverPlan):
         self.guide(t + h)
 
     def guide(self, time: float) -> None:
-        """Sample at ``time`` (s)."""
+        """Process the sample at ``time`` (s)."""
         self.elapsed = time - self.sample_time
         # nominal but for communication points that miss sample instants, so that rounding does not get in
         if abs(self.elapsed - self.cycle) <= CYCLE_TOLERANCE * self.cycle or not self.elapsed > 0.0:
@@ -175,7 +175,7 @@ class HoverGuidance(HoverPlan):
         self.saturated = False
 
     def begin_plan(self, time: float) -> None:
-        """Make the plan of the mode."""
+        """Compute the plan of the present mode."""
         self.plan_start = time
         self.flown_mode = self.mode
         self.answered_plan = self.plan_number
@@ -206,18 +206,18 @@ class HoverGuidance(HoverPlan):
                 self.thrust_factor = self.thrust_factor + gain * (measured - self.thrust_factor)
 
     def sinking(self) -> bool:
-        """Return True if the reference sinks."""
+        """Return True if the reference descends."""
         return self.mode == HoverMode.DESCEND and self.status == HoverStatus.GOOD
 
     def sink_speed(self, t: float) -> float:
-        """Return speed (m/s) of the descent at the time t (s) after its start."""
+        """Return the speed (m/s) of the descent at time t (s) after its start."""
         speed = self.descent_acceleration * t
         if speed > self.descent_speed:
             return self.descent_speed
         return speed
 
     def reference(self, t: float) -> None:
-        """Set reference_position and reference_velocity at the time t (s) after the plan's start."""
+        """Set reference_position and reference_velocity for time t (s) after the plan's start."""
         planned = self.plan_motion(t)
         self.reference_position = planned.position
         self.reference_velocity = planned.velocity
@@ -230,9 +230,10 @@ class HoverGuidance(HoverPlan):
             self.reference_velocity = -speed * self.up
 
     def reference_thrust(self, begin: float, end: float) -> float:
-        """Return the mean of the plan's thrust over mass (m/s2) between two times (s); local gravity from its end on.
+        """Return the mean of the plan's thrust over mass (m/s2) between two times (s); local gravity after its end.
 
-        A descent is all end: feedback alone follows its reference, which makes it soft.
+        A descent has no feedforward of its acceleration: feedback alone tracks its reference, which makes the motion
+        smooth.
         """
         gravity = self.gravity_at(self.position)
         left = clip(self.duration - begin, 0.0, end - begin)
@@ -242,7 +243,7 @@ class HoverGuidance(HoverPlan):
         return impulse / (end - begin)
 
     def frequency(self, t: float) -> float:
-        """Return the frequency of the loop (rad/s) at the time t (s) after the plan's start."""
+        """Return the natural frequency of the loop (rad/s) at time t (s) after the plan's start."""
         if self.plan_kind == PlanKind.NONE or self.plan_kind == PlanKind.POLYNOMIAL or t >= self.duration:
             return self.holding_frequency
         if t >= self.shape.last_burn_begin - BEFORE_LAST_BURN:
@@ -265,7 +266,7 @@ class HoverGuidance(HoverPlan):
         self.track(planned, ahead, self.frequency(t))
 
     def track(self, plan: TurningDirection, planned: float, frequency: float) -> None:
-        """Apply the law to direction and thrust over mass (m/s2) of the plan."""
+        """Apply the control law, with direction and thrust over mass (m/s2) of the plan as feedforward."""
         direction = plan.direction
         error = self.reference_position - self.position
         near = limit_length(error, self.largest_error)

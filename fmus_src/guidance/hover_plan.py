@@ -1,4 +1,4 @@
-"""Plans from hover to hover: their computation, and their demands at any time."""
+"""Plans between hovers: their computation, and reference motion and thrust at any time."""
 
 import math
 
@@ -34,10 +34,10 @@ STANDBY_ACCELERATION = 0.5  # m/s2
 
 
 class HoverPlan(Block, interface=True):
-    """Plan to a hover, upright and at rest, with its thrust.
+    """Plan to an upright hover at rest, with its thrust.
 
-    Programmes lie in the plane through start and target with the target's vertical. Plans keep margins of thrust and
-    angular acceleration for control.
+    Programmes lie in the plane through start and target that contains the target's vertical. Plans keep margins of
+    thrust and angular acceleration for control.
 
     Frame: landing site.
 
@@ -121,7 +121,7 @@ class HoverPlan(Block, interface=True):
     transfer = State(Transfer)
 
     def gravity_at(self, position: Vector3) -> float:
-        """Return size of gravity (m/s2) at a position (m)."""
+        """Return the magnitude of gravity (m/s2) at a position (m)."""
         if self.uniform_gravity > 0.0:
             return self.uniform_gravity
         centred = from_centre(position, self.moon_radius)
@@ -131,13 +131,13 @@ class HoverPlan(Block, interface=True):
         return self.gravitational_parameter / square
 
     def vertical(self, position: Vector3) -> Vector3:
-        """Return the vertical upwards at a position (m)."""
+        """Return the upward unit vector at a position (m)."""
         if self.uniform_gravity > 0.0:
             return vector(0.0, 0.0, 1.0)
         return vertical_at(position, self.moon_radius)
 
     def drop_plan(self) -> None:
-        """Drop the plan: hold at the target from here on."""
+        """Discard the plan, and hold at the target from now on."""
         self.status = HoverStatus.GOOD
         self.plan_kind = PlanKind.NONE
         self.duration = 0.0
@@ -149,8 +149,9 @@ class HoverPlan(Block, interface=True):
         self.plan_gravity = 0.5 * (self.gravity_at(self.origin) + self.gravity_at(self.goal))
 
     def can_plan(self) -> bool:
-        """Return True if all is finite and the engine can lift the vehicle; else it is to hold where it is, status
-        3."""
+        """Return True if all data are finite and the engine can lift the vehicle; else hold the position with status
+        3.
+        """
         fine = is_finite(self.position) and is_finite(self.velocity) and is_finite(self.target_position)
         fine = fine and math.isfinite(self.mass) and self.mass > 0.0
         fine = fine and self.maximum_thrust > self.mass * self.plan_gravity
@@ -159,14 +160,14 @@ class HoverPlan(Block, interface=True):
         return fine
 
     def give_up(self) -> None:
-        """Give up planning: hold in the present place."""
+        """Discard the plan, and hold the present position with status 3."""
         self.drop_plan()
         self.status = HoverStatus.NO_PLAN
         if is_finite(self.position):
             self.goal = self.position
 
     def plan_programme(self) -> None:
-        """Plan the programme on least propellant; a quick polynomial where there is none."""
+        """Plan the programme of least propellant, or a fast polynomial if none exists."""
         exhaust = STANDARD_GRAVITY * self.specific_impulse
         full = self.maximum_thrust / self.mass
         self.vehicle = HoverVehicle(
@@ -204,7 +205,7 @@ class HoverPlan(Block, interface=True):
                 self.predicted_propellant = self.mass * propellant(self.shape, self.vehicle, self.duration)
 
     def set_programme(self, p: HoverProgramme) -> None:
-        """Put out the times of a programme."""
+        """Output the times of a programme."""
         self.programme[0] = p.t2
         self.programme[1] = p.t5
         self.programme[2] = p.width
@@ -225,9 +226,9 @@ class HoverPlan(Block, interface=True):
         self.take_polynomial(duration, spent.impulse)
 
     def plan_capture(self, cycle: float) -> None:
-        """Plan a polynomial from flight, with the thrust measured over the last cycle (s).
+        """Plan a polynomial from the present motion, with the thrust measured over the last cycle (s).
 
-        Without measured thrust the engine is assumed to take up the weight along its axis at once.
+        Without measured thrust the engine is assumed to support the weight along its axis immediately.
         """
         exhaust = STANDARD_GRAVITY * self.specific_impulse
         force = norm(self.velocity_increment) / cycle
@@ -245,7 +246,7 @@ class HoverPlan(Block, interface=True):
             self.status = HoverStatus.BEYOND_LIMITS
 
     def limits(self) -> TransferLimits:
-        """Return the limits of plans."""
+        """Return the thrust and acceleration limits of plans."""
         return TransferLimits(
             maximum_thrust=self.planned_maximum * self.maximum_thrust,
             minimum_thrust=self.planned_minimum * self.maximum_thrust,
@@ -254,7 +255,9 @@ class HoverPlan(Block, interface=True):
         )
 
     def take_polynomial(self, duration: float, spent: float) -> None:
-        """Fly the polynomial, which takes a duration (s) and spends so much (m/s); status 3 if these are not finite."""
+        """Make the polynomial with this duration (s) and impulse ``spent`` (m/s) the plan; status 3 if these are not
+        finite.
+        """
         if duration > 0.0 and math.isfinite(duration) and math.isfinite(spent):
             self.plan_kind = PlanKind.POLYNOMIAL
             self.duration = duration
@@ -264,11 +267,11 @@ class HoverPlan(Block, interface=True):
             self.give_up()
 
     def lift(self) -> Vector3:
-        """Return thrust over mass (m/s2) that holds the plan's gravity."""
+        """Return the thrust over mass (m/s2) that balances the plan's gravity."""
         return self.plan_gravity * self.up
 
     def plan_motion(self, t: float) -> Translation:
-        """Return motion of the plan at the time t (s) after its start."""
+        """Return the motion of the plan at time t (s) after its start."""
         rest = vector(0.0, 0.0, 0.0)
         if t >= self.duration:
             return Translation(position=self.goal, velocity=rest)
@@ -282,7 +285,7 @@ class HoverPlan(Block, interface=True):
         return Translation(position=place, velocity=s.x_rate * self.along + s.y_rate * self.up)
 
     def plan_direction(self, t: float) -> TurningDirection:
-        """Return thrust direction of the plan at the time t (s) after its start."""
+        """Return the thrust direction of the plan at time t (s) after its start."""
         rest = vector(0.0, 0.0, 0.0)
         if t >= self.duration:
             return TurningDirection(direction=self.up, rate=rest)
@@ -296,13 +299,14 @@ class HoverPlan(Block, interface=True):
         return TurningDirection(direction=direction, rate=-turn.rate * (sine * self.up + cosine * self.along))
 
     def plan_rate(self, t: float) -> Vector3:
-        """Return angular rate (rad/s) of the thrust axis of the plan at the time t (s) after its start."""
+        """Return the angular rate (rad/s) of the plan's thrust axis at time t (s) after its start."""
         turning = self.plan_direction(t)
         return cross(turning.direction, turning.rate)
 
     def plan_impulse(self, begin: float, end: float) -> float:
-        """Return integral (m/s) of the plan's thrust over mass between two times (s) after its
-        start, within its duration."""
+        """Return the integral (m/s) of the plan's thrust over mass between two times (s) after its start, within its
+        duration.
+        """
         if self.plan_kind != PlanKind.POLYNOMIAL:
             return thrust_impulse(self.shape, self.vehicle, begin, end)
         first = thrust_along(self.transfer, begin, self.duration, self.lift())

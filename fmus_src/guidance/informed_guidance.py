@@ -1,4 +1,4 @@
-"""Terminal guidance that knows the engine and what the approach may not leave."""
+"""Terminal guidance with knowledge of the engine and of constraints on the approach."""
 
 import math
 
@@ -76,16 +76,16 @@ class InformedGuidance(TerminalGuidance, interface=True):
         return STANDARD_GRAVITY * self.specific_impulse
 
     def glide_height(self, offset: Vector3) -> float:
-        """Return height (m) above the cone of the glide slope at an ``offset`` (m) from the target."""
+        """Return the height (m) above the glide-slope cone at an ``offset`` (m) from the target."""
         level = math.sqrt(offset.x * offset.x + offset.y * offset.y)
         return offset.z + self.glide_offset - tan(self.glide_slope) * level
 
     def measure_glide(self) -> None:
-        """Set glide_margin at the present position."""
+        """Set glide_margin for the present position."""
         self.glide_margin = self.glide_height(self.position - self.aim_position)
 
     def braking_time(self) -> float:
-        """Return the time-to-go (s) of about constant thrust, from |A| T = 2 |B|, if that brakes; 0 if not."""
+        """Return the time to go (s) of about constant thrust, from |A| T = 2 |B|; 0 if that does not brake."""
         time = 0.0
         for _ in range(ROUNDS):
             dr, dv = self.remaining_over(time)
@@ -103,7 +103,7 @@ class InformedGuidance(TerminalGuidance, interface=True):
         return 0.0
 
     def effort_time(self, weight: float) -> float:
-        """Return the time-to-go (s) of least effort with a ``weight`` (m2/s4) of time; 0 where there is none."""
+        """Return the time to go (s) of least effort with a ``weight`` (m2/s4) of time; 0 if none exists."""
         time = 0.0
         change = 0.0
         for _ in range(10 * ROUNDS):
@@ -118,7 +118,7 @@ class InformedGuidance(TerminalGuidance, interface=True):
         return 0.0
 
     def first_time(self) -> float:
-        """Return the time-to-go (s) that a search begins with; 0 where there is none."""
+        """Return the time to go (s) with which a search begins; 0 if none exists."""
         time = self.braking_time()
         if time > 0.0:
             return time

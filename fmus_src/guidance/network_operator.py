@@ -1,4 +1,4 @@
-"""Descent in space by a network operator."""
+"""Three-dimensional descent by a network operator."""
 
 from ..block import State
 from ..interfaces.ports import landing
@@ -63,7 +63,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
             self.status = TerminalStatus.NO_SOLUTION
 
     def command_thrust(self, up: Vector3) -> None:
-        """Command from the law, with the local vertical ``up``."""
+        """Set the command from the law, with the local vertical ``up``."""
         vertical_speed = dot(self.velocity, up)
         horizontal = self.velocity - vertical_speed * up
         horizontal_speed = norm(horizontal)
@@ -77,7 +77,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
         self.estimate_time()
 
     def estimate_time(self) -> None:
-        """Estimate time_to_go from the rocket equation."""
+        """Set time_to_go from the rocket equation."""
         excess = norm(self.velocity) - self.handover_speed
         exhaust_speed = STANDARD_GRAVITY * self.specific_impulse
         self.time_to_go = 0.0

@@ -1,4 +1,4 @@
-"""Descent law as a network operator: its declarations, and its thrust."""
+"""Descent law by a network operator: its parameters and its thrust."""
 
 import math
 
@@ -38,8 +38,8 @@ class NetworkOperatorLaw(Block, interface=True):
 
         z_1 = π + θ    z_2 = q_1    z_3 = (h_f - h)/h_0    z_4 = q_2    z_5 = θ    z_6 = q_3
 
-    Outputs are z_15, the angle of thrust from the local vertical within 0 to π, and z_16, the thrust above
-    nominal_thrust in kgf within thrust_variation.
+    Outputs are z_15, the angle from the local vertical to the thrust, limited to 0 to π, and z_16, the thrust minus
+    nominal_thrust in kgf, limited to thrust_variation.
 
     Assumes that altitude and path angle suffice: range and cross-range are not part of the law.
 
@@ -75,11 +75,11 @@ class NetworkOperatorLaw(Block, interface=True):
     edge_count = State(0, description="number of the network operator's edges; -1: matrix is not a network operator")
 
     def decode_law(self) -> None:
-        """Find the edges, once."""
+        """Decode the edges of the matrix, once."""
         self.edge_count = decode(self.matrix, self.edges)
 
     def evaluate_law(self, path_angle: float, altitude: float, final_altitude: float) -> None:
-        """Evaluate the nodes for a path angle (rad) and altitudes (m); the law must be good."""
+        """Evaluate the nodes for a path angle (rad) and altitudes (m); the matrix must be a network operator."""
         for j in range(SOURCES, SIZE):
             self.nodes[j] = neutral(self.matrix[j, j])
         self.nodes[0] = math.pi + path_angle
@@ -94,10 +94,10 @@ class NetworkOperatorLaw(Block, interface=True):
         evaluate(self.matrix, self.edges, self.edge_count, exp_saturation, self.nodes)
 
     def law_angle(self) -> float:
-        """Return angle from the local vertical to the thrust, rad."""
+        """Return the angle (rad) from the local vertical to the thrust."""
         return clip(self.nodes[14], 0.0, math.pi)
 
     def law_thrust(self) -> float:
-        """Return thrust, N."""
+        """Return the thrust (N)."""
         above = clip(KILOGRAM_FORCE * self.nodes[15], -self.thrust_variation, self.thrust_variation)
         return clip(self.nominal_thrust + above, 0.0, math.inf)

@@ -1,4 +1,4 @@
-"""Descent in a plane by a network operator."""
+"""Planar descent by a network operator."""
 
 from ..block import Output, Parameter
 from ..interfaces.ports import landing, sampling

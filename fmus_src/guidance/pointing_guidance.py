@@ -1,4 +1,4 @@
-"""Attitude to follow on an orbit: nadir, Sun, or a fixed one."""
+"""Reference attitude on an orbit: nadir, Sun, or inertially fixed."""
 
 import math
 
@@ -100,14 +100,14 @@ class PointingGuidance(Block):
         self.point(self.start_time)
 
     def carry(self, h: float) -> None:
-        """Carry the orbit by h (s) under the gravity of a point."""
+        """Propagate the orbit by h (s) under point-mass gravity."""
         r = self.position
         g = -(self.gravitational_parameter / (dot(r, r) * norm(r))) * r
         self.position = r + h * self.velocity + 0.5 * h * h * g
         self.velocity = self.velocity + h * g
 
     def oblate_acceleration(self, r: Vector3) -> Vector3:
-        """Return the acceleration (m/s2, inertial) by J2, with the inertial z as the body's axis.
+        """Return the acceleration (m/s2, inertial) of J2, with the inertial z axis as the body's rotation axis.
 
         Source: Montenbruck and Gill 2000, section 3.2.
         """
@@ -124,7 +124,7 @@ class PointingGuidance(Block):
         self.reference.reference_angular_acceleration = vector(0.0, 0.0, 0.0)
 
     def point_down(self) -> None:
-        """Set the reference of NADIR."""
+        """Set the reference of mode NADIR."""
         r = self.position
         v = self.velocity
         h = cross(r, v)
@@ -145,7 +145,7 @@ class PointingGuidance(Block):
         self.reference.reference_angular_acceleration = -2.0 * dot(r, v) / square * w_body
 
     def point_to_sun(self) -> None:
-        """Set the reference of SUN."""
+        """Set the reference of mode SUN."""
         normal = cross(self.position, self.velocity)
         attitude = triad(self.panel_normal, self.secondary, self.sun_direction, normal, PARALLEL)
         if attitude.exists:
@@ -154,7 +154,7 @@ class PointingGuidance(Block):
             self.status = PointingStatus.DEGENERATE
 
     def point(self, t: float) -> None:
-        """Set the reference at t (s)."""
+        """Set the reference at t (s) for the present mode."""
         finite = is_finite(self.estimated_position) and is_finite(self.estimated_velocity)
         finite = finite and is_finite(self.sun_direction) and math.isfinite(self.sample_time)
         self.status = PointingStatus.NOT_FINITE

@@ -1,4 +1,4 @@
-"""Powered explicit guidance for a descent: one phase of constant thrust."""
+"""Powered explicit guidance for a descent, with one phase of constant thrust."""
 
 from ..block import Parameter, State
 from ..interfaces.ports.landing import TerminalStatus
@@ -50,7 +50,7 @@ class PoweredGuidance(ZemZevGuidance):
         self.handed_over = False
 
     def problem(self, time: float) -> SteeringProblem:
-        """Return the errors over ``time`` (s) and the engine."""
+        """Return the remaining changes of position and velocity over ``time`` (s), with the engine data."""
         dr = self.aim_position - self.position
         dv = self.target_velocity - self.velocity
         here = vector(0.0, 0.0, -self.gravity)
@@ -69,14 +69,14 @@ class PoweredGuidance(ZemZevGuidance):
         )
 
     def iterate(self, time: float, count: int) -> None:
-        """Iterate ``count`` times at most from a time to go (s)."""
+        """Iterate at most ``count`` times, starting from a time to go (s)."""
         self.steering = replace(self.steering, time=time, change=1.0)
         for _ in range(count):
             if self.steering.change > SETTLED:
                 self.steering = iterate_steering(self.steering, self.problem(self.steering.time))
 
     def begin_steering(self) -> None:
-        """Iterate for the first time, from the time of about constant thrust."""
+        """Iterate for the first time, starting from the time of about constant thrust."""
         self.steering = SteeringState(
             time=0.0,
             thrust=FIRST_THRUST * self.maximum_thrust,
@@ -98,7 +98,7 @@ class PoweredGuidance(ZemZevGuidance):
             self.end_linearly()
 
     def steer(self) -> None:
-        """Command the constant thrust, or hand over."""
+        """Command the constant thrust, or hand over to ZEM/ZEV."""
         self.status = TerminalStatus.GOOD
         self.limit = 0
         if not self.started:
@@ -122,7 +122,7 @@ class PoweredGuidance(ZemZevGuidance):
             self.command_constant_thrust()
 
     def command_constant_thrust(self) -> None:
-        """Command thrust, direction and rate of the steering."""
+        """Command thrust, direction and direction rate of the linear-tangent steering."""
         s = self.steering
         thrust = clip(s.thrust, self.minimum_thrust, self.maximum_thrust)
         if thrust != s.thrust:
@@ -137,7 +137,7 @@ class PoweredGuidance(ZemZevGuidance):
         self.predicted_propellant = thrust / self.exhaust_speed() * s.time
 
     def end_linearly(self) -> None:
-        """Command ZEM/ZEV; its time is chosen at the hand-over only where the thrust does not suffice."""
+        """Command ZEM/ZEV; another time is chosen at the hand-over only if the thrust does not suffice."""
         time = self.expected_time
         if self.plan_frozen():
             time = self.frozen_time_to_go

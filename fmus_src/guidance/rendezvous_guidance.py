@@ -1,4 +1,4 @@
-"""The plan of an approach to a passive rotating object, and the clock of translation control."""
+"""Plan of an approach to a passive rotating object, and clock of translation control."""
 
 import math
 
@@ -150,7 +150,7 @@ class RendezvousGuidance(Block):
         self.publish(0.0)
 
     def make_plan(self) -> None:
-        """Plan the acceleration of phase 1, splines of phase 3 and the turn."""
+        """Compute the acceleration of phase 1, the splines of phase 3 and the turn."""
         self.turn_axis, angle = rotation_between(vector(1.0, 0.0, 0.0), self.spin_axis)
         self.plan_turn(angle)
         spin = norm(self.spin_axis)
@@ -173,7 +173,7 @@ class RendezvousGuidance(Block):
         spline(0.0, 0.0, angle, 0.0, self.turn_end - self.turn_start, 6, self.turn_polynomial)
 
     def motion(self, time: float) -> Translation:
-        """Return planned motion."""
+        """Return the planned motion at a time (s) after the start."""
         if self.status != RendezvousStatus.GOOD:
             return Translation(position=vector(0.0, 0.0, 0.0), velocity=vector(0.0, 0.0, 0.0))
         if time <= self.turn_start:
@@ -187,7 +187,7 @@ class RendezvousGuidance(Block):
         return Translation(position=self.place + since * self.target_velocity, velocity=self.target_velocity)
 
     def approach(self, time: float) -> Translation:
-        """Return motion on the splines."""
+        """Return the motion on the splines."""
         duration = self.arrival_time - self.turn_end
         s = (time - self.turn_end) / duration
         position = [0.0] * 3
@@ -201,7 +201,7 @@ class RendezvousGuidance(Block):
         return Translation(position=vector(*position), velocity=vector(*velocity))
 
     def turn(self, time: float) -> None:
-        """Set planned attitude, its rate, and its acceleration half a period of attitude control later."""
+        """Set planned attitude and angular velocity, and the angular acceleration half an attitude_period later."""
         duration = self.turn_end - self.turn_start
         angle = 0.0
         rate = 0.0
@@ -219,13 +219,13 @@ class RendezvousGuidance(Block):
         self.set_turn(angle, rate, acceleration)
 
     def set_turn(self, angle: float, rate: float, acceleration: float) -> None:
-        """Put the turn's angle (rad), rate (rad/s) and angular acceleration (rad/s2) on the outputs."""
+        """Output the turn's angle (rad), rate (rad/s) and angular acceleration (rad/s2)."""
         self.planned_quaternion = from_rotation_vector(angle * self.turn_axis)
         self.planned_angular_velocity = rate * self.turn_axis
         self.planned_angular_acceleration = acceleration * self.turn_axis
 
     def tick(self, time: float) -> None:
-        """Start a tick of translation control: set its period, and plan for it."""
+        """Start a sample of translation control: set its period and the planned acceleration."""
         ratio = math.floor(self.slow_period / self.fast_period + 0.5)
         if ratio < 1:
             ratio = 1

@@ -1,4 +1,4 @@
-"""The plan of an approach whose turn takes the least time within limits of rate, acceleration and jerk."""
+"""Plan of an approach whose turn takes the least time within limits of rate, acceleration and jerk."""
 
 from ..block import Output, Parameter, State
 from ..mathlib.jerk_limited import AxisMotion, JerkLimits, RateProfile, follow_profile, plan_axis
@@ -8,9 +8,9 @@ from .rendezvous_guidance import RendezvousGuidance, RendezvousStatus
 class RendezvousGuidanceJerkLimited(RendezvousGuidance):
     """Rendezvous plan with a rest-to-rest turn of least time within limits of rate, acceleration and jerk.
 
-    The turn begins at turn_start and ends before turn_end, until which the robot keeps its attitude. The default limits
-    are below the polynomial's largest rate, acceleration and jerk (0.0461, 1.81e-3, 2.67e-4). A turn longer than its
-    phase gives no plan: status 2, and the robot stays at rest.
+    The turn begins at turn_start and ends before turn_end; afterwards the robot keeps its attitude. The default limits
+    are below the polynomial's largest rate, acceleration and jerk (0.0461 rad/s, 1.81e-3 rad/s2, 2.67e-4 rad/s3). A
+    turn longer than its phase gives no plan: status 2, and the robot stays at rest.
 
     Source: Biagiotti and Melchiorri 2008, section 3.4. See docs/systems/satellite_pointing.md.
     """

@@ -1,4 +1,4 @@
-"""Slew in the shortest time within limits of rate and acceleration."""
+"""Time-optimal slew within limits of rate and acceleration."""
 
 import math
 
@@ -19,7 +19,7 @@ class SlewBangCoast(SlewGuidance):
     """
 
     def peak_rate(self) -> float:
-        """Return largest rate (rad/s) that the turn reaches."""
+        """Return the largest angular rate (rad/s) of the turn."""
         reachable = math.sqrt(self.slew_angle * self.acceleration_limit)
         if reachable < self.rate_limit:
             return reachable

@@ -1,4 +1,4 @@
-"""Slew of least time within limits of rate, acceleration and jerk, between attitudes and angular velocities."""
+"""Time-optimal slew within limits of rate, acceleration and jerk, between attitudes and angular velocities."""
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports import sampling
@@ -119,7 +119,7 @@ class SlewJerkLimited(SlewGuidance):
         self.duration = self.stop.profile.duration + self.turn.profile.duration + self.spin.profile.duration
 
     def choose_axis(self, rotation: Vector3) -> Vector3:
-        """Return the unit axis of a rotation vector (rad), where it has none that of a boundary rate, or 0."""
+        """Return the unit axis of a rotation vector (rad); for a zero rotation that of a boundary rate, or 0."""
         if norm(rotation) > ALIGNED:
             return unit(rotation)
         if norm(self.start_angular_velocity) > 0.0:
@@ -141,7 +141,7 @@ class SlewJerkLimited(SlewGuidance):
         self.progress = SlewProgress(angle=motion.angle, rate=motion.rate)
 
     def coast(self, quaternion: Vector4, velocity: Vector3, time: float) -> None:
-        """Follow a constant angular velocity (rad/s) from an attitude on, for a time (s)."""
+        """Set the reference on a rotation at constant angular velocity (rad/s) from an attitude, after a time (s)."""
         self.start_quaternion = quaternion
         self.eigenaxis = unit(velocity)
         rate = norm(velocity)
@@ -170,7 +170,7 @@ class SlewJerkLimited(SlewGuidance):
 
 
 def unit(v: Vector3) -> Vector3:
-    """Return a vector of length one along v, or 0 where v is 0."""
+    """Return the unit vector along v, or 0 for v = 0."""
     length = norm(v)
     if length > 0.0:
         return v / length
@@ -183,5 +183,5 @@ def rotated(quaternion: Vector4, rotation: Vector3) -> Vector4:
 
 
 def end_of(leg: SlewLeg) -> Vector4:
-    """Return the attitude at the end of a leg."""
+    """Return the attitude at the end of an elementary rotation."""
     return rotated(leg.quaternion, leg.profile.angle * leg.axis)

@@ -1,4 +1,4 @@
-"""Slew with continuous acceleration."""
+"""Slew with continuous angular acceleration."""
 
 import math
 

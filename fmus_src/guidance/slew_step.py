@@ -1,4 +1,4 @@
-"""The target attitude at once."""
+"""Slew by a step of the reference to the target attitude."""
 
 from .slew_guidance import SlewGuidance
 

@@ -1,4 +1,4 @@
-"""The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
+"""Slot of terminal guidance: position and velocity targets at a time to go."""
 
 from ..block import Block, Input, Output, Outputs, Parameter, State
 from ..interfaces.ports import landing, sampling
@@ -16,7 +16,7 @@ SETTLED = 1e-10
 
 
 class TerminalStep(Enumeration):
-    """End of a terminal guidance."""
+    """Termination of a terminal guidance."""
 
     STOP = member("stop: finished when time_to_go < sample_period")
     EXACT = member("exact: last command burnt to the end of time_to_go")
@@ -26,8 +26,8 @@ class TerminalGuidance(Block, interface=True):
     """Terminal guidance in a landing-site frame: thrust commands until the target state is reached.
 
     A law defines `solve`, which sets time_to_go, status, thrust and direction from position and velocity; this class
-    samples it, ends the flight and times the last burn. A good solution with time_to_go <= 0 ends the flight and keeps
-    the command. With status 2 or 3 the last command is held and time_to_go counts down.
+    samples the law, ends the flight and times the last burn. A good solution with time_to_go <= 0 ends the flight and
+    keeps the command. With status 2 or 3 the last command is held and time_to_go counts down.
 
     With gravity_correction, gravity is linear in time from g_0 at the vehicle to g_T at the target, and adds
 
@@ -37,7 +37,7 @@ class TerminalGuidance(Block, interface=True):
 
     While `active` is false there is no command and no memory: the next active sample is a start. When divert_count
     changes, divert_position becomes the target from the next sample on and the law starts again; without a solution the
-    last command is held for its remaining time and each sample tries again. During the last burn nothing is diverted.
+    last command is held for its remaining time and each sample tries again. During the last burn diverts are ignored.
 
     With frozen_time_to_go the law uses that time at every sample: a constant feedback law for linear stability studies.
     The flight then ends by other conditions, and no command is a last burn.
@@ -104,11 +104,11 @@ class TerminalGuidance(Block, interface=True):
         """Set the command, time_to_go and status from position and velocity."""
 
     def remaining(self) -> tuple[Vector3, Vector3]:
-        """Return position (m) and velocity (m/s) still to gain, landing-site frame."""
+        """Return the remaining changes of position (m) and velocity (m/s), landing-site frame."""
         return self.remaining_over(self.expected_time)
 
     def remaining_over(self, time: float) -> tuple[Vector3, Vector3]:
-        """Return the same with gravity corrected over ``time`` (s), without a correction where that is 0 or less."""
+        """Return the same with gravity corrected over ``time`` (s); uncorrected for a time of 0 or less."""
         dr = self.aim_position - self.position
         dv = self.target_velocity - self.velocity
         if self.gravity_correction and time > 0.0:
@@ -121,17 +121,17 @@ class TerminalGuidance(Block, interface=True):
         return dr, dv
 
     def plan_frozen(self) -> bool:
-        """Return True if the plan is held, so that time_to_go never runs out."""
+        """Return True if time_to_go is held constant."""
         return self.frozen_time_to_go > 0.0
 
     def planned_time(self, time: float) -> float:
-        """Return the time_to_go (s) to command for: ``time``, or that of a frozen plan."""
+        """Return the time to go (s) for a command: ``time``, or frozen_time_to_go."""
         if self.plan_frozen():
             return self.frozen_time_to_go
         return time
 
     def aim(self) -> None:
-        """Solve; with gravity_correction again where the time to correct over was not known."""
+        """Solve; with gravity_correction and an unknown time to go repeatedly until the time is consistent."""
         self.solve()
         if self.gravity_correction and not self.started:
             for _ in range(SETTLING):
@@ -148,17 +148,17 @@ class TerminalGuidance(Block, interface=True):
             self.begin(self.start_time)
 
     def take_target(self) -> None:
-        """Aim at target_position."""
+        """Set the target to target_position."""
         self.aim_position = self.target_position
         self.flown_divert = self.divert_count
 
     def divert(self) -> None:
-        """Aim at divert_position."""
+        """Set the target to divert_position."""
         self.aim_position = self.divert_position
         self.flown_divert = self.divert_count
 
     def begin(self, time: float) -> None:
-        """Issue the first command, at ``time`` (s)."""
+        """Issue the first command at ``time`` (s)."""
         self.command.command_time = time
         self.cycle = self.sample_period
         self.expected_time = self.planned_time(0.0)
@@ -171,7 +171,7 @@ class TerminalGuidance(Block, interface=True):
             self.command.burn_duration = self.time_to_go
 
     def judge(self) -> None:
-        """Tell time that is up from time that never was."""
+        """Set ``started`` after a solution with time left; without one so far, time_to_go <= 0 means no solution."""
         if self.time_to_go > 0.0 and self.status < TerminalStatus.NOT_CONVERGED:
             self.started = True
             self.commanding = True
@@ -190,7 +190,7 @@ class TerminalGuidance(Block, interface=True):
             self.go_on(t, h)
 
     def rest(self) -> None:
-        """Deactivate: withdraw the command and forget all states."""
+        """Deactivate: withdraw the command and reset all states."""
         self.under_way = False
         self.started = False
         self.commanding = False
@@ -234,7 +234,7 @@ class TerminalGuidance(Block, interface=True):
         return self.cycle
 
     def hold_time(self) -> float:
-        """Return the longest time (s) to hold the last command."""
+        """Return the longest time (s) for which the last command is held."""
         held = LAST_BURN * self.cycle
         if self.last_burn > held:
             held = self.last_burn
@@ -249,7 +249,7 @@ class TerminalGuidance(Block, interface=True):
         self.command.command_time = time
 
     def follow(self, time: float) -> None:
-        """Command for the sample at ``time`` (s), or the end, or the last burn."""
+        """Process the sample at ``time`` (s): a command, the last burn or the end."""
         left = self.planned_time(self.time_to_go - self.cycle)
         self.expected_time = left
         if self.divert_count != self.flown_divert:
@@ -271,7 +271,7 @@ class TerminalGuidance(Block, interface=True):
             self.end(time)
 
     def end(self, time: float) -> None:
-        """End at ``time`` (s): with the last burn where it is due, or at once where less than a cycle is left."""
+        """End at ``time`` (s): with the last burn if it is due, or immediately if less than a cycle is left."""
         if self.terminal_step == TerminalStep.EXACT:
             self.command.burn_duration = UNLIMITED
             if self.time_to_go <= self.hold_time():

@@ -1,4 +1,4 @@
-"""E-guidance, or ZEM/ZEV, with a time of least propellant."""
+"""E-guidance, or ZEM/ZEV, with the time of least propellant."""
 
 from .polynomial_guidance import PolynomialGuidance
 

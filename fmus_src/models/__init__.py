@@ -1,1 +1,1 @@
-"""Models shared by plants, observers and regulators."""
+"""Models shared by plants, observers and controllers."""

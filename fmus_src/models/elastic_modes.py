@@ -1,4 +1,4 @@
-"""Modes of appendages and of sloshing propellant on a spacecraft."""
+"""Modes of a spacecraft's appendages and sloshing propellant."""
 
 import math
 
@@ -72,7 +72,7 @@ class ElasticModes(Block, interface=True):
     modal_coupling = State(zeros(3, MODES), description="coupling matrix of the modes with the rotation of the body")
 
     def start_modes(self, mass: float) -> bool:
-        """Set the constant matrices for a mass (kg) of the whole; False where the modes hold more than that."""
+        """Set the constant matrices for a total mass (kg); return False if the modes contain more than this mass."""
         self.translation = zeros(3, MODES)
         self.rotation = zeros(3, MODES)
         for k in range(MODES):
@@ -85,13 +85,14 @@ class ElasticModes(Block, interface=True):
         return invertible and is_positive_definite(modal_mass)
 
     def modal_inertia(self) -> Matrix:
-        """Return what the modes take of the matrix of inertia (kg m2): D (1 - L'L/M)^-1 D'."""
+        """Return the contribution D (1 - L'L/M)^-1 D' of the modes to the inertia matrix (kg m2)."""
         return self.modal_coupling @ self.rotation.T
 
     def largest_frequency(self, mass: float, inverse_inertia: Matrix) -> float:
-        """Return the largest frequency (rad/s) of the free whole, by its mass (kg) and inverse inertia, 1/(kg m2).
+        """Return the highest natural frequency (rad/s) of the free body, from its mass (kg) and inverse inertia, 1/(kg
+        m2).
 
-        Its square is the largest eigenvalue of W (1 - L'L/M - D'I^-1 D)^-1 W; infinite where that is not positive.
+        Its square is the largest eigenvalue of W (1 - L'L/M - D'I^-1 D)^-1 W; infinite if that matrix is not positive.
         """
         shared = self.translation.T @ self.translation / mass + self.rotation.T @ inverse_inertia @ self.rotation
         free = identity(MODES) - shared
@@ -102,15 +103,15 @@ class ElasticModes(Block, interface=True):
         return math.sqrt(largest_eigenvalue(frequencies @ inverse_free @ frequencies))
 
     def displaced_centre(self, displacements: Vector4, mass: float) -> Vector3:
-        """Return how far (m, body) the centre of mass is from where it is without deformation."""
+        """Return the displacement (m, body) of the centre of mass by the deformation."""
         return self.translation @ displacements / mass
 
     def modal_velocities(self, momenta: Vector4, w: Vector3) -> Vector4:
-        """Return the rates of the displacements on a body with the angular velocity w (rad/s)."""
+        """Return the time derivatives of the modal displacements for an angular velocity w (rad/s, body)."""
         return self.inverse_modal_mass @ (momenta - self.rotation.T @ w)
 
     def modal_forces(self, displacements: Vector4, velocities: Vector4, acceleration: Vector3) -> Vector4:
-        """Return the rates of the momenta, with the acceleration (m/s2, body) that forces give to the whole."""
+        """Return the time derivatives of the modal momenta for an acceleration (m/s2, body) of the whole by forces."""
         damping = self.mode_damping * self.mode_frequency * velocities
         stiffness = self.mode_frequency * self.mode_frequency * displacements
         return -(self.translation.T @ acceleration) - 2.0 * damping - stiffness

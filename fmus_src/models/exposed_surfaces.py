@@ -1,4 +1,4 @@
-"""Surfaces of a spacecraft in air and sunlight."""
+"""Surfaces of a spacecraft exposed to air and sunlight."""
 
 from ..block import Parameter, State
 from ..kernel.matrices import zeros
@@ -65,7 +65,7 @@ class ExposedSurfaces(SpaceModel, interface=True):
     lacks_normal = State(False, description="true: a plate with an area has no normal and is ignored")
 
     def start_surfaces(self) -> None:
-        """Set surfaces, with unit normals."""
+        """Set the plates with normalised normals."""
         self.surfaces = self.plates
         self.has_surfaces = self.sphere_area > 0.0
         self.lacks_normal = False
@@ -80,7 +80,7 @@ class ExposedSurfaces(SpaceModel, interface=True):
                 self.has_surfaces = True
 
     def surface_load(self, t: float, r: Vector3, v: Vector3, q: Vector4) -> SurfaceLoad:
-        """Return force and torque (body) of air and light.
+        """Return force (N, body) and torque (N m, body) of air drag and solar pressure.
 
         t: simulation time (s); r, v: position (m) and velocity (m/s), inertial; q: attitude, from body to inertial.
         """

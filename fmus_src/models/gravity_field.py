@@ -1,4 +1,4 @@
-"""Gravity that acts on a spacecraft about Earth or Moon."""
+"""Gravity on a spacecraft about Earth or Moon."""
 
 from ..block import Parameter, State
 from ..interfaces.ports.space import CelestialBody
@@ -33,20 +33,20 @@ class GravityField(SpaceModel, interface=True):
     )
 
     def fill_gravity(self) -> None:
-        """Set the coefficients of the body."""
+        """Set the coefficients of the central body's gravity field."""
         if self.central_body == CelestialBody.EARTH:
             self.gravity_coefficients = earth_gravity.earth_gravity()
         else:
             self.gravity_coefficients = moon_gravity.moon_gravity()
 
     def gravity_parameter(self) -> float:
-        """Return the gravitational parameter (m3/s2) of the body."""
+        """Return the gravitational parameter (m3/s2) of the central body."""
         if self.central_body == CelestialBody.EARTH:
             return earth_gravity.GRAVITATIONAL_PARAMETER
         return moon_gravity.GRAVITATIONAL_PARAMETER
 
     def gravity(self, t: float, r: Vector3) -> Vector3:
-        """Return the gravity of the body (m/s2, inertial) at a position r (m, inertial), t in simulation time (s)."""
+        """Return the gravity (m/s2, inertial) of the central body at r (m, inertial) and simulation time t (s)."""
         radius = earth_gravity.RADIUS
         if self.central_body == CelestialBody.MOON:
             radius = moon_gravity.RADIUS
@@ -57,7 +57,7 @@ class GravityField(SpaceModel, interface=True):
         )
 
     def third_body_gravity(self, r: Vector3) -> Vector3:
-        """Return the acceleration by the third bodies, less that of the circled body (m/s2, inertial)."""
+        """Return the acceleration by the third bodies minus that of the central body (m/s2, inertial)."""
         if not self.third_bodies:
             return vector(0.0, 0.0, 0.0)
         other = MOON_PARAMETER

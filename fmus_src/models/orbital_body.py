@@ -1,4 +1,4 @@
-"""Shared model of spacecraft on a circular orbit, for plants, observers and regulators."""
+"""Model of a spacecraft on a circular orbit, shared by plants, observers and controllers."""
 
 import math
 
@@ -49,7 +49,7 @@ class OrbitalBody(Block, interface=True):
         return invertible
 
     def motion(self, s: AttitudeState, torque: Vector3) -> AttitudeState:
-        """Return rates of the attitude under a torque (N m, body): docs/systems/orbital_attitude.md, motion."""
+        """Return the time derivative of the attitude state under a torque (N m, body)."""
         a = evaluate_angles(s.angles)
         w = s.angular_velocity
         return AttitudeState(
@@ -58,11 +58,11 @@ class OrbitalBody(Block, interface=True):
         )
 
     def derivatives(self, t: float, s: AttitudeState, torque: Vector3) -> AttitudeState:
-        """Return rates of the attitude as they are integrated."""
+        """Return the time derivative of the attitude state in the form for integrators."""
         return self.motion(s, torque)
 
     def torque_at(self, pulses: Vector3, time: float) -> Vector3:
-        """Return torque (N m, body) of the jets after ``time`` (s) of the pulses (s)."""
+        """Return the torque (N m, body) of the jets at ``time`` (s) after the start of pulses (s)."""
         x = 0.0
         y = 0.0
         z = 0.0
@@ -77,9 +77,10 @@ class OrbitalBody(Block, interface=True):
     def fire(
         self, s: AttitudeState, pulses: Vector3, constant_torque: Vector3, h: float, longest: float
     ) -> AttitudeState:
-        """Return the attitude h (s) later, under pulses (s) from now on and a torque constant_torque (N m, body).
+        """Return the attitude state after h (s) with pulses (s) that start now and a torque constant_torque (N m,
+        body).
 
-        The time is cut where a jet goes off, and the intervals into steps no longer than ``longest`` (s).
+        The time is divided at each end of a pulse, and the intervals into steps not longer than ``longest`` (s).
         """
         time = 0.0
         while time < h:

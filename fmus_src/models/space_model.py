@@ -1,4 +1,4 @@
-"""Models of the surroundings that a spacecraft and its sensors have in common."""
+"""Model of the space environment shared by a spacecraft and its sensors."""
 
 import math
 
@@ -94,7 +94,7 @@ class SpaceModel(Block, interface=True):
         self.field_coefficients = igrf14(self.epoch)
 
     def locate(self, t: float) -> None:
-        """Set the axes of the body's pole, the Sun and the third body as they are at t (s)."""
+        """Set the axes of the body's pole, the Sun and the third body for t (s)."""
         time = self.epoch + t
         moon = moon_position(time)
         if self.central_body == CelestialBody.EARTH:
@@ -107,18 +107,18 @@ class SpaceModel(Block, interface=True):
             self.third_body = -moon
 
     def moon(self) -> Vector3:
-        """Return the position of the Moon (m) from the body's centre."""
+        """Return the position of the Moon (m, inertial) relative to the central body's centre."""
         if self.central_body == CelestialBody.EARTH:
             return self.third_body
         return vector(0.0, 0.0, 0.0)
 
     def planet_angle_at(self, t: float) -> float:
-        """Return the angle (rad, 0 to 2 pi) of the prime meridian at t (s)."""
+        """Return the rotation angle (rad, 0 to 2 pi) of the prime meridian at t (s)."""
         turns = angle_at(self.pole_axes, self.epoch + t) / (2.0 * math.pi)
         return 2.0 * math.pi * (turns - float(math.floor(turns)))
 
     def radius(self) -> float:
-        """Return the radius (m) of the body's surface and shadow."""
+        """Return the radius (m) of the central body for surface and shadow."""
         if self.central_body == CelestialBody.EARTH:
             return EQUATORIAL_RADIUS
         return MOON_SHADOW_RADIUS
@@ -141,7 +141,7 @@ class SpaceModel(Block, interface=True):
         return vector(0.0, 0.0, 0.0)
 
     def air_density(self, t: float, r: Vector3) -> float:
-        """Return the density of the air (kg/m3)."""
+        """Return the air density (kg/m3) at a position and time."""
         if self.central_body == CelestialBody.EARTH:
             if self.atmosphere == Atmosphere.EXPONENTIAL:
                 return self.density_factor * exponential_density(self.height(r))
@@ -151,15 +151,15 @@ class SpaceModel(Block, interface=True):
         return 0.0
 
     def is_below_air(self, r: Vector3) -> bool:
-        """Return True if a position is below the tables of the air, where the density is that of 100 km."""
+        """Return True if a position is below the tables of air density, where the density of 100 km is used."""
         if self.central_body == CelestialBody.EARTH and self.atmosphere != Atmosphere.VACUUM:
             return self.height(r) < LOWEST_AIR
         return False
 
     def air_velocity(self, r: Vector3) -> Vector3:
-        """Return the velocity of the air (m/s, inertial), which turns with the planet."""
+        """Return the velocity of the air (m/s, inertial), which rotates with the planet."""
         return self.pole_axes.rate * cross(self.pole_axes.pole, r)
 
     def light(self, r: Vector3) -> float:
-        """Return the visible share of the Sun's disk."""
+        """Return the visible fraction of the Sun's disk."""
         return illumination(r, self.sun, self.radius())

@@ -1,4 +1,4 @@
-"""Four reaction wheels, as the plants that carry them have them in common."""
+"""Model of four reaction wheels, shared by the plants that have them."""
 
 from ..block import Block, Parameter, State
 from ..interfaces.ports import satellite
@@ -60,26 +60,28 @@ class SpinningWheels(Block, interface=True):
     axes = State(zeros(3, WHEELS), unit="1", frame="body", description="unit spin axes of the wheels, one per column")
 
     def start_wheels(self, w: Vector3) -> None:
-        """Set the wheels as they are at the start on a body with the angular velocity w (rad/s)."""
+        """Initialise the wheels on a body with the angular velocity w (rad/s, body)."""
         self.axes = unit_axes(self.wheel_axes)
         self.wheel_speeds = self.initial_wheel_speeds
         self.spin = self.wheel_inertia * (self.wheel_speeds + self.axes.T @ w)
         self.wheel_momentum = self.wheel_inertia * (self.axes @ self.wheel_speeds)
 
     def speeds(self, spin: Vector4, w: Vector3) -> Vector4:
-        """Return the speeds of the wheels (rad/s) relative to a body with the angular velocity w (rad/s)."""
+        """Return the wheel speeds (rad/s) relative to a body with the angular velocity w (rad/s, body)."""
         return spin / self.wheel_inertia - self.axes.T @ w
 
     def drag(self, speed: float) -> float:
-        """Return the friction (N m) on a wheel with a speed (rad/s)."""
+        """Return the friction torque (N m) on a wheel at a speed (rad/s)."""
         return drag_torque(speed, self.viscous_friction, self.coulomb_friction, self.coulomb_band)
 
     def drags(self, speeds: Vector4) -> Vector4:
-        """Return the friction (N m) on the wheels with their speeds (rad/s)."""
+        """Return the friction torques (N m) on the wheels at their speeds (rad/s)."""
         return vector(self.drag(speeds.w), self.drag(speeds.x), self.drag(speeds.y), self.drag(speeds.z))
 
     def drive(self, commands: Vector4) -> tuple[bool, bool]:
-        """Set applied_torques from commands (N m); whether a torque was limited, and a wheel is at its speed limit."""
+        """Set applied_torques from commands (N m); return if a torque was limited, and if a wheel is at its speed
+        limit.
+        """
         applied = [0.0] * WHEELS
         torque_limited = False
         speed_limited = False
@@ -96,6 +98,6 @@ class SpinningWheels(Block, interface=True):
         return torque_limited, speed_limited
 
     def set_wheel_outputs(self, w: Vector3) -> None:
-        """Set the outputs of the wheels on a body with the angular velocity w (rad/s)."""
+        """Set the wheels' outputs on a body with the angular velocity w (rad/s, body)."""
         self.wheel_speeds = self.speeds(self.spin, w)
         self.wheel_momentum = self.wheel_inertia * (self.axes @ self.wheel_speeds)

@@ -1,4 +1,4 @@
-"""Attitude and angular velocity, and their errors against the plan: a filter of measured quaternions."""
+"""Filter of measured quaternions for attitude and angular velocity errors relative to a plan."""
 
 import math
 
@@ -28,23 +28,23 @@ class AttitudeFilter(Block):
 
     With the error quaternion (e_0, e) of planned^-1 estimated, the error is 2 e_0 e.
 
-    method 0: mean of the last mean_samples errors; the rate is the difference of the last two means over the time
-    between them.
+    method 0: mean of the last mean_samples errors; the rate error is the difference of the last two means divided by
+    the time between them.
 
     method 1: Kalman filter of attitude, angular velocity and disturbance, equal for all axes. Between samples the
     angular momentum G is conserved except for the torque M of the jets and the disturbance d:
 
         G^+ = C (G + (M + J d) h/2) + (M + J d) h/2    ω^+ = J^-1 (G^+ - H^+)
 
-    with C into the new body axes and the gyros' momentum H from the gimbal angles. jet_torque and jet_force are those
-    of the last step. When the jets change, the disturbance changes by jet_torque_error times the change of force;
-    process_noise and disturbance_noise cover the rest.
+    with the rotation C to the new body axes and the gyros' momentum H from the gimbal angles. jet_torque and jet_force
+    are those of the last step. When the jets change, the disturbance changes by jet_torque_error times the change of
+    force; process_noise and disturbance_noise cover the rest.
 
-    Samples that are not finite or no attitude are skipped and reported; without a planned attitude errors are held.
+    Samples that are not finite or not an attitude are skipped and reported; without a planned attitude errors are held.
 
     Frame: body; quaternions from body to inertial.
 
-    Assumes small errors against the plan, and inertia and jets as declared.
+    Assumes small errors relative to the plan, and inertia and jets as declared.
 
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2; Lefferts, Markley and Shuster 1982 (error in body axes).
     See docs/theory/rendezvous.md.
@@ -149,14 +149,14 @@ class AttitudeFilter(Block):
         self.publish()
 
     def widen(self) -> None:
-        """Let a disturbance by the jets be as uncertain as their change of force makes it."""
+        """Increase the variance of the disturbance after a change of the jets' force."""
         jump = self.jet_force - self.last_force
         self.last_force = self.jet_force
         scale = 3.0 * self.jet_torque_error / (self.inertia.x + self.inertia.y + self.inertia.z)
         self.covariance[DISTURBANCE, DISTURBANCE] += scale * scale * dot(jump, jump)
 
     def predict(self, h: float) -> None:
-        """Move estimate and covariance by h (s): the total momentum stays in inertial axes but for the jets."""
+        """Propagate estimate and covariance by h (s), with total angular momentum conserved except for the jets."""
         momentum_body = self.inertia * self.angular_velocity + self.last_momentum
         # half of what jets and disturbance give over h, and the angular velocity in the middle
         impulse_body = 0.5 * h * (self.jet_torque + self.inertia * self.disturbance)
@@ -169,7 +169,7 @@ class AttitudeFilter(Block):
         self.covariance = predict_triple(self.covariance, self.process_noise, self.disturbance_noise, h)
 
     def take_sample(self) -> None:
-        """Take a new sample in, if it is one."""
+        """Process the sample if it is new."""
         if self.sample_count == self.counted:
             return
         self.counted = self.sample_count
@@ -194,7 +194,7 @@ class AttitudeFilter(Block):
             self.correct()
 
     def correct(self) -> None:
-        """Take the measured quaternion into the Kalman filter."""
+        """Correct the Kalman filter by the measured quaternion."""
         innovation = to_rotation_vector(difference(self.quaternion, self.measured_quaternion))
         gain, self.covariance, variance = measure_chain(self.covariance, self.attitude_sigma * self.attitude_sigma)
         square = innovation * innovation / variance
@@ -205,7 +205,7 @@ class AttitudeFilter(Block):
         self.quaternion = normalise(multiply(self.quaternion, turned))
 
     def put_out_mean(self, time: float) -> None:
-        """Put the mean of the samples since the last one out at ``time`` (s)."""
+        """Output the mean of the samples since the previous mean, at ``time`` (s)."""
         elapsed = time - self.mean_time
         mean = self.total / float(self.summed)
         if self.means > 0 and elapsed > 0.0:

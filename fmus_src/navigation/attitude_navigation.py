@@ -1,4 +1,4 @@
-"""The slot of attitude navigation: from star tracker and gyros to attitude and angular velocity."""
+"""Slot of attitude navigation: from star tracker and gyros to attitude and angular velocity."""
 
 from ..block import Block, Input, Output, Parameter
 from ..interfaces.ports import body, robot, sampling, satellite, space
@@ -21,10 +21,10 @@ class AttitudeNavigationStatus(Enumeration):
 
 
 class AttitudeNavigation(Block, interface=True):
-    """Attitude and angular velocity of a satellite as known on board.
+    """Estimated attitude and angular velocity of a satellite.
 
-    Samples of star tracker, gyros, Sun sensors and magnetometer come with a count that signals new ones. The true
-    motion is connected for navigation without errors. The parameters are common to all navigation of the slot.
+    Samples of star tracker, gyros, Sun sensors and magnetometer come with counts that signal new ones. The true motion
+    is connected for navigation without errors. All blocks of the slot have the same parameters.
 
     Frames: body; inertial for modelled directions; quaternions from body to inertial.
 

@@ -1,4 +1,4 @@
-"""Attitude from star tracker, gyros, Sun sensors and magnetometer: a multiplicative extended Kalman filter."""
+"""Multiplicative extended Kalman filter of attitude from star tracker, gyros, Sun sensors and magnetometer."""
 
 import math
 
@@ -77,7 +77,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.take_samples(self.start_time)
 
     def remember_turn(self, start: float, end: float) -> None:
-        """Put the turn of the cycle between two times (s) first."""
+        """Store the rotation between two times (s) as the newest one."""
         for i in range(TURNS - 1):
             k = TURNS - 1 - i
             self.turns[k, 0:3] = self.turns[k - 1, 0:3]
@@ -88,7 +88,9 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         self.turn_ends[0] = end
 
     def turned_on(self, q: Vector4) -> Vector4:
-        """Return the attitude of star_time as it is now, by the gyros; in a cycle they turn steadily."""
+        """Return the attitude of star_time propagated to now by the gyros, at a constant rate within each sample
+        period.
+        """
         if self.star_time < 0.0:
             return q
         for i in range(TURNS):
@@ -101,13 +103,13 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         return normalise(q)
 
     def restart(self, variance: float) -> None:
-        """Set the variance of the attitude (rad^2) per axis, without correlation to the bias."""
+        """Reset the attitude covariance to a variance (rad^2) per axis, without correlation to the bias."""
         self.covariance[ROTATION, ROTATION] = variance * identity(3)
         self.covariance[ROTATION, BIAS] = zeros(3, 3)
         self.covariance[BIAS, ROTATION] = zeros(3, 3)
 
     def accept(self, sensor: int, h: Matrix, variances: Vector3, z: Vector3) -> bool:
-        """Take three components in unless they are beyond the gate. True if they are within."""
+        """Process three components unless they are beyond the gate; return True if they are within it."""
         if self.gate > 0.0:
             square = squared_distance(self.covariance, h, variances, z)
             if square > self.gate:
@@ -124,7 +126,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         return True
 
     def take_star_sample(self, t: float) -> None:
-        """Take a new star sample in, if there is one."""
+        """Process the star sample if it is new."""
         if self.star_count == self.star_counted:
             return
         self.star_counted = self.star_count
@@ -168,14 +170,14 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
             self.last_star = t
 
     def take_direction(self, sensor: int, measured: Vector3, reference: Vector3, sigma: float) -> None:
-        """Take a measured direction (body) in, by its reference (inertial); both finite and not 0."""
+        """Process a measured direction (body) with its reference (inertial), both finite and not 0."""
         z = innovation(self.estimated_quaternion, reference, measured)
         h = sensitivity(measured / norm(measured) - z)
         variances = sigma * sigma * vector(1.0, 1.0, 1.0)
         self.accept(sensor, h, variances, z)
 
     def is_new(self, counted: bool, measured: Vector3, reference: Vector3) -> bool:
-        """Return True if a counted direction and its reference are finite and not 0; report it if they are not."""
+        """Return True if a new direction and its reference are finite and not 0; report a new one that is not."""
         if not counted:
             return False
         if is_finite(measured) and is_finite(reference) and norm(measured) > 0.0 and norm(reference) > 0.0:
@@ -184,7 +186,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
         return False
 
     def take_directions(self) -> None:
-        """Take new directions in, or begin with them."""
+        """Process new directions, or initialise the attitude from them."""
         sun = self.is_new(self.sun_count != self.sun_counted, self.measured_sun, self.sun_direction)
         field = self.is_new(self.field_count != self.field_counted, self.measured_field, self.magnetic_field)
         self.sun_counted = self.sun_count
@@ -203,7 +205,7 @@ class AttitudeNavigationFilter(MultiplicativeFilter):
                 self.restart(variance / (TRIAD_SINE * TRIAD_SINE))
 
     def take_samples(self, t: float) -> None:
-        """Take all new samples in, and report."""
+        """Process all new samples, and set the outputs."""
         self.take_star_sample(t)
         self.take_directions()
         self.attitude_known = self.begun

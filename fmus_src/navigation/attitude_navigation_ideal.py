@@ -1,4 +1,4 @@
-"""Attitude as it is."""
+"""Attitude navigation without errors."""
 
 from .attitude_navigation import AttitudeNavigation
 
@@ -13,7 +13,7 @@ class AttitudeNavigationIdeal(AttitudeNavigation):
         self.pass_on()
 
     def pass_on(self) -> None:
-        """Pass the truth on."""
+        """Set the estimate to the true motion."""
         self.attitude_known = True
         self.estimated_quaternion = self.quaternion
         self.estimated_angular_velocity = self.angular_velocity

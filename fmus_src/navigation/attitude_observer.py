@@ -1,4 +1,4 @@
-"""The slot of observers of the orbital attitude: from roll, pitch and rates measured to all angles and rates."""
+"""Slot of observers of the orbital attitude: from measured roll, pitch and rates to all angles and rates."""
 
 import math
 
@@ -27,13 +27,13 @@ class ObserverStatus(Enumeration):
 class AttitudeObserver(OrbitalBody, interface=True):
     """Observer of roll, yaw, pitch and angular velocity without a measurement of yaw.
 
-    Yaw affects the roll rate only by -ω_0 ψ, through the rotation of the orbital frame. At each sample an observer gets
-    roll, pitch and angular velocity, and the pulses of the previous sample period. It starts from the first sample with
-    yaw 0. Without a new finite sample of both sensors it propagates the estimate by the equations of motion. The
-    parameters are common to all observers of the slot; jets and inertia are those known on board.
+    Yaw affects the roll rate only by -ω_0 ψ, through the rotation of the orbital frame. At each sample an observer
+    receives roll, pitch and angular velocity, and the pulses of the previous sample period. It starts from the first
+    sample with yaw 0. Without new finite samples of both sensors it propagates the estimate by the equations of motion.
+    All observers of the slot have the same parameters; jets and inertia are those known on board.
 
-    An observer defines `begin`, which may compute gains, and `observe`, which sets angles_now and rates_now from the
-    sample, the previous sample and the pulses between them.
+    An observer defines `begin`, which may compute gains, and `observe`, which sets the estimate from the sample, the
+    previous sample and the pulses between them.
 
     Frames: orbital; body.
 
@@ -112,25 +112,25 @@ class AttitudeObserver(OrbitalBody, interface=True):
     usable = State(True, description="true: observer gains computed")
 
     def begin(self) -> bool:
-        """Make what the observer needs from the parameters; whether that could be done."""
+        """Compute gains from the parameters; return True if they exist."""
         return True
 
     def observe(self) -> None:
         """Set the estimate for the present sample."""
 
     def mean_torque(self, pulses: Vector3) -> Vector3:
-        """Return the mean torque (N m, body) over the tick."""
+        """Return the mean torque (N m, body) over the sample period."""
         return self.jet_torque * pulses / self.sample_period + self.held_torque
 
     def carry(self, split: bool) -> AttitudeState:
-        """Propagate the estimate of a tick ago, under its pulses: each one as it was, or all in the mean."""
+        """Return the previous estimate propagated over a sample period, pulse by pulse or under their mean torque."""
         if split:
             return self.fire(self.estimate, self.fired_pulses, self.held_torque, self.sample_period, math.inf)
         torque = self.mean_torque(self.fired_pulses)
         return runge_kutta_4(self.derivatives, 0.0, self.estimate, self.sample_period, torque)
 
     def take_measured(self, yaw: float) -> None:
-        """Take roll, pitch and rates as measured, with an estimated yaw (rad)."""
+        """Set the estimate to measured roll, pitch and rates with an estimated yaw (rad)."""
         self.estimate = AttitudeState(
             angles=vector(self.measured_roll, yaw, self.measured_pitch), angular_velocity=self.measured_angular_velocity
         )
@@ -151,7 +151,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
             self.status = ObserverStatus.NO_GAIN
 
     def remember(self) -> None:
-        """Keep the sample for the next tick."""
+        """Store the sample as the previous one."""
         self.last_roll = self.measured_roll
         self.last_pitch = self.measured_pitch
         self.last_rates = self.measured_angular_velocity
@@ -159,11 +159,11 @@ class AttitudeObserver(OrbitalBody, interface=True):
         self.gyro_counted = self.gyro_count
 
     def coast(self) -> None:
-        """Set the estimate without a sample."""
+        """Propagate the estimate without a sample."""
         self.estimate = self.carry(True)
 
     def bound(self) -> None:
-        """Keep yaw within largest_yaw."""
+        """Limit yaw to largest_yaw."""
         angles = self.estimate.angles
         yaw = clip(angles.y, -self.largest_yaw, self.largest_yaw)
         if yaw != angles.y:
@@ -171,7 +171,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
             self.estimate = replace(self.estimate, angles=vector(angles.x, yaw, angles.z))
 
     def publish(self) -> None:
-        """Put the estimate out."""
+        """Output the estimate."""
         self.bound()
         self.estimated_angles = self.estimate.angles
         self.estimated_angular_velocity = self.estimate.angular_velocity

@@ -1,4 +1,4 @@
-"""Navigation whose errors wander, as a filter's do."""
+"""Navigation with correlated errors, like those of a filter."""
 
 import math
 
@@ -65,7 +65,7 @@ class ColouredNavigation(Navigation):
         self.measure()
 
     def measure(self) -> None:
-        """Set the estimate from the truth and its errors."""
+        """Set the estimate to the true motion plus errors."""
         errors = [0.0] * 6
         for i in range(6):
             error = normal(self.generator)

@@ -1,4 +1,4 @@
-"""Consistency of an estimate's errors with its covariance."""
+"""Monitor of the consistency of an estimate's errors with its covariance."""
 
 import math
 
@@ -50,7 +50,7 @@ class EstimateMonitor(Block):
         self.compare()
 
     def compare(self) -> None:
-        """Compare the estimate with the truth."""
+        """Compare the estimate with the true motion."""
         position_error = self.estimated_position - self.position
         velocity_error = self.estimated_velocity - self.velocity
         error = zeros(6, 1)

@@ -1,4 +1,4 @@
-"""Base of Kalman filters around an inertial navigation: everything but the covariance's algebra."""
+"""Base of Kalman filters around an inertial navigation, except for the covariance computations."""
 
 import math
 
@@ -137,14 +137,16 @@ class FilteredNavigation(InertialNavigation, interface=True):
     )
 
     def predict(self, h: float) -> None:
-        """Predict the covariance h (s) ahead under the specific force."""
+        """Propagate the covariance by h (s) under the specific force."""
 
     def weigh(self, row: Matrix, variance: float) -> float:
-        """Return variance of the innovation of a scalar, whose derivatives by the states are a row."""
+        """Return the variance of a scalar's innovation, with the scalar's derivatives with respect to the states in
+        ``row``.
+        """
         return 0.0
 
     def take_in(self, row: Matrix, innovation: float, s: float, variance: float) -> Matrix:
-        """Update the covariance; what the innovation adds to the states, a column."""
+        """Update the covariance; return the corrections of the states (a column) by the innovation."""
         return zeros(STATES, 1)
 
     def initialize(self) -> None:
@@ -160,7 +162,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         self.publish()
 
     def compensate(self) -> None:
-        """Take the estimated errors of the inertial sensor off the specific force."""
+        """Subtract the estimated errors of the inertial sensor from the specific force."""
         if not self.free_flight:
             bias = self.sensor_errors[0:3, 0]
             scale_factor = self.sensor_errors[3:6, 0]
@@ -168,8 +170,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
             self.force = self.force - sensor_addition(bias, scale_factor, rotation, self.force)
 
     def local_gradient(self) -> tuple[Vector3, float]:
-        """Return the unit vector away from the Moon's centre, and the gradient of gravity
-        (1/s2), 0 where it is left out."""
+        """Return the unit vector away from the Moon's centre, and the gravity gradient (1/s2), 0 if it is neglected."""
         up = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(up)
         if self.gravity_gradient and distance > 0.0:
@@ -177,7 +178,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         return up, 0.0
 
     def altitude(self, row: Matrix) -> float:
-        """Return the estimated altitude (m); set row to its derivatives by the states."""
+        """Return the estimated altitude (m); set row to its derivatives with respect to the states."""
         up = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(up)
         if distance > 0.0:
@@ -186,7 +187,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         return distance - self.moon_radius
 
     def consider(self, sensor: int, row: Matrix, innovation: float, sigma: float) -> float:
-        """Take a scalar in, or reject it; returns its normalised innovation squared."""
+        """Process or reject a scalar; return its normalised innovation squared."""
         variance = sigma * sigma
         s = self.weigh(row, variance)
         if not s > 0.0:
@@ -208,7 +209,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         return square
 
     def note(self, sensor: int, rejected_before: int) -> None:
-        """Count a sample just taken, and whether some of it was rejected."""
+        """Count a processed sample, and its rejection if a part of it was rejected."""
         self.sample_count = self.sample_count + 1
         if self.rejected_count > rejected_before:
             self.rejected_in_a_row[sensor] = self.rejected_in_a_row[sensor] + 1
@@ -216,7 +217,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
             self.rejected_in_a_row[sensor] = 0
 
     def measure(self) -> None:
-        """Take the new samples in."""
+        """Process the new samples."""
         radial = zeros(1, STATES)
         before = self.rejected_count
         if self.altitude_count != self.altitude_taken:

@@ -1,4 +1,4 @@
-"""Base of observers of the whole state: one gain for angles and rates."""
+"""Base of full-order observers with one gain for angles and rates."""
 
 from ..block import State
 from ..kernel.matrices import Matrix
@@ -24,7 +24,7 @@ class FullAttitudeObserver(AttitudeObserver, interface=True):
     )
 
     def compose(self, m: Matrix, row: list) -> None:
-        """Set gain = m (C' + e row): m 6 x 6, row of five."""
+        """Set gain = m (C' + e row) for m (6 x 6) and a row of five."""
         for i in range(6):
             for j in range(5):
                 self.gain[i, j] = m[i, index_of_measured(j)] + m[i, YAW] * row[j]

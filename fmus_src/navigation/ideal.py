@@ -15,7 +15,7 @@ class IdealNavigation(Navigation):
         self.measure()
 
     def measure(self) -> None:
-        """Pass the truth on."""
+        """Set the estimate to the true motion."""
         self.sample_count = self.sample_count + 1
         self.estimated_position = self.position
         self.estimated_velocity = self.velocity

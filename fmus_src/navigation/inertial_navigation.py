@@ -1,4 +1,4 @@
-"""Base of navigations that integrate an inertial sensor."""
+"""Base of navigation blocks that integrate an inertial sensor."""
 
 from ..block import State
 from ..interfaces.navigation import Navigation
@@ -67,7 +67,7 @@ class InertialNavigation(Navigation, interface=True):
         self.inertial_taken = self.inertial_count
 
     def sense(self, h: float) -> None:
-        """Set force (m/s2) to the mean specific force that was measured over the last h (s), or is extrapolated."""
+        """Set force (m/s2) to the mean specific force over the last h (s), measured or extrapolated."""
         self.since_sample = self.since_sample + h
         self.force_before = self.force
         if self.free_flight:
@@ -84,7 +84,7 @@ class InertialNavigation(Navigation, interface=True):
             self.assumed_increment = self.assumed_increment + h * self.last_force
 
     def pass_over(self) -> None:
-        """Set no specific force; a new inertial sample is not used."""
+        """Set the specific force to 0, and skip a new inertial sample."""
         self.force = vector(0.0, 0.0, 0.0)
         self.last_force = self.force
         self.assumed_increment = self.force
@@ -94,7 +94,7 @@ class InertialNavigation(Navigation, interface=True):
             self.sample_count = self.sample_count + 1
 
     def move(self, h: float) -> None:
-        """Move the estimate by h (s) with the mean specific force."""
+        """Propagate the estimate by h (s) with the mean specific force."""
         if not self.under_way:
             self.under_way = True
             self.force_before = self.force

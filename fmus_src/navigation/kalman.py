@@ -1,4 +1,4 @@
-"""Navigation through a Kalman filter."""
+"""Inertial navigation with a Kalman filter."""
 
 from ..kernel.matrices import Matrix
 from ..mathlib.estimation.inertial import predict_errors
@@ -9,7 +9,7 @@ from .filtered_navigation import FilteredNavigation
 class KalmanNavigation(FilteredNavigation):
     """Kalman navigation: inertial navigation corrected from altimeter, velocimeter and camera by a Kalman filter.
 
-    The propagation uses the changing blocks of the covariance only; updates take Joseph's form.
+    The propagation computes only the blocks of the covariance that change; updates take Joseph's form.
     """
 
     def predict(self, h: float) -> None:

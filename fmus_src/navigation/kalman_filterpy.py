@@ -1,4 +1,4 @@
-"""Navigation through a Kalman filter of the library filterpy."""
+"""Inertial navigation with a Kalman filter of the library filterpy."""
 
 from typing import Any
 
@@ -18,7 +18,7 @@ class KalmanNavigationFilterpy(FilteredNavigation):
     requires = ("filterpy", "numpy")
 
     def filter(self) -> Any:
-        """Return a filterpy.kalman.KalmanFilter with the covariance; all its memory is in declared states."""
+        """Return a filterpy.kalman.KalmanFilter with the present covariance; nothing is stored in it between steps."""
         from filterpy.kalman import KalmanFilter  # with scipy.stats, half a second of whoever reads the catalogue
 
         made = KalmanFilter(dim_x=15, dim_z=1)

@@ -1,4 +1,4 @@
-"""Attitude and gyro bias by gyros: what multiplicative filters have in common."""
+"""Base of multiplicative filters: attitude and gyro bias, propagated by gyros."""
 
 from ..block import State
 from ..interfaces.ports import body, sampling
@@ -32,7 +32,7 @@ class MultiplicativeFilter(AttitudeNavigation, interface=True):
     turn = body.ROTATION.state("rotation vector since the last update, integrated from the gyros")
 
     def begin(self) -> None:
-        """Set the filter as it is before the first attitude."""
+        """Initialise the filter, without attitude yet."""
         self.last_time = self.start_time
         self.gyro_counted = self.gyro_count - 1
         sigma = self.first_bias_sigma
@@ -41,7 +41,7 @@ class MultiplicativeFilter(AttitudeNavigation, interface=True):
         self.rate = self.gyro_rate()
 
     def gyro_rate(self) -> Vector3:
-        """Return the gyros' new sample if it is finite, or else the last finite one."""
+        """Return the new gyro sample (rad/s, body) if it is finite, else the last finite one."""
         self.status = AttitudeNavigationStatus.GOOD
         if self.gyro_count == self.gyro_counted:
             return self.rate
@@ -52,7 +52,7 @@ class MultiplicativeFilter(AttitudeNavigation, interface=True):
         return self.rate
 
     def predict(self, h: float) -> None:
-        """Propagate by the gyros over h (s)."""
+        """Propagate attitude and covariance by h (s) with the gyros."""
         rate = self.gyro_rate()
         self.turn = h * (0.5 * (self.rate + rate) - self.estimated_bias)
         self.rate = rate

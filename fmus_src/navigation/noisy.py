@@ -1,4 +1,4 @@
-"""Navigation from noisy position and velocity fixes through a Kalman filter."""
+"""Navigation from noisy position and velocity fixes with a Kalman filter."""
 
 import math
 
@@ -81,7 +81,7 @@ class NoisyNavigation(Navigation):
             self.pass_truth()
 
     def move(self, h: float) -> None:
-        """Predict the estimate h (s) ahead."""
+        """Propagate the estimate by h (s)."""
         f = identity(6)
         f[POSITION, VELOCITY] = h * identity(3)
         q = zeros(6, 6)
@@ -99,7 +99,7 @@ class NoisyNavigation(Navigation):
         self.estimate[VELOCITY, 0] += acceleration * h
 
     def fix(self, first: int, truth: Vector3, sigma: float) -> None:
-        """Measure three states from number ``first`` on, with errors of sigma, and take them in."""
+        """Measure three states from index ``first`` on, with errors of sigma, and update the estimate."""
         for i in range(3):
             row = zeros(1, 6)
             row[0, first + i] = 1.0
@@ -125,7 +125,7 @@ class NoisyNavigation(Navigation):
                 k = k + 1
 
     def pass_truth(self) -> None:
-        """Set the estimate without sensors: the truth."""
+        """Set the estimate to the true motion, as both sensors are off."""
         self.sample_count = self.sample_count + 1
         self.estimated_position = self.position
         self.estimated_velocity = self.velocity

@@ -1,4 +1,4 @@
-"""Orbital attitude by a Kalman filter that the gyros drive."""
+"""Observer of the orbital attitude by a Kalman filter driven by the gyros."""
 
 import math
 
@@ -24,8 +24,8 @@ class OrbitalFilter(AttitudeObserver):
         c = J^-1 M s τ (T - τ)/(2 T)
 
     Roll and pitch correct angles and biases. Rates follow the pulses and are corrected by the gyros with rate_gain. Yaw
-    and the roll gyro's bias over ω_0 are indistinguishable while yaw is small: their sum is known no better than the
-    initial bias unless the body rotates about yaw.
+    and the roll gyro's bias over ω_0 are indistinguishable while yaw is small: the accuracy of their sum is limited by
+    the initial bias unless the body rotates about yaw.
 
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 10.3. See docs/systems/orbital_attitude.md.
     """
@@ -52,7 +52,7 @@ class OrbitalFilter(AttitudeObserver):
         return True
 
     def predict_covariance(self, angles: Vector3, w: Vector3) -> None:
-        """Predict the covariance a tick ahead, at angles (rad) and rates (rad/s) of its middle."""
+        """Propagate the covariance over a sample period, linearised at angles (rad) and rates (rad/s) of its middle."""
         period = self.sample_period
         by_angles, by_rates = angle_rate_derivatives(evaluate_angles(angles), w, self.orbital_rate)
         f = identity(6)  # 1 + T df/dx, with the rates less the biases
@@ -64,7 +64,7 @@ class OrbitalFilter(AttitudeObserver):
         self.covariance = predict(self.covariance, f, q)
 
     def advance(self, w: Vector3) -> None:
-        """Advance angles and covariance a tick, at the mean angular velocity w (rad/s, body)."""
+        """Propagate angles and covariance over a sample period at the mean angular velocity w (rad/s, body)."""
         half = 0.5 * self.sample_period
         angles = self.estimate.angles
         middle = angles + half * angle_rates(evaluate_angles(angles), w, self.orbital_rate)
@@ -73,7 +73,7 @@ class OrbitalFilter(AttitudeObserver):
         self.estimate = replace(self.estimate, angles=turned)
 
     def correct(self) -> None:
-        """Take roll and pitch in."""
+        """Update the estimate by measured roll and pitch."""
         x = zeros(6, 1)
         x[ANGLES, 0] = self.estimate.angles
         x[BIASES, 0] = self.bias
@@ -88,7 +88,7 @@ class OrbitalFilter(AttitudeObserver):
         self.bias = x[BIASES, 0]
 
     def coning_correction(self) -> Vector3:
-        """Return the error of the mean of the rates at both ends of a tick by its pulses (rad/s, body)."""
+        """Return the error (rad/s, body) by pulses of the mean of the rates at both ends of a sample period."""
         px, py, pz = self.fired_pulses
         period = self.sample_period
         after = vector(period - abs(px), period - abs(py), period - abs(pz))
@@ -109,7 +109,7 @@ class OrbitalFilter(AttitudeObserver):
         self.estimate = carried
 
     def bound(self) -> None:
-        """Publish the filter's yaw, which is free, with its bounds."""
+        """Set gyro bias and standard deviation of yaw; yaw itself is not limited."""
         self.estimated_gyro_bias = self.bias
         variance = self.covariance[YAW, YAW]
         if variance > 0.0:

@@ -1,4 +1,4 @@
-"""Orbital attitude by a continuous observer of the whole state."""
+"""Continuous full-order observer of the orbital attitude."""
 
 from ..block import Parameter
 from ..kernel.matrices import identity

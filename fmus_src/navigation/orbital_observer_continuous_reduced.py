@@ -1,4 +1,4 @@
-"""Orbital attitude by a continuous observer of yaw alone."""
+"""Continuous reduced-order observer of the orbital attitude, for yaw alone."""
 
 from ..block import State
 from ..kernel.functions import cos, exp, sin, tan

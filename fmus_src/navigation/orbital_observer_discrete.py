@@ -1,4 +1,4 @@
-"""Orbital attitude by a discrete observer of the whole state."""
+"""Discrete full-order observer of the orbital attitude."""
 
 from ..block import Parameter
 from ..kernel.functions import exp

@@ -1,4 +1,4 @@
-"""Orbital attitude by a discrete observer of yaw alone."""
+"""Discrete reduced-order observer of the orbital attitude, for yaw alone."""
 
 from ..block import Parameter
 from ..kernel.functions import exp

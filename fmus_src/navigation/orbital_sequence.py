@@ -1,4 +1,4 @@
-"""Orbital attitude in three stages, as it is done without an observer."""
+"""Orbital attitude in three stages without an observer, the conventional procedure."""
 
 import math
 
@@ -40,11 +40,11 @@ class OrbitalSequence(AttitudeObserver):
     turned = State(0.0, unit="rad", description="integral of the measured roll rate since the start of averaging")
 
     def due(self, time: float) -> bool:
-        """Return True if the tick nearest to a time (s after the start) has come."""
+        """Return True if the sample nearest to a time (s after the start) has been reached."""
         return self.ticks >= math.floor(time / self.sample_period + 0.5)
 
     def average(self) -> float:
-        """Return the yaw (rad) of the second stage, 0 until it ends."""
+        """Return the yaw (rad) of the averaging stage, 0 until it ends."""
         elapsed = float(self.ticks - self.last_tick) * self.sample_period
         self.turned = self.turned + 0.5 * elapsed * (self.last_rates.x + self.measured_angular_velocity.x)
         if not self.due(self.averaging_end):

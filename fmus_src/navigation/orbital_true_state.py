@@ -1,4 +1,4 @@
-"""Orbital attitude as it is."""
+"""Orbital attitude without observer errors."""
 
 from ..mathlib.orbits.attitude import AttitudeState
 from .attitude_observer import AttitudeObserver
@@ -8,5 +8,5 @@ class OrbitalTrueState(AttitudeObserver):
     """True angles and rates, as a reference without observer errors."""
 
     def bound(self) -> None:
-        """Tell the truth, whatever the sample."""
+        """Set the estimate to the true state, whatever the sample."""
         self.estimate = AttitudeState(angles=self.true_angles, angular_velocity=self.true_angular_velocity)

@@ -1,4 +1,4 @@
-"""Pointing accuracy of a satellite: true motion against reference and target, and the end of the flight."""
+"""Monitor of a satellite's pointing accuracy, which ends the simulation."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import body, landing, robot, sampling
@@ -77,7 +77,7 @@ class PointingMonitor(Block):
         self.compare(self.start_time)
 
     def compare(self, time: float) -> None:
-        """Compare the true motion at a time (s) with reference and target."""
+        """Compare the true motion at time (s) with reference and target."""
         self.attitude_error = to_rotation_vector(difference(self.reference_quaternion, self.quaternion))
         self.pointing_error = norm(to_rotation_vector(difference(self.target_quaternion, self.quaternion)))
         self.knowledge_error = to_rotation_vector(difference(self.quaternion, self.estimated_quaternion))

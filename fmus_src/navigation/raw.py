@@ -1,4 +1,4 @@
-"""Navigation without a filter."""
+"""Dead-reckoning navigation without a filter."""
 
 from ..mathlib.lunar.gravity import from_centre
 from ..mathlib.vectors import norm
@@ -18,7 +18,7 @@ class RawNavigation(InertialNavigation):
         self.put_in()
 
     def put_in(self) -> None:
-        """Put the new samples into the estimate."""
+        """Replace the estimate by the new samples."""
         if self.altitude_count != self.altitude_taken:
             self.altitude_taken = self.altitude_count
             self.sample_count = self.sample_count + 1
@@ -33,7 +33,7 @@ class RawNavigation(InertialNavigation):
             self.estimated_position = self.measured_position
 
     def rise_to(self, altitude: float) -> None:
-        """Move the position along the local vertical to an altitude (m)."""
+        """Move the estimated position along the local vertical to an altitude (m)."""
         centred = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(centred)
         if distance > 0.0:

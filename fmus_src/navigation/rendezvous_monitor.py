@@ -1,4 +1,4 @@
-"""Accuracy of an approach: true motion against the plan."""
+"""Monitor of an approach: errors of the true motion relative to the plan."""
 
 from ..block import Block, Output, Parameter
 from ..interfaces.ports import body, inertial, robot
@@ -102,7 +102,9 @@ class RendezvousMonitor(Block):
         self.rodrigues = to_rodrigues(self.quaternion)
 
     def check_cone(self, relative: Vector3) -> None:
-        """Set cone_angle for the position (m) from robot to object, and at the start of the closing its verdict."""
+        """Set cone_angle for the position (m) of the robot relative to the object, and closing_start when closing
+        begins.
+        """
         self.cone_angle = atan2(norm(cross(relative, self.target_velocity)), dot(relative, self.target_velocity))
         if self.closing_start != ClosingStart.AWAITED or self.range > self.closing_range:
             return

@@ -1,4 +1,4 @@
-"""Deviation of the robot from its plan: a filter of measured relative positions."""
+"""Filter of measured relative positions for position and velocity errors relative to a plan."""
 
 import math
 
@@ -125,18 +125,18 @@ class TranslationFilter(Block):
         self.publish()
 
     def remember_attitude(self) -> None:
-        """Keep the attitude for the next step, if there is one."""
+        """Store a valid attitude for the next step."""
         if is_attitude(self.quaternion):
             self.last_quaternion = self.quaternion
 
     def sigma_now(self) -> float:
-        """Return the standard deviation (m) of a sample as near as the last one."""
+        """Return the standard deviation (m) of a sample at the distance of the last one."""
         if norm(self.relative_position) < self.near_range:
             return self.near_sigma
         return self.far_sigma
 
     def predict(self, h: float) -> None:
-        """Move estimate and covariance by h (s)."""
+        """Propagate estimate and covariance by h (s)."""
         middle = normalise(self.last_quaternion)
         if is_attitude(self.quaternion):
             middle = normalise(self.last_quaternion + self.quaternion)
@@ -149,7 +149,7 @@ class TranslationFilter(Block):
         self.velocity_error = self.velocity_error + gained
 
     def take_sample(self) -> None:
-        """Take a new sample in, if it is one."""
+        """Process the sample if it is new."""
         if self.sample_count == self.counted:
             return
         self.counted = self.sample_count
@@ -172,7 +172,7 @@ class TranslationFilter(Block):
             self.correct(error)
 
     def correct(self, error: Vector3) -> None:
-        """Take a measured position error (m) into the Kalman filter."""
+        """Correct the Kalman filter by a measured position error (m)."""
         sigma = self.sigma_now()
         gain, self.covariance, variance = measure_chain(self.covariance, sigma * sigma)
         innovation = error - self.position_error
@@ -182,7 +182,7 @@ class TranslationFilter(Block):
         self.velocity_error = self.velocity_error + gain[RATE, 0] * innovation
 
     def put_out_mean(self, time: float) -> None:
-        """Put the mean since the last tick out at ``time`` (s)."""
+        """Output the mean since the last translation control sample, at ``time`` (s)."""
         if self.summed == 0:
             return
         elapsed = time - self.tick_time

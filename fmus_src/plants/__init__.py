@@ -1,1 +1,1 @@
-"""Vehicles and their motion."""
+"""Plants: vehicles and their motion."""

@@ -1,4 +1,4 @@
-"""A lander over the Moon whose thrust axis is turned by commanded angular accelerations."""
+"""Lander over the Moon with a thrust axis turned by commanded angular accelerations."""
 
 from ..block import Parameter
 from ..interfaces.ports import landing
@@ -71,19 +71,19 @@ class AttitudeMoonLander(MoonLander):
         self.look()
 
     def height(self, position: Vector3) -> float:
-        """Return altitude (m) at a position (m)."""
+        """Return the altitude (m) at a position (m)."""
         if self.uniform_gravity > 0.0:
             return position.z
         return altitude_of(position, self.moon_radius)
 
     def gravity(self, position: Vector3) -> Vector3:
-        """Return gravity (m/s2) at a position (m)."""
+        """Return the gravity (m/s2) at a position (m)."""
         if self.uniform_gravity > 0.0:
             return vector(0.0, 0.0, -self.uniform_gravity)
         return central_gravity(position, self.moon_radius, self.gravitational_parameter)
 
     def vertical(self) -> Vector3:
-        """Return the local vertical, upwards."""
+        """Return the upward local vertical, a unit vector."""
         if self.uniform_gravity > 0.0:
             return vector(0.0, 0.0, 1.0)
         return vertical_at(self.position, self.moon_radius)
@@ -96,12 +96,12 @@ class AttitudeMoonLander(MoonLander):
         self.angular_rate = s.rate
 
     def impulse(self, h: float, commanded: float) -> float:
-        """Return impulse (N s) of h (s) under a command (N)."""
+        """Return the impulse (N s) over h (s) under a commanded thrust (N)."""
         thrust = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
         return thrust.impulse
 
     def thrusting_time(self, h: float, commanded: float) -> float:
-        """Return the part of h (s) that the propellant lasts under a command (N)."""
+        """Return the part of h (s) for which the propellant suffices under a commanded thrust (N)."""
         allowed = (self.mass - self.dry_mass) * STANDARD_GRAVITY * self.specific_impulse
         if not self.impulse(h, commanded) > allowed:
             return h
@@ -116,7 +116,7 @@ class AttitudeMoonLander(MoonLander):
         return low
 
     def move(self, t: float, h: float, commanded: float) -> Vector3:
-        """Move by h (s) under one command (N); returns the velocity that thrust gives (m/s)."""
+        """Advance the motion by h (s) under one commanded thrust (N); return the velocity gained by thrust (m/s)."""
         lasting = 0.0
         gained = vector(0.0, 0.0, 0.0)
         before = self.velocity
@@ -136,8 +136,7 @@ class AttitudeMoonLander(MoonLander):
         return gained
 
     def go_back(self, h: float, acceleration: Vector3) -> None:
-        """Go back from below the ground to it, by no more than h (s), with the mean acceleration (m/s2) of that
-        time."""
+        """Move back from below the ground to altitude 0, by at most h (s), with the step's mean acceleration (m/s2)."""
         below = self.position
         last = self.velocity
         back = 0.0
@@ -150,7 +149,7 @@ class AttitudeMoonLander(MoonLander):
                 self.altitude = self.height(self.position)
 
     def touch_probe(self) -> None:
-        """Remember that the probe has touched the ground."""
+        """Latch the first contact of the probe with the ground."""
         if self.altitude <= self.probe_length:
             self.probe_contact = True
 

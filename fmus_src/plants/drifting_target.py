@@ -1,4 +1,4 @@
-"""A passive object that drifts and spins in deep space."""
+"""Passive object that drifts and spins in deep space."""
 
 import math
 
@@ -45,7 +45,7 @@ class DriftingTarget(Block):
         self.place(0.0)
 
     def place(self, time: float) -> None:
-        """Set the state ``time`` (s) after the start."""
+        """Set position and attitude at ``time`` (s) after the start."""
         rotation = vector(0.0, 0.0, 0.0)
         length = norm(self.spin_axis)
         angle = fmod(self.spin_rate * time, math.tau)

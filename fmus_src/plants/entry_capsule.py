@@ -1,4 +1,4 @@
-"""A capsule that enters the Earth's atmosphere and turns by jets in pulses."""
+"""Capsule that enters the Earth's atmosphere and turns by jet pulses."""
 
 import math
 
@@ -225,7 +225,7 @@ class EntryCapsule(Block):
         self.publish()
 
     def coefficient(self, values: Matrix, second: Matrix, mach: float, angle: float) -> float:
-        """Return a coefficient at a Mach number and a spatial angle of attack (rad)."""
+        """Return a coefficient at a Mach number and a total angle of attack (rad)."""
         if mach <= self.mach_numbers[0]:
             return cubic_value(values, second, 0, KNOTS, ANGLE_STEP, angle)
         if mach >= self.mach_numbers[MACHS - 1]:
@@ -241,17 +241,19 @@ class EntryCapsule(Block):
         return below + fraction * (above - below)
 
     def standard_air(self, h: float) -> Air:
-        """Return the air of the standard at the height h (m)."""
+        """Return density and speed of sound of the standard atmosphere at the height h (m)."""
         if self.atmosphere == Atmosphere.GOST_4401_81:
             return gost_air(h)
         return air(h)
 
     def spatial_angle(self, v: Vector3) -> float:
-        """Return angle (rad) between the axis of symmetry and the velocity v against the air (body)."""
+        """Return the total angle of attack (rad) between the axis of symmetry and the velocity v relative to the air
+        (body).
+        """
         return atan2(math.sqrt(v.y * v.y + v.z * v.z), v.x)
 
     def air_force(self, v: Vector3, gas: Air) -> Vector3:
-        """Force of the air (N, body) at the velocity v (m/s, body) against it."""
+        """Return the aerodynamic force (N, body) at the velocity v (m/s, body) relative to the air."""
         across = math.sqrt(v.y * v.y + v.z * v.z)
         speed = norm(v)
         angle = self.spatial_angle(v)
@@ -264,7 +266,7 @@ class EntryCapsule(Block):
         return pushed * vector(-axial, -normal * v.y / across, -normal * v.z / across)
 
     def derivatives(self, t: float, s: EntryState, torque: Vector3) -> EntryState:
-        """Return rates of the state under a torque of the jets (N m, body): docs/systems/entry_attitude.md, motion."""
+        """Return the time derivative of the state under a torque of the jets (N m, body)."""
         functions = evaluate_path(s)
         axes = body_axes(s.attitude)
         air_velocity_body = in_body(axes, vector(s.speed, 0.0, 0.0) - self.wind)
@@ -294,7 +296,9 @@ class EntryCapsule(Block):
         )
 
     def jet(self, positive: int, negative: int, length: float, time: float) -> float:
-        """Return torque (N m) of an axis' two jets, by index, after ``time`` (s) of a pulse (s, with its sign)."""
+        """Return the torque (N m) of an axis' two jets (by index) at ``time`` (s) after the start of a signed pulse
+        (s).
+        """
         if length > time:
             return self.jet_factor[positive] * self.jet_torque[positive]
         if length < -time:
@@ -302,7 +306,7 @@ class EntryCapsule(Block):
         return 0.0
 
     def fly(self, t: float, h: float) -> None:
-        """Move by h (s), cut where jets go off."""
+        """Advance the motion by h (s), divided at each end of a pulse."""
         time = 0.0
         while time < h:
             end = next_switch_off(self.left, time, h)

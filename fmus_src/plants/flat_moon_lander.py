@@ -1,4 +1,4 @@
-"""A point-mass lander over a flat Moon."""
+"""Point-mass lander over a flat Moon."""
 
 from ..block import Block, Parameter, State
 from ..interfaces.ports import landing, sampling
@@ -11,8 +11,8 @@ class FlatMoonLander(Block):
 
         r'' = (F/m) d(t)/|d(t)| - g k    d(t) = d_0 + d_0' (t - t_command)
 
-    Thrust ends at command_time + burn_duration, inside a step if need be. Mass is constant. Runge-Kutta of fourth order
-    in fixed steps; the acceleration depends on time only, which makes it Simpson's rule.
+    Thrust ends at command_time + burn_duration, if necessary within a step. Mass is constant. Runge-Kutta of fourth
+    order in fixed steps; as the acceleration depends on time only, it reduces to Simpson's rule.
 
     Frame: landing site (x north, y west, z up).
 
@@ -49,8 +49,7 @@ class FlatMoonLander(Block):
         self.velocity = self.initial_velocity
 
     def acceleration(self, t: float) -> Vector3:
-        """Return r'' = W d/|d| - g k at time t (m/s2), with thrust over mass W and d = thrust_direction moved on to
-        t."""
+        """Return the acceleration r'' = W d/|d| - g k (m/s2) at time t (s), with thrust over mass W."""
         direction = self.thrust_direction + (t - self.command_time) * self.thrust_direction_rate
         length = norm(direction)
         scale = 0.0
@@ -60,13 +59,13 @@ class FlatMoonLander(Block):
         return vector(push.x, push.y, push.z - self.gravity)
 
     def burn(self, t: float, h: float) -> None:
-        """Move by h (s) under thrust and gravity."""
+        """Advance the motion by h (s) under thrust and gravity."""
         end = simpson(self.acceleration, t, Translation(position=self.position, velocity=self.velocity), h)
         self.position = end.position
         self.velocity = end.velocity
 
     def fall(self, h: float) -> None:
-        """Move by h (s) under gravity alone."""
+        """Advance the motion by h (s) under gravity alone."""
         moved = self.position + h * self.velocity
         self.position = vector(moved.x, moved.y, moved.z - 0.5 * self.gravity * h * h)
         self.velocity = vector(self.velocity.x, self.velocity.y, self.velocity.z - self.gravity * h)

@@ -1,4 +1,4 @@
-"""A free-flying robot in deep space: a rigid body with eight jets and a cluster of four gyros."""
+"""Free-flying robot in deep space: a rigid body with eight jets and a cluster of four gyros."""
 
 import math
 
@@ -127,30 +127,31 @@ class FreeFlyingRobot(Block):
         self.gyro_momentum = self.rotor_momentum * cluster_momentum(self.gimbal_angles)
 
     def rate(self, q: Vector4, momentum_inertial: Vector3) -> Vector3:
-        """Return angular velocity (rad/s, body) for attitude and momentum G at the gyros' present state."""
+        """Return the angular velocity (rad/s, body) for an attitude and momentum G with the present gyro momentum."""
         return (to_body(q, momentum_inertial) - self.gyro_momentum) / self.inertia
 
     def turn_gimbals(self, h: float) -> None:
-        """Turn the gimbals for h (s)."""
+        """Advance the gimbal angles by h (s)."""
         self.gimbal_angles = self.gimbal_angles + h * self.gimbal_rates
         self.measure_gyros()
 
     def derivatives(self, s: RobotRotation) -> RobotRotation:
-        """Return q' = q w/2 and G' = R(q) M, at the gyros' present state."""
+        """Return q' = q w/2 and G' = R(q) M with the present gyro momentum."""
         return RobotRotation(
             quaternion=multiply(s.quaternion, quaternion(0.0, 0.5 * self.rate(s.quaternion, s.angular_momentum))),
             angular_momentum=to_reference(s.quaternion, self.jet_torque),
         )
 
     def force(self, s: RobotRotation) -> Vector3:
-        """Return R(q) P = m r'' (N, inertial)."""
+        """Return the force R(q) P = m r'' (N, inertial)."""
         return to_reference(s.quaternion, self.jet_force)
 
     def move(self, h: float) -> None:
-        """Move by h (s) under the jets' force and torque.
+        """Advance the motion by h (s) under the force and torque of the jets.
 
-        The stages of `runge_kutta_4` are written out: gimbals turn between them by halves of h, and r'' is integrated
-        by Nystrom's form from the forces of all stages. As derivatives of one state both would round otherwise.
+        The stages of `runge_kutta_4` are written out, since the gimbals advance by h/2 between them and r'' is
+        integrated by Nystrom's formula from the forces of all stages. As derivatives of one state, both would be
+        rounded differently.
         """
         s1 = RobotRotation(quaternion=self.quaternion, angular_momentum=self.angular_momentum)
         k1 = self.derivatives(s1)

@@ -11,7 +11,7 @@ from ..mathlib.vectors import Vector3, norm, vector
 
 
 class Burn(Record):
-    """Thrust acceleration over a step and the gained speed."""
+    """Thrust acceleration over a step and the velocity gained."""
 
     start = Field(unit="m/s2", description="thrust acceleration at the start of the step")
     middle = Field(unit="m/s2", description="thrust acceleration in the middle of the step")
@@ -20,7 +20,7 @@ class Burn(Record):
 
 
 def scale(burn: Burn, simpson: float) -> Burn:
-    """Return a burn whose mean by Simpson's rule, ``simpson`` (m/s), is its gain."""
+    """Return the burn scaled to its gain, from its integral ``simpson`` (m/s) by Simpson's rule."""
     return Burn(
         start=burn.start * burn.gain / simpson,
         middle=burn.middle * burn.gain / simpson,
@@ -83,7 +83,7 @@ class MoonLander(Block, interface=True):
     )
 
     def place(self) -> None:
-        """Put mass and motion at the start."""
+        """Set mass and motion to their initial values."""
         self.mass = self.initial_mass
         self.position = self.initial_position
         self.velocity = self.initial_velocity
@@ -92,7 +92,9 @@ class MoonLander(Block, interface=True):
         self.ground_contact = self.altitude <= 0.0
 
     def divide(self, response: float) -> None:
-        """Set longest_step: equal parts of internal_step no longer than lag and response (s; 0: none), 100 at most."""
+        """Set longest_step to an equal part of internal_step, at least 1/100, not longer than lag and response (s; 0:
+        none).
+        """
         shortest = self.internal_step
         if response > 0.0 and response < shortest:
             shortest = response
@@ -104,18 +106,18 @@ class MoonLander(Block, interface=True):
         self.longest_step = self.internal_step / parts
 
     def height(self, position: Vector3) -> float:
-        """Return altitude (m) at a position (m)."""
+        """Return the altitude (m) at a position (m)."""
         return altitude_of(position, self.moon_radius)
 
     def gravity(self, position: Vector3) -> Vector3:
-        """Return gravity (m/s2) at a position (m)."""
+        """Return the gravity (m/s2) at a position (m)."""
         return central_gravity(position, self.moon_radius, self.gravitational_parameter)
 
     def turn(self, t: float, h: float) -> None:
         """Advance the attitude by h (s)."""
 
     def burn(self, h: float, commanded: float) -> Burn:
-        """Thrust for h (s) under a command (N); spend the mass."""
+        """Return the burn over h (s) under a commanded thrust (N), and reduce the mass."""
         exhaust = STANDARD_GRAVITY * self.specific_impulse
         thrust = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
         used = thrust.impulse / exhaust
@@ -130,7 +132,7 @@ class MoonLander(Block, interface=True):
         return Burn(start=first, middle=middle, end=thrust.end / self.mass, gain=gain)
 
     def advance(self, t: float, h: float, commanded: float) -> Vector3:
-        """Move by h (s) under one command (N); returns the velocity that thrust gives (m/s)."""
+        """Advance the motion by h (s) under one commanded thrust (N); return the velocity gained by thrust (m/s)."""
         burn = self.burn(h, commanded)
         simpson = h * (burn.start + 4.0 * burn.middle + burn.end) / 6.0
         if simpson > 0.0:
@@ -148,13 +150,15 @@ class MoonLander(Block, interface=True):
         return gain_of(forcing, h)
 
     def touch(self) -> None:
-        """Stop where the ground is reached."""
+        """Stop the motion if the ground is reached."""
         if self.altitude <= 0.0:
             self.ground_contact = True
             self.delivered_thrust = 0.0
 
     def move(self, t: float, h: float, commanded: float) -> Vector3:
-        """Do what a step of h (s) under one command (N) does; returns the velocity that thrust gives (m/s)."""
+        """Perform an internal step of h (s) under one commanded thrust (N); return the velocity gained by thrust
+        (m/s).
+        """
         gained = self.advance(t, h, commanded)
         self.touch()
         return gained
@@ -164,10 +168,10 @@ class MoonLander(Block, interface=True):
         return not self.ground_contact
 
     def burn_ended(self) -> None:
-        """Act on the end of a burn inside a step."""
+        """React to the end of a burn within a step."""
 
     def fly(self, t: float, h: float, commanded: float) -> None:
-        """Move from t to t + h (s) under a commanded thrust (N), and set what follows from the motion."""
+        """Advance from t to t + h (s) under a commanded thrust (N), and set the outputs of the motion."""
         gained = vector(0.0, 0.0, 0.0)
         pieces = count_steps(h, self.longest_step)
         piece = h / pieces

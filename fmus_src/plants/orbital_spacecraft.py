@@ -1,4 +1,4 @@
-"""A spacecraft on a circular orbit, turned by jets in pulses."""
+"""Spacecraft on a circular orbit, turned by jet pulses."""
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports import body, sampling
@@ -18,10 +18,10 @@ class SpacecraftStatus(Enumeration):
 class OrbitalSpacecraft(OrbitalBody):
     """Rigid body on a circular orbit under the gravity gradient, with jets that give pure torques in pulses.
 
-    A change of pulse_count signals new pulses, which replace the remaining ones at once; the count at the start counts.
-    Pulses end exactly, whatever the communication step; between these instants Runge-Kutta of fourth order in steps of
-    at most internal_step. mean_torque is added to the pulses and held over the step, for studies of the mean. Jets have
-    no rise time.
+    A change of pulse_count signals new pulses, which replace the remaining ones at once; the pulses at the start count
+    as new. Pulses end exactly, whatever the communication step; between these instants Runge-Kutta of fourth order in
+    steps of at most internal_step. mean_torque is added to the pulses and constant over the step, for studies of the
+    mean motion. Jets have no rise time.
 
     See docs/systems/orbital_attitude.md.
     """
@@ -60,7 +60,7 @@ class OrbitalSpacecraft(OrbitalBody):
             self.status = SpacecraftStatus.NO_INERTIA
 
     def after(self, length: float, h: float) -> float:
-        """Return the rest of one pulse (s, with its sign) after h (s)."""
+        """Return the remaining signed length (s) of one pulse after h (s)."""
         if length > h:
             return length - h
         if length < -h:
@@ -68,7 +68,7 @@ class OrbitalSpacecraft(OrbitalBody):
         return 0.0
 
     def size(self, pulses: Vector3) -> float:
-        """Sum of the lengths of three pulses (s)."""
+        """Return the sum of the lengths of three pulses (s)."""
         return abs(pulses.x) + abs(pulses.y) + abs(pulses.z)
 
     def step(self, t: float, h: float) -> None:

@@ -1,4 +1,4 @@
-"""A lander in a plane through the centre of a round Moon."""
+"""Lander in a plane through the centre of a spherical Moon."""
 
 import math
 
@@ -11,7 +11,7 @@ from ..mathlib.lunar.gravity import STANDARD_GRAVITY
 
 
 class PlanarMotion(Record):
-    """Motion over a round Moon, in local vertical axes."""
+    """Motion over a spherical Moon, in local vertical axes."""
 
     vertical_speed = Field(
         unit="m/s", description="component of the velocity along the local vertical, positive upwards"
@@ -91,7 +91,9 @@ class PlanarMoonLander(Block):
         self.publish()
 
     def derivatives(self, t: float, s: PlanarMotion, force: float, flow: float) -> PlanarMotion:
-        """Return rates under a thrust (N), ``t`` (s) after mass began to flow out (kg/s)."""
+        """Return the time derivative of the motion under a thrust (N), ``t`` (s) after the start of a mass flow
+        (kg/s).
+        """
         acceleration = force / (self.mass - t * flow)
         radius = self.moon_radius + s.altitude
         ratio = self.moon_radius / radius
@@ -106,7 +108,7 @@ class PlanarMoonLander(Block):
         )
 
     def move(self, h: float) -> None:
-        """Move; set motion and mass h (s) later."""
+        """Advance motion and mass by h (s)."""
         force = self.thrust_factor * self.thrust
         flow = force / (STANDARD_GRAVITY * self.specific_impulse)
         if self.mass <= flow * h:
@@ -117,7 +119,7 @@ class PlanarMoonLander(Block):
         self.load_factor = force / (STANDARD_GRAVITY * self.mass)
 
     def publish(self) -> None:
-        """Set outputs of the motion; the path angle is the one nearest to the last, and stays where speed is 0."""
+        """Set the outputs of the motion; the path angle is unwrapped, and held at a speed of 0."""
         s = self.motion
         self.altitude = s.altitude
         self.central_angle = s.central_angle

@@ -1,4 +1,4 @@
-"""A spacecraft about Earth or Moon: orbit, attitude, wheels and modes under all that acts on it."""
+"""Spacecraft about Earth or Moon: orbit, attitude, wheels and modes with all forces and torques."""
 
 from ..block import Output, Outputs, Parameter, State
 from ..interfaces.ports import body, inertial, sampling, satellite, space
@@ -54,7 +54,7 @@ class SpacecraftMotion(Record):
 
 
 class StepInputs(Record):
-    """Inputs over a step, all finite."""
+    """Inputs over a step, checked to be finite."""
 
     motors = Field(Vector4, unit="N.m", description="commanded torque of each motor on its wheel about the spin axis")
     dipole = Field(Vector3, unit="A.m2", frame="body", description="commanded magnetic dipole moment, within its limit")
@@ -209,11 +209,11 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         self.set_outputs(self.start_time, inputs)
 
     def further_torque(self, t: float, s: SpacecraftMotion) -> Vector3:
-        """Return a torque (N m, body) of a subclass at a simulation time t (s); here none."""
+        """Return an additional torque (N m, body) of a subclass at simulation time t (s); 0 here."""
         return vector(0.0, 0.0, 0.0)
 
     def loads(self, t: float, s: SpacecraftMotion, inputs: StepInputs) -> Loads:
-        """Return what acts but for gravity."""
+        """Return all forces and torques except gravity."""
         surface = self.surface_load(t, s.position, s.velocity, s.quaternion)
         position_body = to_body(s.quaternion, s.position)
         disturbance = surface.torque + gravity_gradient_torque(position_body, self.inertia, self.gravity_parameter())
@@ -231,7 +231,7 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         return self.inverse_inertia @ (to_body(s.quaternion, s.angular_momentum) - carried)
 
     def derivatives(self, t: float, s: SpacecraftMotion, inputs: StepInputs) -> SpacecraftMotion:
-        """Return the rates of the motion."""
+        """Return the time derivative of the motion."""
         w = self.rate(s)
         loads = self.loads(t, s, inputs)
         acceleration_body = loads.force / self.mass
@@ -249,9 +249,9 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         )
 
     def limit_inputs(self) -> StepInputs:
-        """Return the inputs with 0 for what is not finite, the dipole within its limit; set status and applied_dipole.
+        """Return the inputs with 0 for values that are not finite and a limited dipole; set status and applied_dipole.
 
-        The torques of the motors are the commanded ones still.
+        The motor torques are still the commanded ones.
         """
         commands = self.motor_torques
         finite = is_finite(self.dipole) and is_finite(self.body_force) and is_finite(self.body_torque)
@@ -285,7 +285,7 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         )
 
     def motion(self) -> SpacecraftMotion:
-        """Return the motion as it is."""
+        """Return the present motion as a record."""
         return SpacecraftMotion(
             position=self.position,
             velocity=self.velocity,
@@ -297,7 +297,7 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         )
 
     def set_outputs(self, t: float, inputs: StepInputs) -> None:
-        """Set the outputs that follow from the motion at t (s)."""
+        """Set the outputs from the motion at t (s)."""
         s = self.motion()
         self.angular_velocity = self.rate(s)
         self.set_wheel_outputs(self.angular_velocity)
@@ -306,7 +306,7 @@ class Spacecraft(GravityField, ExposedSurfaces, SpinningWheels, ElasticModes):
         self.disturbance_torque = loads.disturbance
 
     def move(self, t: float, h: float, inputs: StepInputs) -> None:
-        """Move by h (s) under inputs with commands of the motors."""
+        """Advance the motion by h (s) under inputs with commanded motor torques."""
         torque_limited, speed_limited = self.drive(inputs.motors)
         if torque_limited and self.status == SpacecraftStatus.GOOD:
             self.status = SpacecraftStatus.TORQUE_LIMITED

@@ -1,4 +1,4 @@
-"""A point-mass lander over a spherical Moon, with an engine and an attitude that take time."""
+"""Point-mass lander over a spherical Moon, with lags of engine and attitude."""
 
 from ..block import Parameter, State
 from ..interfaces.ports import landing
@@ -56,7 +56,7 @@ class SphericalMoonLander(MoonLander):
         self.divide(self.response)
 
     def point(self, t: float) -> None:
-        """Put the attitude on the command of time t (s)."""
+        """Set the attitude to the command at time t (s)."""
         since = t - self.command_time
         self.attitude = goal_at(self.thrust_direction, self.thrust_direction_rate, since, self.attitude)
 
@@ -73,7 +73,9 @@ class SphericalMoonLander(MoonLander):
         )
 
     def move(self, t: float, h: float, commanded: float) -> Vector3:
-        """Move by h (s) under one command (N); returns the velocity that thrust gives (m/s)."""
+        """Perform an internal step of h (s) under one commanded thrust (N); return the velocity gained by thrust
+        (m/s).
+        """
         if self.response <= 0.0 and self.slew_rate_limit <= 0.0:
             self.point(t)
         gained = self.advance(t, h, commanded)
@@ -85,7 +87,7 @@ class SphericalMoonLander(MoonLander):
         return not self.ground_contact and not self.latched
 
     def burn_ended(self) -> None:
-        """Keep the motion where that is asked for."""
+        """Hold the motion if latch_at_burn_end is set."""
         self.latched = self.latch_at_burn_end
 
     def step(self, t: float, h: float) -> None:

@@ -1,4 +1,4 @@
-"""A satellite that is turned by four reaction wheels."""
+"""Satellite turned by four reaction wheels."""
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports import body, robot, sampling, satellite
@@ -12,7 +12,7 @@ from ..models.spinning_wheels import SpinningWheels
 
 
 class WheelSatelliteStatus(Enumeration):
-    """Limit of the wheels, and validity of the inertia."""
+    """Limits of the wheels, and validity of the inertia."""
 
     GOOD = member("good")
     TORQUE_LIMITED = member("a motor torque limited")
@@ -102,11 +102,11 @@ class WheelSatellite(SpinningWheels):
         self.angular_momentum = to_reference(self.quaternion, momentum_body)
 
     def rate(self, s: SatelliteMotion) -> Vector3:
-        """Return angular velocity (rad/s, body)."""
+        """Return the angular velocity (rad/s, body)."""
         return self.inverse_inertia @ (to_body(s.quaternion, s.angular_momentum) - self.axes @ s.spin)
 
     def derivatives(self, t: float, s: SatelliteMotion, motors: Vector4) -> SatelliteMotion:
-        """Return q' = q w/2, G' = R(q) L and h' = us under motor torques (N m)."""
+        """Return q' = q w/2, G' = R(q) L and h' = u for motor torques u (N m)."""
         w = self.rate(s)
         return SatelliteMotion(
             quaternion=multiply(s.quaternion, quaternion(0.0, 0.5 * w)),
@@ -115,7 +115,7 @@ class WheelSatellite(SpinningWheels):
         )
 
     def move(self, t: float, h: float) -> None:
-        """Move by h (s)."""
+        """Advance the motion by h (s)."""
         torque_limited, speed_limited = self.drive(self.motor_torques)
         if torque_limited and self.status == WheelSatelliteStatus.GOOD:
             self.status = WheelSatelliteStatus.TORQUE_LIMITED

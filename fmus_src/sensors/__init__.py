@@ -1,1 +1,1 @@
-"""Measurements of the vehicle's motion."""
+"""Sensors: measurements of the vehicle's motion and environment."""

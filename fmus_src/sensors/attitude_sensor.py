@@ -1,4 +1,4 @@
-"""Thrust axis and its angular rate, as an attitude system measures them."""
+"""Sensor of thrust axis and angular rate."""
 
 from ..block import Parameter, State
 from ..interfaces.ports import landing, sampling
@@ -55,7 +55,7 @@ class AttitudeSensor(RandomSensor):
         self.misalignment = self.constant_sigma * constant
 
     def turn(self, axis: Vector3, rotation: Vector3) -> Vector3:
-        """Return an axis after a small rotation (rad); as it is where it has no length."""
+        """Return an axis turned by a small rotation (rad); unchanged if it has no length."""
         moved = axis + cross(rotation, axis)
         length = norm(moved)
         if length > 0.0:

@@ -1,4 +1,4 @@
-"""Bank from the navigation system."""
+"""Sensor of the bank angle."""
 
 from ..block import Parameter
 from ..interfaces.ports import entry, sampling

@@ -1,4 +1,4 @@
-"""A Doppler velocimeter."""
+"""Doppler velocimeter."""
 
 from ..block import Parameter
 from ..interfaces.ports import landing, sampling
@@ -50,7 +50,7 @@ class DopplerVelocimeter(RandomSensor):
     generator = sampling.GENERATOR.state()
 
     def measure(self) -> None:
-        """Take a sample where the ground is in range."""
+        """Take a sample if the ground is within range."""
         in_range = altitude_of(self.position, self.moon_radius) <= self.maximum_altitude
         sigma = self.speed_error * norm(self.velocity) + self.noise_sigma
         error = normals(self.generator)

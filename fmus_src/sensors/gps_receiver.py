@@ -1,4 +1,4 @@
-"""Position and velocity from satellite navigation."""
+"""Satellite navigation receiver of position and velocity."""
 
 from ..block import Input, Output, Parameter, State
 from ..interfaces.ports import inertial, sampling
@@ -91,7 +91,7 @@ class GpsReceiver(RandomSensor):
         self.take(self.start_time)
 
     def take(self, t: float) -> None:
-        """Take a sample at t (s), and put the one that arrives on the outputs."""
+        """Take a sample at t (s), and output the delayed sample that is due."""
         slow = normals(self.generator)
         position_noise = normals(self.generator)
         velocity_noise = normals(self.generator)

@@ -1,4 +1,4 @@
-"""Accelerometers: increments of the integral of specific force."""
+"""Accelerometers that measure increments of the integral of specific force."""
 
 import math
 

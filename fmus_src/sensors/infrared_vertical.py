@@ -1,4 +1,4 @@
-"""Roll and pitch from an infrared vertical."""
+"""Infrared sensor of roll and pitch."""
 
 import math
 
@@ -47,7 +47,7 @@ class InfraredVertical(Block):
         self.measure(0.0)
 
     def measure(self, kept: float) -> None:
-        """Take a sample, whose errors keep a share of the last one's."""
+        """Take a sample with errors correlated to the previous ones."""
         numbers = normals(self.generator)
         self.error = kept * self.error + math.sqrt(1.0 - kept * kept) * vector(numbers.x, numbers.y)
         self.measured_roll = self.angles.x + self.bias.x + self.sigma * self.error.x

@@ -1,4 +1,4 @@
-"""Relative position from laser range finders."""
+"""Laser range finders that measure relative position."""
 
 from ..interfaces.ports import inertial, robot, sampling
 from ..mathlib.rng import normals

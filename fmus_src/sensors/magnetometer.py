@@ -1,4 +1,4 @@
-"""Magnetic field along three axes."""
+"""Three-axis magnetometer."""
 
 from ..block import Output, Parameter, State
 from ..interfaces.ports import sampling, space

@@ -1,4 +1,4 @@
-"""Path angle and altitude with relative errors."""
+"""Sensor of path angle and altitude with relative errors."""
 
 from ..block import Input, Parameter
 from ..interfaces.ports import landing, sampling

@@ -1,4 +1,4 @@
-"""A radar altimeter."""
+"""Radar altimeter."""
 
 from ..block import Parameter
 from ..interfaces.ports import landing, sampling
@@ -41,7 +41,7 @@ class RadarAltimeter(RandomSensor):
     generator = sampling.GENERATOR.state()
 
     def measure(self) -> None:
-        """Take a sample where the ground is in range."""
+        """Take a sample if the ground is within range."""
         error = normal(self.generator)
         altitude = altitude_of(self.position, self.moon_radius)
         if altitude <= self.maximum_altitude:

@@ -1,4 +1,4 @@
-"""Base of sensors with random errors: their stream of numbers, and their sampling."""
+"""Base of sensors with random errors: random number stream and sampling."""
 
 from ..block import Block, Parameter, State
 from ..mathlib.rng import seed_streams
@@ -18,7 +18,7 @@ class RandomSensor(Block, interface=True):
     generator: State
 
     def draw_constants(self) -> None:
-        """Draw the errors that stay."""
+        """Draw the errors that are constant over a simulation."""
 
     def measure(self) -> None:
         """Take a sample."""

@@ -1,4 +1,4 @@
-"""Angular velocity from three rate gyros."""
+"""Three rate gyros that measure angular velocity."""
 
 import math
 
@@ -104,7 +104,7 @@ class RateGyros(RandomSensor):
                     self.has_scale = True
 
     def walk(self, h: float) -> None:
-        """Let the biases change for h (s), and measure."""
+        """Advance the biases by h (s), and take a sample."""
         if self.bias_walk > 0.0:
             numbers = normals(self.generator)
             change = self.bias_walk * math.sqrt(h) * numbers

@@ -1,4 +1,4 @@
-"""Attitude from star trackers and gyroscopes together, or from one star tracker."""
+"""Attitude sensor: star trackers combined with gyros, or a single star tracker."""
 
 import math
 
@@ -140,7 +140,7 @@ class StarInertial(RandomSensor):
         return False
 
     def assess(self) -> None:
-        """Set the status of a sample that is taken now."""
+        """Set the status of a sample taken now."""
         aim_inertial = to_reference(normalise(self.quaternion), self.axis)
         dazzled = self.is_within(aim_inertial, self.sun_direction, self.sun_exclusion)
         if self.is_within(aim_inertial, self.moon_position - self.position, self.moon_exclusion):
@@ -157,7 +157,7 @@ class StarInertial(RandomSensor):
             self.status = StarTrackerStatus.TOO_FAST
 
     def take(self, t: float) -> None:
-        """Take a sample at t (s), and put the one that arrives on the outputs."""
+        """Take a sample at t (s), and output the delayed sample that is due."""
         numbers = normals(self.generator)
         rotation = self.error(numbers)
         self.assess()

@@ -1,4 +1,4 @@
-"""Direction to the Sun from coarse heads on all sides, or from a fine head."""
+"""Sun sensors: coarse heads on all sides, and a fine head."""
 
 import math
 
@@ -132,7 +132,7 @@ class SunSensors(RandomSensor):
             self.scales[i + 3] = self.scale_sigma * second[i]
 
     def current(self, normal: Vector3, scale: float, sun: Vector3, down: Vector3) -> float:
-        """Return the current of a head without noise."""
+        """Return the noise-free current of a head, as a fraction of full scale."""
         current = 0.0
         cosine = dot(normal, sun)
         if cosine > 0.0 and cosine >= cos(self.field_of_view):

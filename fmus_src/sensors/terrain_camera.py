@@ -1,4 +1,4 @@
-"""A camera that finds its place over mapped terrain."""
+"""Camera that determines position over mapped terrain."""
 
 from ..block import Parameter
 from ..interfaces.ports import landing, sampling
@@ -44,7 +44,7 @@ class TerrainCamera(RandomSensor):
     generator = sampling.GENERATOR.state()
 
     def measure(self) -> None:
-        """Take a sample where the altitude is in the band."""
+        """Take a sample if the altitude is within the range."""
         altitude = altitude_of(self.position, self.moon_radius)
         in_band = altitude >= self.minimum_altitude and altitude <= self.maximum_altitude
         sigma = self.altitude_error * abs(altitude) + self.noise_sigma

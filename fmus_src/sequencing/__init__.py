@@ -1,1 +1,1 @@
-"""Transitions between phases of flight."""
+"""Sequencing: transitions between flight phases and modes."""

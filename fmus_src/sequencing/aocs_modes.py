@@ -99,7 +99,7 @@ class AocsModes(Block):
         self.set_mode(self.start_time)
 
     def enter(self, mode: int, t: float) -> None:
-        """Begin a mode at t (s)."""
+        """Start a mode at t (s)."""
         self.mode = mode
         self.begun = t
         self.settled_since = t
@@ -125,7 +125,7 @@ class AocsModes(Block):
         return self.knows_attitude() and sine + abs(cosine) > 0.0 and atan2(sine, cosine) < self.sun_error
 
     def set_mode(self, t: float) -> None:
-        """Set the mode at t (s)."""
+        """Decide the mode at t (s)."""
         self.status = AocsModesStatus.NOT_FINITE
         q = self.estimated_quaternion
         finite = is_finite(self.estimated_angular_velocity) and is_finite(self.sun_direction)

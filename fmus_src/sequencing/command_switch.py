@@ -1,4 +1,4 @@
-"""Passes on the command of the guidance that is in charge."""
+"""Switch between the commands of several sources."""
 
 from ..block import Block, Input, Inputs, Outputs, State
 from ..interfaces.ports import landing
@@ -9,10 +9,10 @@ from ..mathlib.vectors import vector
 class CommandSwitch(Block):
     """Selection of one of three command sources, without thrust unless the engine is on.
 
-    `source` 1 is the sequencer, 2 the braking guidance, 3 the hover guidance, whose angular_acceleration_feed alone is
-    passed on. At the change to the hover guidance the last command is held until hover_plan, the plan of its command,
-    equals plan_number. Without a source there is no thrust, and a direction of length 0, for which attitude control
-    brings the rate to rest.
+    `source` 1 is the sequencer, 2 the braking guidance, 3 the hover guidance, the only one with an
+    angular_acceleration_feed. After a change to the hover guidance the last command is held until hover_plan, the plan
+    of its command, equals plan_number. Without a source there is no thrust, and a direction of length 0, for which
+    attitude control brings the rate to rest.
 
     Frame: landing site.
 
@@ -41,7 +41,7 @@ class CommandSwitch(Block):
         self.switch()
 
     def switch(self) -> None:
-        """Pass on the command in charge; until the requested plan is answered, the last one is held."""
+        """Output the command of the source; after a plan request the last one is held until the plan is answered."""
         if self.source != CommandSource.HOVER or self.hover_plan == self.plan_number:
             self.pass_on()
         self.command.thrust_acceleration = 0.0
@@ -49,7 +49,7 @@ class CommandSwitch(Block):
             self.command.thrust_acceleration = self.passed_thrust_acceleration
 
     def pass_on(self) -> None:
-        """Put the command of the source on the outputs."""
+        """Copy the command of the source to the outputs."""
         self.angular_acceleration_feed = vector(0.0, 0.0, 0.0)
         if self.source == CommandSource.OWN:
             self.command = self.sequencer

@@ -1,4 +1,4 @@
-"""Ends a flight: by guidance, at the hand-over, or on the ground."""
+"""Monitor that ends a flight: by guidance, at the hand-over, or on the ground."""
 
 from ..block import Block, Input, Output
 from ..interfaces.ports import landing
@@ -33,7 +33,7 @@ class FlightMonitor(Block):
         self.judge()
 
     def judge(self) -> None:
-        """Latch what has happened."""
+        """Latch the conditions that have occurred."""
         slow = self.speed < self.handover_speed
         if slow and self.altitude >= self.handover_altitude_low and self.altitude <= self.handover_altitude_high:
             self.handed_over = True

@@ -1,4 +1,4 @@
-"""From the first hover to the ground: phases 4 to 9 of a landing."""
+"""Phases 4 to 9 of a landing: from the first hover to the ground."""
 
 from ..block import Parameter, State
 from ..interfaces.ports.landing import CommandSource, HoverMode
@@ -11,8 +11,8 @@ from .landing_sequence import NEVER, ROUNDING, LandingSequence, LandingStatus
 class HoverPhases(LandingSequence, interface=True):
     """Hovers, transfers, descent and contact with their end conditions.
 
-    Hover targets lie on the local vertical of `site`: first the origin, or the place where braking ended, then moved by
-    the re-designations and projected on the sphere.
+    Hover targets lie on the local vertical of `site`: at first the origin, or the point where braking ended, then moved
+    by the re-designations and projected on the sphere.
     """
 
     hover_time = Parameter(
@@ -61,7 +61,9 @@ class HoverPhases(LandingSequence, interface=True):
     )
 
     def begin_first_hover(self) -> None:
-        """Capture the hover over the site; a flight that starts here holds until its first inputs are known."""
+        """Request a capture to the hover over the site; a flight that starts in this phase holds until inputs are
+        sampled.
+        """
         self.target_position = above_site(self.site, self.preliminary_altitude, self.moon_radius)
         if self.since_start(self.sampled_time) < 0.0:
             self.request_plan(HoverMode.CAPTURE)
@@ -69,7 +71,7 @@ class HoverPhases(LandingSequence, interface=True):
             self.request_plan(HoverMode.HOLD)
 
     def move_site_ahead(self, time: float) -> None:
-        """Move the site below the point that lookahead of the velocity leads to."""
+        """Move the site below the position extrapolated by the velocity over lookahead."""
         place = self.sampled_position + self.lookahead * self.sampled_velocity
         self.site = site_below(place, self.moon_radius)
         altitude = clip(altitude_of(place, self.moon_radius), self.lowest_hover, self.preliminary_altitude)
@@ -82,7 +84,7 @@ class HoverPhases(LandingSequence, interface=True):
         return close and norm(self.sampled_velocity) <= self.settled_speed
 
     def choose(self, ahead: float, chosen_since: float) -> bool:
-        """Hover over a site that is chosen from ``chosen_since`` (s) on; return True if that is over."""
+        """Hover while the site is re-designated, from ``chosen_since`` (s) on; return True when this is over."""
         waited = ahead - chosen_since + ROUNDING
         if waited >= self.hover_time and self.is_settled():
             return True
@@ -92,7 +94,7 @@ class HoverPhases(LandingSequence, interface=True):
         return False
 
     def first_hover(self, t: float, ahead: float) -> bool:
-        """Capture, unless the flight starts at rest here, then choose."""
+        """Complete the capture, then hover for the re-designation; return True when this is over."""
         if self.hover_mode == HoverMode.HOLD and self.since_start(t) < ROUNDING and not self.is_settled():
             self.request_plan(HoverMode.CAPTURE)
         if self.plan_end < 0.0 and self.plan_is_over():
@@ -102,14 +104,14 @@ class HoverPhases(LandingSequence, interface=True):
         return self.choose(ahead, self.plan_end)
 
     def move_site(self, move: Vector2, reach: float, time: float) -> None:
-        """Put the site where a re-designation of at most ``reach`` (m) wants it."""
+        """Move the site by a re-designation of at most ``reach`` (m)."""
         reached, allowed = within_reach(move, reach)
         if not reached:
             self.note(LandingStatus.SHORTENED, time)
         self.site = redesignate(self.site, allowed, self.moon_radius)
 
     def begin_transfer(self, time: float) -> None:
-        """Begin the descent to the second hover, over the site of the first re-designation."""
+        """Request the descent to the second hover, over the site of the first re-designation."""
         self.first_site = self.site
         reach = self.reach_over_drop * (self.preliminary_altitude - self.final_altitude)
         self.move_site(self.sampled_move_1, reach, time)
@@ -117,7 +119,7 @@ class HoverPhases(LandingSequence, interface=True):
         self.request_plan(HoverMode.PROGRAMME)
 
     def transfer(self, ahead: float) -> bool:
-        """Transfer until the plan is over; without a re-designation where it would need too much."""
+        """Return True when the transfer is complete; drop a re-designation that needs too much propellant."""
         if self.is_answered() and not self.plan_judged:
             self.plan_judged = True
             if self.sampled_mass - self.sampled_propellant - self.reserve < self.dry_mass:
@@ -129,23 +131,23 @@ class HoverPhases(LandingSequence, interface=True):
         return self.plan_is_over()
 
     def begin_second_hover(self) -> None:
-        """Hold where the transfer went."""
+        """Hold at the end of the transfer."""
         self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
         self.request_plan(HoverMode.HOLD)
 
     def begin_approach(self, time: float) -> None:
-        """Begin the slow descent to the last hover, over the site of the second re-designation."""
+        """Request the slow descent to the last hover, over the site of the second re-designation."""
         self.move_site(self.sampled_move_2, self.second_reach, time)
         self.target_position = above_site(self.site, self.cutoff_altitude, self.moon_radius)
         self.request_plan(HoverMode.SLOW)
 
     def begin_descent(self) -> None:
-        """Hold over the site."""
+        """Request a hold over the site."""
         self.target_position = above_site(self.site, self.cutoff_altitude, self.moon_radius)
         self.request_plan(HoverMode.HOLD)
 
     def descend(self, ahead: float) -> bool:
-        """Sink after a while, until the probe touches the ground."""
+        """Descend after descent_wait, until the probe touches the ground."""
         if self.sampled_probe_contact:
             return True
         if self.sampled_ground_contact or altitude_of(self.sampled_position, self.moon_radius) <= self.cut_altitude:
@@ -156,7 +158,7 @@ class HoverPhases(LandingSequence, interface=True):
         return False
 
     def begin_contact(self) -> None:
-        """Begin contact without thrust."""
+        """Start contact without thrust."""
         self.take_over(CommandSource.OWN, False)
 
     def face_up(self, time: float) -> None:

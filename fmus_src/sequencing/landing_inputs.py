@@ -1,4 +1,4 @@
-"""Inputs of the landing sequencer, sampled once in each of its cycles."""
+"""Inputs of the landing sequencer, sampled once per decision period."""
 
 from ..block import Block, Input, Parameter, State
 from ..interfaces.ports import landing
@@ -11,9 +11,9 @@ TIME_TOLERANCE = 1e-15  # of the time
 class LandingInputs(Block, interface=True):
     """Inputs of a landing sequencer, sampled at start + k cycle and used at start + (k + 1) cycle.
 
-    Decisions lag their inputs by one cycle whatever the communication step, so that events such as the probe's contact
-    act with the same delay at every step that divides the cycle. Times between communication points move to the next
-    one.
+    Decisions lag their inputs by one cycle whatever the communication step, so that events such as the contact of the
+    probe take effect with the same delay for every step that divides the cycle. Times between communication points are
+    moved to the next one.
 
     Frame: landing site.
     """
@@ -139,7 +139,7 @@ class LandingInputs(Block, interface=True):
     start_time = State(0.0, unit="s", description="start time of the simulation")
 
     def sample_inputs(self, time: float) -> None:
-        """Copy the inputs, which are those of ``time`` (s)."""
+        """Sample the inputs at ``time`` (s)."""
         self.sampled_time = time
         self.sampled_position = self.estimated_position
         self.sampled_velocity = self.estimated_velocity
@@ -163,7 +163,7 @@ class LandingInputs(Block, interface=True):
         self.is_sampled = True
 
     def is_due(self, time: float) -> bool:
-        """Return True if a cycle is over at ``time`` (s), which then counts as its end."""
+        """Return True if a decision period ends at ``time`` (s), and count it."""
         if self.cycle > 0.0:
             margin = CYCLE_TOLERANCE * self.cycle + TIME_TOLERANCE * abs(time)
             completed = int((time - self.start_time + margin) / self.cycle)

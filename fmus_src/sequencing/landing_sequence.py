@@ -1,4 +1,4 @@
-"""Shared state of the phases of a landing: connectors, the order of phases, memory of each, statuses."""
+"""Shared state of the phases of a landing: connectors, order of phases, statuses."""
 
 from ..block import Output, Outputs, Parameter, State
 from ..interfaces.ports import landing
@@ -98,7 +98,7 @@ class LandingSequence(LandingInputs, interface=True):
     mass_is_known = State(False, description="true: phase_mass of the current phase set")
 
     def note(self, status: int, time: float) -> None:
-        """Remember a status at ``time`` (s)."""
+        """Record a status at ``time`` (s)."""
         if self.status_time[status - 1] < 0.0:
             self.status_time[status - 1] = time
             flag = 1
@@ -109,17 +109,17 @@ class LandingSequence(LandingInputs, interface=True):
             self.status = status
 
     def open_phase(self, phase: int, time: float) -> None:
-        """Go on to a phase, which holds from ``time`` (s)."""
+        """Set the phase from ``time`` (s) on."""
         self.phase = phase
         self.phase_time[phase - 1] = time
         self.mass_is_known = False
 
     def since_start(self, time: float) -> float:
-        """Return the duration (s) of the phase at ``time``."""
+        """Return the time (s) from the start of the phase to ``time``."""
         return time - self.phase_time[self.phase - 1]
 
     def take_over(self, source: int, engine_on: bool) -> None:
-        """Give the command to a source."""
+        """Make a source responsible for the command."""
         self.source = source
         self.engine_on = engine_on
         self.braking_active = source == CommandSource.BRAKING
@@ -133,7 +133,7 @@ class LandingSequence(LandingInputs, interface=True):
             self.command.burn_duration = 0.0
 
     def request_plan(self, mode: int) -> None:
-        """Give the command to the hover guidance, with a new plan."""
+        """Make the hover guidance responsible for the command, with a new plan."""
         self.take_over(CommandSource.HOVER, True)
         self.hover_mode = mode
         self.plan_number = self.plan_number + 1
@@ -143,5 +143,5 @@ class LandingSequence(LandingInputs, interface=True):
         return self.source == CommandSource.HOVER and self.sampled_plan == self.plan_number
 
     def plan_is_over(self) -> bool:
-        """Return True if the requested plan has been flown."""
+        """Return True if the requested plan is complete."""
         return self.is_answered() and self.sampled_hover_finished

@@ -1,4 +1,4 @@
-"""Leads a landing from orbit to contact: which guidance commands, to where, until when."""
+"""Sequencer of a landing from orbit to contact: responsible guidance, targets and end conditions."""
 
 import math
 
@@ -39,7 +39,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             self.enter(self.start_phase, self.start_time)
 
     def is_refused(self) -> bool:
-        """Return True if the parameters permit no landing."""
+        """Return True if the parameters do not permit a landing."""
         times = self.hold_time + self.deorbit_patience + self.pointing_patience + self.handover_time_to_go
         times = times + self.braking_patience + self.solution_patience + self.hover_time + self.hover_patience
         times = times + self.lookahead + self.descent_wait + self.settling_time + self.coast_patience + self.cycle
@@ -62,7 +62,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         return not (high and self.cutoff_altitude > self.probe_length)
 
     def enter(self, phase: int, time: float) -> None:
-        """Begin a phase, which holds from ``time`` (s)."""
+        """Start a phase from ``time`` (s) on."""
         self.open_phase(phase, time)
         if phase <= LandingPhase.COAST:
             self.begin_deorbit()
@@ -82,20 +82,20 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             self.begin_contact()
 
     def watch(self, ahead: float) -> None:
-        """Report conditions of any phase."""
+        """Record conditions that can occur in any phase."""
         if self.is_answered() and self.sampled_hover_status != HoverStatus.GOOD:
             self.note(LandingStatus.HOVER_GUIDANCE_SAID, ahead)
         if self.sampled_mass <= self.dry_mass:
             self.note(LandingStatus.OUT_OF_PROPELLANT, ahead)
 
     def end_braking(self, how: int, ahead: float) -> None:
-        """Go on to hover 1, over the site or where braking has ended."""
+        """Start hover 1, over the site or at the end of braking."""
         self.enter(LandingPhase.HOVER_1, ahead)
         if how == PhaseEnd.ELSEWHERE:
             self.move_site_ahead(ahead)
 
     def go_on(self, t: float, ahead: float) -> None:
-        """Let the phase decide, and begin the next one where it is over."""
+        """Run the present phase up to braking, and start the next one when it ends."""
         if self.phase == LandingPhase.DEORBIT:
             said = self.deorbit(t, ahead)
             if said != PhaseEnd.GOES_ON:
@@ -113,7 +113,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
             self.go_on_below(t, ahead)
 
     def go_on_below(self, t: float, ahead: float) -> None:
-        """Advance likewise from hover 1 on."""
+        """Run the present phase from hover 1 on, and start the next one when it ends."""
         over = False
         if self.phase == LandingPhase.HOVER_1:
             over = self.first_hover(t, ahead)
@@ -141,7 +141,9 @@ class LandingSequencer(OrbitPhases, HoverPhases):
                 self.is_sampled = False
 
     def decide(self, t: float, ahead: float, length: float) -> None:
-        """Decide from the inputs of ``t`` (s) on the outputs from ``ahead`` (s) on for a cycle's ``length`` (s)."""
+        """Decide, from the inputs at ``t`` (s), the outputs from ``ahead`` (s) on for a decision period of ``length``
+        (s).
+        """
         if not self.mass_is_known:
             self.mass_is_known = True
             self.phase_mass[self.phase - 1] = self.sampled_mass

@@ -1,4 +1,4 @@
-"""From the orbit to the end of main braking: phases 1 to 3 of a landing."""
+"""Phases 1 to 3 of a landing: from the orbit to the end of braking."""
 
 import math
 
@@ -25,9 +25,9 @@ class PhaseEnd(Enumeration):
 class OrbitPhases(LandingSequence, interface=True):
     """Deorbit, coast and braking with their end conditions.
 
-    The deorbit burn reduces horizontal velocity, centred where the ellipse's pericentre lies braking_range before the
-    site; its duration is recomputed every step and held from hold_time before its end. Braking ends handover_time_to_go
-    before its target or, far from the site, when slow or at its end.
+    The deorbit burn reduces the horizontal velocity, centred where the ellipse's pericentre lies braking_range before
+    the site; its duration is recomputed every step and held from hold_time before its end. Braking ends
+    handover_time_to_go before its target or, far from the site, at a low speed or when the guidance has finished.
     """
 
     braking_range = Parameter(
@@ -107,7 +107,7 @@ class OrbitPhases(LandingSequence, interface=True):
     elsewhere = State(False, description="true: braking to be completed away from the site")
 
     def face_back(self, time: float) -> None:
-        """Command against the horizontal velocity, without thrust."""
+        """Command a direction opposite to the horizontal velocity, without thrust."""
         turning = against_horizontal(self.sampled_position, self.sampled_velocity, self.moon_radius)
         self.command.thrust_direction = turning.direction
         self.command.thrust_direction_rate = turning.rate
@@ -116,11 +116,11 @@ class OrbitPhases(LandingSequence, interface=True):
         self.command.burn_duration = 0.0
 
     def begin_deorbit(self) -> None:
-        """Begin an own command; the first step sets its direction."""
+        """Make the sequencer's own command responsible; the first step sets its direction."""
         self.take_over(CommandSource.OWN, False)
 
     def deorbit(self, t: float, ahead: float) -> int:
-        """Wait, ignite, burn."""
+        """Wait for the ignition point, ignite and burn; return the end condition of the phase."""
         if not self.holding:
             self.face_back(t)
             acceleration = self.deorbit_throttle * self.maximum_thrust / self.sampled_mass
@@ -149,14 +149,15 @@ class OrbitPhases(LandingSequence, interface=True):
         return PhaseEnd.GOES_ON
 
     def is_time_to_burn(self, burn: float) -> bool:
-        """Return True if a burn (s) from now has its middle braking_range and half a revolution
-        before the site, or later."""
+        """Return True if a burn (s) from now has its middle at half a revolution plus braking_range before the site,
+        or later.
+        """
         turned = norm(self.sampled_velocity) / norm(from_centre(self.sampled_position, self.moon_radius))
         place = math.pi + self.braking_range / self.moon_radius + 0.5 * burn * turned
         return central_angle(self.sampled_position, self.moon_radius) <= place
 
     def coast(self, t: float, ahead: float) -> int:
-        """Coast until the site is near."""
+        """Coast until the site is at braking_range; return the end condition of the phase."""
         self.face_back(t)
         before_site = self.sampled_position.z > -self.moon_radius
         left = ground_range(self.sampled_position, self.moon_radius) - self.braking_range
@@ -172,9 +173,9 @@ class OrbitPhases(LandingSequence, interface=True):
         return PhaseEnd.GOES_ON
 
     def is_falling(self, angle: float) -> bool:
-        """Return True if the coast is low and reaches the ground before its end, which is an ``angle`` (rad) ahead.
+        """Return True if the coast is low and reaches the ground before its end, ``angle`` (rad) ahead.
 
-        A low pericentre alone is no reason to brake from farther away, which takes too much propellant.
+        A low pericentre alone is no reason to brake earlier, which would need too much propellant.
         """
         if altitude_of(self.sampled_position, self.moon_radius) >= self.lowest_coast:
             return False
@@ -184,18 +185,18 @@ class OrbitPhases(LandingSequence, interface=True):
         return lowest < self.coast_clearance
 
     def begin_braking(self) -> None:
-        """Begin the braking guidance's command, without thrust until the axis is on it."""
+        """Make the braking guidance responsible, without thrust until the thrust axis is aligned."""
         self.take_over(CommandSource.BRAKING, False)
         self.flown_divert = self.sampled_divert
 
     def divert_site(self) -> None:
-        """Move the site below the target that the braking is diverted to."""
+        """Move the site below the target to which braking is diverted."""
         if self.sampled_divert != self.flown_divert:
             self.flown_divert = self.sampled_divert
             self.site = site_below(self.sampled_divert_position, self.moon_radius)
 
     def ignite(self, answered: bool, ahead: float) -> None:
-        """Turn the engine on once the axis is on the guidance's direction, or after a while in any case."""
+        """Ignite the engine when the thrust axis is aligned with the command, or after pointing_patience."""
         minimum = cos(self.pointing_tolerance) * norm(self.sampled_attitude) * norm(self.sampled_direction)
         if answered and dot(self.sampled_attitude, self.sampled_direction) >= minimum:
             self.engine_on = True
@@ -204,7 +205,7 @@ class OrbitPhases(LandingSequence, interface=True):
             self.engine_on = True
 
     def brake(self, t: float, ahead: float) -> int:
-        """Ignite, and look for the end. What the guidance put out before the phase began does not count."""
+        """Ignite, then brake until an end condition holds; outputs of the guidance before the phase are ignored."""
         answered = self.sampled_command_time >= self.phase_time[LandingPhase.BRAKING - 1] - ROUNDING
         self.divert_site()
         if not self.engine_on:

@@ -1,4 +1,4 @@
-"""A landing site that is moved once, at a time known beforehand."""
+"""Divert of the landing site at a predefined time."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import landing, sampling
@@ -39,7 +39,7 @@ class SiteDivert(Block):
         self.move_site(self.start_time)
 
     def move_site(self, time: float) -> None:
-        """Move the site where ``time`` (s) has reached divert_time."""
+        """Move the site once ``time`` (s) reaches divert_time."""
         if self.divert_time > 0.0 and not self.diverted and time >= self.divert_time - sampling.TIME_ROUNDING:
             self.diverted = True
             self.divert_count = 1

@@ -1,4 +1,4 @@
-"""State of a landing at the moment of contact."""
+"""Monitor of the motion at ground contact."""
 
 from ..block import Block, Output, Parameter, State
 from ..interfaces.ports import landing
@@ -60,7 +60,7 @@ class TouchdownMonitor(Block):
         self.watch(self.start_time)
 
     def watch(self, time: float) -> None:
-        """Note the contact at ``time`` (s) if it is the first."""
+        """Record the motion at ``time`` (s) if it is the first ground contact."""
         if self.ground_contact and not self.contact:
             self.contact = True
             self.contact_time = time
