@@ -16,7 +16,7 @@ from .external_state import DataFiles, ExternalState, HasExternalState, data_pro
 from .roles import LIFE_CYCLE
 from .variables import DeclarationError, Input, Output, Parameter, State, Variable
 
-# What the file of a block takes from here.
+# Names imported by the file of a block.
 __all__ = ["Block", "ExternalState", "Input", "Inputs", "Output", "Outputs", "Parameter", "State"]
 
 
@@ -100,7 +100,7 @@ class Block(DataFiles, HasExternalState):
     @classmethod
     def _check_written(cls) -> None:
         for base in cls.__mro__:
-            own_step = cls.step is not getattr(base, "step", None)  # and what it calls is its own affair
+            own_step = cls.step is not getattr(base, "step", None)  # which need not call the methods to write
             for name in () if own_step else vars(base).get("to_write", ()):
                 if getattr(cls, name) is vars(base)[name]:
                     arguments = ", ".join(inspect.signature(vars(base)[name]).parameters)

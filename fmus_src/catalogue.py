@@ -80,7 +80,7 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
     _check_names(path)
     try:
         module = import_file(path)
-    except Exception as error:  # whatever the user's file raises is reported as one line
+    except Exception as error:  # an exception of the user's file is reported as one line
         # Python 3.11 wraps what a declaration raises
         reason = error.__cause__ if isinstance(error.__cause__, DeclarationError) else error
         raise ValueError(f"{path}: importing it failed: {type(reason).__name__}: {reason}; correct it") from error
@@ -100,7 +100,7 @@ def _check_names(path: Path) -> None:
     try:
         tree = ast.parse(path.read_bytes())
     except (SyntaxError, ValueError):
-        return  # which the import tells better
+        return  # reported by the import with more detail
     lines: dict[str, int] = {}
     for node in tree.body:
         if isinstance(node, ast.ClassDef):

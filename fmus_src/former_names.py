@@ -14,7 +14,7 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 
 PACKAGE = __name__.rpartition(".")[0]
-FOLDERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {  # new folders of modules that keep their names, by the old one
+FOLDERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {  # former folder: new folders and their modules
     "mathlib": {
         "kernel": ("matrices",),
         "mathlib.actuators": ("gyros", "jets", "lagged_thrust", "pulses"),

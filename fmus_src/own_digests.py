@@ -25,7 +25,7 @@ SUMS = "SHA256SUMS"
 NOTED = CACHE / SUMS
 LINE = re.compile(rb"([0-9a-f]{64}) [ *].")
 LISTS = (NOTED, *(shipped_fmu("", flavour).with_name(SUMS) for flavour in FLAVOURS))
-_built_here: set[str] = set()  # digests that no list could be written of
+_built_here: set[str] = set()  # digests of FMUs for which no list could be written
 
 
 def digest_of(path: Path) -> str:
@@ -67,7 +67,7 @@ def note_own(path: Path) -> None:
     try:
         NOTED.parent.mkdir(parents=True, exist_ok=True)
         line = _line(digest, path)
-        # One write, since several processes may build at once; behind a line that was cut.
+        # One write, since processes may build concurrently; on a new line if the last one is incomplete.
         with NOTED.open("ab+") as file:
             size = file.seek(0, os.SEEK_END)
             file.seek(max(size - 1, 0))

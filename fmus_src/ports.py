@@ -17,7 +17,7 @@ class Port:
         self.start = start
         self.declaration = declaration
 
-    if TYPE_CHECKING:  # a bundle in a block has plain values under the names of its ports
+    if TYPE_CHECKING:  # a bundle in a block has plain values under its ports' names
 
         def __get__(self, instance: object, owner: type | None = None) -> Any: ...
 

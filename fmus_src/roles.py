@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 SAMPLE_PERIOD = "sample_period"
 START_TIME = "start_time"
-INTEGRATION_STEPS = ("longest_step", "internal_step")  # the first that a block has
+INTEGRATION_STEPS = ("longest_step", "internal_step")  # the first one that a block declares is used
 SEED, STREAM = "seed", "stream"
 STATUS = "status"
 FINISHED = "finished"
-FROZEN = "frozen_"  # before the name of an output
+FROZEN = "frozen_"  # prefix of an output's name
 
 
 @dataclass(frozen=True)

@@ -16,14 +16,14 @@ from .kernel.vector_types import vector
 from .roles import INTEGRATION_STEPS, SAMPLE_PERIOD, START_TIME
 from .start_values import StartError, TuningError, describe_violation, start_range
 
-# How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
+# Tolerances of communication points at sample instants: importers round t0 + n h, or sum h.
 SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
 STEP_LIMIT = 1_000_000  # samples, and steps of a block's own integration, in a communication step
-POINT_TOLERANCE = 1e-3  # of a step: communication points carry the rounding of whoever adds them up
+POINT_TOLERANCE = 1e-3  # of a step, for the importer's rounding of communication points
 
-SCALAR, VECTOR, LIST, RECORD, MATRIX = -1, -2, -3, -4, -5  # in place of an element's number: all of a variable
-Access = tuple[str, int, int, int]  # variable, element or one of the above, place of its values and their end
+SCALAR, VECTOR, LIST, RECORD, MATRIX = -1, -2, -3, -4, -5  # in place of an element's index: the whole variable
+Access = tuple[str, int, int, int]  # variable, element or one of the above, first and last position of its values
 
 
 class StepError(ValueError):
@@ -74,7 +74,7 @@ class BlockInstance:
                 self.checked += range(first, first + variable.size)
                 self.ranges += [(name, *start_range(variable)) for name in variable.element_names()]
             first += variable.size
-        # For each list of value references that was asked for: the variables behind it. Importers repeat theirs.
+        # Cache of the variables for each list of value references, since importers repeat their lists.
         self.known: dict[tuple[int, ...], list[Access]] = {}
         self.tunable = frozenset(tunable)
         self.tuned: dict[tuple[int, ...], list[int]] = {}  # tunable parameters among references, by place in the list
@@ -203,7 +203,7 @@ class BlockInstance:
             if isinstance(variable, State | Output):
                 setattr(self.block, name, variable.start)
         self.check_start_values()
-        self.block.drop_external()  # before new ones: two simulations at once would take twice the memory
+        self.block.drop_external()  # before new ones, to avoid the memory of two simulations
         self.tick = 0
         if START_TIME in self.block.variables:
             self.block.start_time = self.start_time

@@ -118,7 +118,7 @@ class JetAllocation(Block, interface=True):
         self.put_out(self.start_time)
 
     def step(self, t: float, h: float) -> None:
-        self.put_out(t + h)  # what is due now, before a new command can take its place
+        self.put_out(t + h)  # thrusts due now, before a new command replaces them
         if self.command_count != self.counted:
             self.take(t + h)
             self.put_out(t + h)

@@ -135,7 +135,7 @@ class ThrustAllocation(Allocation):
         """Output the demanded direction and timing with their lead times."""
         self.thrust_direction = self.demanded_direction
         self.thrust_direction_rate = self.demanded_direction_rate
-        # counted from earlier, the direction is further on at any time
+        # an earlier reference time advances the direction at any time
         self.command_time = self.demand_time - self.direction_lead
         self.burn_duration = self.duration() + self.direction_lead
 

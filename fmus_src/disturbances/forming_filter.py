@@ -64,7 +64,7 @@ class FormingFilter(Block):
                 c = e * cosh(wd * h)
                 s = e * sinh(wd * h) / wd
             else:
-                # cosh and sinh are equal here, and overflow further on
+                # cosh and sinh are equal here, and overflow for larger arguments
                 c = 0.5 * exp((wd - decay) * h)
                 s = c / wd
         return vector(c + decay * s, s, -w * w * s, c - decay * s)

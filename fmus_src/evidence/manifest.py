@@ -62,7 +62,7 @@ class Related:
     role: str
     type: str
     description: str
-    study: str | None = None  # of a report: what it is of, a campaign's name or `STABILITY`
+    study: str | None = None  # of a report: name of its campaign, or `STABILITY`
 
 
 def add_manifest(files: Mapping[str, bytes], related: Sequence[Related]) -> dict[str, bytes]:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ...common.atomic import whole_file
 
-EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date a zip can hold
+EPOCH = (1980, 1, 1, 0, 0, 0)  # earliest date of a zip file
 
 
 def write_zip(path: Path, files: Mapping[str, bytes]) -> None:

@@ -52,7 +52,7 @@ def _list_shipped(name: str, flavours: Iterable[str]) -> Iterator[Path]:
             yield shipped
         elif not IS_CHECKOUT and flavour == "python" and name in catalogue():
             path = cached_file(_python_folder() / f"{name}.fmu", partial(_python_fmu, name))
-            note_own(path)  # the list may have been damaged since it was built
+            note_own(path)  # the list may have been damaged since the build
             yield path
 
 

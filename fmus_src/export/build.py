@@ -32,7 +32,7 @@ def build_fmus(flavour: str, output: Path, platforms: Sequence[str], portable: b
             return build_python_fmu(blocks[name], path)
         return build_native_fmu(blocks[name], path, platforms=platforms, portable=portable)
 
-    # Native FMUs take their time in compilers, each a process; pythonfmu's builder changes sys.path meanwhile.
+    # Native FMUs spend their time in compiler processes; pythonfmu's builder changes sys.path.
     threads = 1 if flavour == "python" else os.cpu_count()
     with ThreadPoolExecutor(threads) as pool:
         list_own(folder, list(_progress(pool.map(build, names), f"{flavour} FMUs", len(names))))

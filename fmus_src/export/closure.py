@@ -22,10 +22,10 @@ from ..face import HOME_OF
 from ..former_names import FORMER, stand_in
 from ..user_modules import list_imports, module_name, modules_of
 
-FACE_PACKAGE = SOURCE_PACKAGE.rpartition(".")[0]  # from which the names of `face` may be imported, too
+FACE_PACKAGE = SOURCE_PACKAGE.rpartition(".")[0]  # package from which the names of `face` can be imported, too
 SOURCE_ROOT = Path(__file__).parents[1]
-OUTSIDE = "outside"  # the folder, in the package, of a user's modules and data
-RUNTIME_MODULES = ("export.pythonfmu_slave", "face")  # what the slave script itself and the package import
+OUTSIDE = "outside"  # folder in the package for a user's modules and data
+RUNTIME_MODULES = ("export.pythonfmu_slave", "face")  # imported by the slave script and the package
 
 
 class ClosureError(ValueError):
@@ -160,7 +160,7 @@ def _check_siblings(node: ast.ImportFrom, path: Path) -> None:
             raise ClosureError(f"{path}:{node.lineno}: import of {written}: not packed into the FMU; {remedy}")
 
 
-@cache  # all blocks share most of their files
+@cache  # blocks share most of their files
 def _read_import(text: bytes, module: str, path: Path, allowed: frozenset[str]) -> tuple[str, ...]:
     """Return the modules of the source package that a statement imports, as dotted names below it."""
     package = module.rsplit(".", 1)[0].split(".") if "." in module else []

@@ -9,7 +9,7 @@ import struct
 from collections.abc import Sequence
 
 FAT_MAGIC = 0xCAFEBABE  # everything in the header is big-endian
-MACH_O_64 = 0xFEEDFACF  # little-endian, as all processors that are joined here
+MACH_O_64 = 0xFEEDFACF  # little-endian, as for all supported processors
 ALIGNMENT = 14  # power of 2: the pages of arm64, 16 KiB, a multiple of those of x86_64
 
 

@@ -19,7 +19,7 @@ from .fat_binary import fat_binary
 @cache
 def _identity(command: tuple[str, ...]) -> str:
     """Return command and version of a compiler for the cache key."""
-    with tempfile.TemporaryDirectory() as folder:  # zig leaves a file behind where it runs
+    with tempfile.TemporaryDirectory() as folder:  # zig leaves a file in its working folder
         version = _output([*command, "--version"], folder)
     return " ".join(command[1:] if command[0] == sys.executable else command) + version
 

@@ -59,7 +59,7 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
     is_ours = is_shipped(block_class)
     try:
         files = _with_pythonfmu(closure, script_name, script)
-    except Exception as error:  # whatever the user's file raises where it is packed is reported as one line
+    except Exception as error:  # an exception of the user's file is reported as one line
         if is_ours:
             raise
         failed = f"importing it as it is packed into the FMU failed: {type(error).__name__}: {error}"
@@ -108,6 +108,6 @@ def _with_pythonfmu(closure: Closure, script_name: str, script: str) -> dict[str
             for name in set(sys.modules) - modules_before:
                 if name.startswith(("perilune_", script_name)):
                     del sys.modules[name]
-            del retained[scripts_before:]  # but none of an FMU that is loaded in this process
+            del retained[scripts_before:]  # except those of FMUs loaded in this process
         files = read_zip(built)
     return {name: text for name, text in files.items() if name != "modelDescription.xml"}

@@ -22,7 +22,7 @@ def keep_source(package: str) -> None:
         file = getattr(module, "__file__", None) if name.startswith(f"{package}.") else None
         if file is not None and file not in linecache.cache:
             lines = linecache.getlines(file)
-            linecache.cache[file] = (sum(map(len, lines)), None, lines, file)  # no date: never checked again
+            linecache.cache[file] = (sum(map(len, lines)), None, lines, file)  # without date: never checked again
 
 
 class BlockSlave(Fmi2Slave):
@@ -42,7 +42,7 @@ class BlockSlave(Fmi2Slave):
         self.modelName = self.block_class.fmu_name
         self.component = BlockInstance(self.block_class, self.tunable)
         self.component.block.fmu_resources = self.resources
-        self.time: float | None = None  # end of the last step; not known of a state put back
+        self.time: float | None = None  # end of the last step; None after a restored state
         self.stop_time = math.inf
         self.get_real = self.get_integer = self.get_boolean = self.get_values
         self.set_real = self.set_integer = self.set_boolean = self.set_values
@@ -68,7 +68,7 @@ class BlockSlave(Fmi2Slave):
         self.log(traceback.format_exc().replace("%", "%%"), Fmi2Status.error)
 
     def setup_experiment(self, start_time: float, stop_time: float | None, *_: object) -> None:
-        # All is imported by now; left on the path, this FMU's folder would answer for other FMUs' imports.
+        # All modules are imported; if left on the path, this folder would serve other FMUs' imports.
         sys.path[:] = [entry for entry in sys.path if entry != self.resources]
         self.component.start_time = self.time = start_time
         self.stop_time = math.inf if stop_time is None else stop_time
@@ -87,7 +87,7 @@ class BlockSlave(Fmi2Slave):
             self.component.check_end(current_time, step_size, self.stop_time)
             self.component.do_step(current_time, step_size)
             self.time = current_time + step_size
-        except Exception:  # whatever a block raises ends the run with its traceback
+        except Exception:  # an exception of a block ends the simulation with its traceback
             self.log_failure()
             return False
         return True

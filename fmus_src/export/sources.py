@@ -21,7 +21,7 @@ def record_source(folder: Path, source: Path, fmus: Sequence[Path], others: Iter
     """Record that ``fmus`` in ``folder``/FLAVOUR were built from a file and others of its folder."""
     try:
         place = _relative(source, folder)
-    except ValueError:  # on another drive, to which no way leads from here
+    except ValueError:  # on another drive, without a relative path
         return
     known = _read(folder)
     built_of = {"source": place, "sha256": digest_of(source)}

@@ -12,7 +12,7 @@ from .archive import write_zip
 
 SSD_NAMESPACE = "http://ssp-standard.org/SSP1/SystemStructureDescription"
 DESCRIPTION = "SystemStructure.ssd"
-SYSTEM_FILE = "system.toml"  # of which perilune compose writes it
+SYSTEM_FILE = "system.toml"  # source of `perilune compose`
 RESOURCE_SUFFIXES = (".ssv", ".ssm", ".ssb")
 CAMPAIGN_FOLDER = "extra/org.perilune/campaigns"
 

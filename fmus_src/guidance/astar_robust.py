@@ -8,7 +8,7 @@ from ..mathlib.vectors import norm
 from .astar_programme import AstarProgramme
 from .certain_time import CertainTime
 
-FORWARD = 0.05  # least fraction of the thrust along x that the arcsines are trusted with; 0.07 in the published box
+FORWARD = 0.05  # least fraction of thrust along x for the arcsines; 0.07 in the published box
 
 
 class AstarRobustGuidance(AstarProgramme, CertainTime):

@@ -5,9 +5,9 @@ from ..mathlib.lunar.terminal import cubic_time, effort_rises, least_effort_time
 from ..mathlib.vectors import Vector3
 from .terminal_guidance import TerminalGuidance
 
-AGREEMENT = 0.05  # of the time; where the two times are this close, a flight of least effort goes over to braking
-# With less than ENDING (s) to go and no root, a least effort of more than CHASE times that would only chase errors
-# of knowledge about the target: time is up.
+AGREEMENT = 0.05  # of the time; if the two times are this close, a least-effort flight changes to braking
+# With less than ENDING (s) to go and no root, a least effort of more than CHASE times that would only follow errors
+# of the estimate: the flight ends.
 ENDING = 5.0
 CHASE = 1.5
 

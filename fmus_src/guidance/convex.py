@@ -12,16 +12,16 @@ from .informed_guidance import LIMIT_GLIDE_SLOPE, LIMIT_PLACE
 from .polynomial_guidance import GLIDE_TOLERANCE
 from .zem_zev import ZemZevGuidance
 
-LARGEST = 1e9  # m, m/s, kg, that are planned with
+LARGEST = 1e9  # m, m/s, kg, largest values for planning
 SMALLEST_MASS = 1e-3  # kg
-LOWEST_BRAKING = 0.7  # of the first time, where that brakes at about constant thrust, ...
-LOWEST_EFFORT = 0.4  # ... and where it is that of least effort: times from which a search begins
-CLEARANCE = 5.0  # m of a start outside of the glide slope above the one that is lowered for it
-OFF_COURSE = 30.0  # m from the plan, at which to replan, ...
-CLOSING = 1.0  # m/s, times the time to go the same near the end, which leaves no time to fly an offset out, ...
-PATIENCE = 5.0  # ... s after the last one at the earliest
-END_LOAD = 1.1  # thrust over the largest of a linear end for which another time is chosen
-LATE = 1.03  # of the time left, beyond which a plan uses more of the thrust
+LOWEST_BRAKING = 0.7  # of the first time, if that brakes at about constant thrust, ...
+LOWEST_EFFORT = 0.4  # ... and if it is that of least effort: lower bounds of a search
+CLEARANCE = 5.0  # m, height of a start below the glide slope above a lowered one
+OFF_COURSE = 30.0  # m from the plan at which a new plan is computed, ...
+CLOSING = 1.0  # m/s, times the time to go: the same near the end, ...
+PATIENCE = 5.0  # ... at least this time (s) after the last plan
+END_LOAD = 1.1  # thrust over the largest above which another time is chosen for ZEM/ZEV
+LATE = 1.03  # of the remaining time, above which a plan uses more of the thrust
 
 
 class ConvexGuidance(ZemZevGuidance):

@@ -31,7 +31,9 @@ class FractionalGuidance(PolynomialGuidance):
     Source: Lu 2019 and 2020; the search: this repository.
     """
 
-    last_burn = PolynomialGuidance.last_burn.with_start(2.0)  # with gamma < 1 the direction's rate ends infinite
+    last_burn = PolynomialGuidance.last_burn.with_start(
+        2.0
+    )  # with gamma < 1 the direction's rate is infinite at the end
     final_thrust_acceleration = Parameter(
         [0.0, 0.0, 2.0], unit="m/s2", frame="landing site", description="thrust acceleration at the target"
     )

@@ -12,15 +12,15 @@ from ..mathlib.vectors import across, clip, dot, limit_length, norm, vector
 from ..units import deg
 from .hover_plan import HoverPlan
 
-CYCLE_TOLERANCE = 1e-3  # of a cycle, by which communication points may miss sample instants
+CYCLE_TOLERANCE = 1e-3  # of a cycle, tolerance of communication points at sample instants
 USUAL_CYCLE = 0.1  # s, of the first command, before the communication step is known
-LEAST_THRUST = 0.02  # m/s2; less is not commanded, for the direction's sake
-LEAST_LEVER = 1.0  # m/s2; thrust over mass that a lateral demand is at least referred to
-BEFORE_LAST_BURN = 1.0  # s, by which the gains of the last burn are earlier
-HIGH_THRUST = 0.3  # of the largest, above which measured thrust is trusted
+LEAST_THRUST = 0.02  # m/s2; least commanded value, to keep the direction defined
+LEAST_LEVER = 1.0  # m/s2; least thrust over mass by which a lateral demand is divided
+BEFORE_LAST_BURN = 1.0  # s, lead of the gains of the last burn
+HIGH_THRUST = 0.3  # of the largest thrust, above which measured thrust is used
 HIGH_GAIN = 0.1
 LOW_GAIN = 0.02
-LARGEST_FACTOR_ERROR = 0.5  # beyond, the engine is not under this command
+LARGEST_FACTOR_ERROR = 0.5  # for larger errors the engine does not follow this command
 
 
 class HoverGuidance(HoverPlan):
@@ -142,7 +142,7 @@ class HoverGuidance(HoverPlan):
     def guide(self, time: float) -> None:
         """Process the sample at ``time`` (s)."""
         self.elapsed = time - self.sample_time
-        # nominal but for communication points that miss sample instants, so that rounding does not get in
+        # nominal unless communication points miss sample instants, to exclude rounding
         if abs(self.elapsed - self.cycle) <= CYCLE_TOLERANCE * self.cycle or not self.elapsed > 0.0:
             self.elapsed = self.cycle
         self.sample_time = time

@@ -15,9 +15,9 @@ LIMIT_THRUST = 1
 LIMIT_GLIDE_SLOPE = 2
 LIMIT_TILT = 4
 LIMIT_PLACE = 8
-ROUNDS = 20  # to a time and the gravity corrected over it that agree
+ROUNDS = 20  # iterations until time and gravity correction agree
 AGREED = 1e-10  # s
-NEARLY_AGREED = 1e-6  # s, where rounding of long times is what keeps them apart
+NEARLY_AGREED = 1e-6  # s, for long times with larger rounding errors
 
 
 class InformedGuidance(TerminalGuidance, interface=True):

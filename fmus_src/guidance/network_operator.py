@@ -33,7 +33,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     specific_impulse = landing.SPECIFIC_IMPULSE.parameter(
         description="specific impulse of the engine, used for time_to_go"
     )
-    # 6 m/s is what a hand-over is judged by; navigation does not know the speed better than 0.1 m/s
+    # the criterion of a hand-over is 6 m/s; the speed is known to 0.1 m/s
     handover_speed = landing.HANDOVER_SPEED.parameter()
     handover_altitude_low = landing.HANDOVER_ALTITUDE_LOW.parameter()
     handover_altitude_high = landing.HANDOVER_ALTITUDE_HIGH.parameter()

@@ -9,7 +9,7 @@ from ..mathlib.vectors import clip
 
 KILOGRAM_FORCE = STANDARD_GRAVITY  # N
 
-# The law that Diveev, Pupkov and Sofronova (2013) found.
+# The law found by Diveev, Pupkov and Sofronova (2013).
 PUBLISHED_MATRIX = (
     *(0, 0, 0, 0, 0, 0, 1, 23, 0, 0, 0, 0, 0, 0, 0, 0),
     *(0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0),

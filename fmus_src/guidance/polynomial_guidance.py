@@ -14,13 +14,13 @@ OVERLOAD_PRICE = 2000.0  # m/s for a thrust that is twice the largest
 GLIDE_PRICE = 2.0  # 1/s, m/s for a metre below the glide slope
 TILT_PRICE = 500.0  # m/s for a difference of 1 of cosines
 TRIALS = 25
-SHORTEST, SPACING = 0.6, 0.05  # of the first time: those that are tried
+SHORTEST, SPACING = 0.6, 0.05  # of the first time: shortest time and spacing of the grid
 GOLDEN = 0.6180339887498949
 REDUCTIONS = 12
 CHECK_INTERVAL = 2.0  # s between checks of the thrust that the plan asks for
-LAST_CHECK = 10.0  # s to go, below which there are none
+LAST_CHECK = 10.0  # s to go, below which no checks are made
 MOST_CHOICES = 30
-GLIDE_TOLERANCE = 1.0  # m; a search with prices leaves the glide slope by less
+GLIDE_TOLERANCE = 1.0  # m, largest violation of the glide slope by a search with penalties
 
 
 class TimeChoice(Enumeration):

@@ -16,7 +16,7 @@ from .informed_guidance import LIMIT_THRUST
 from .zem_zev import ZemZevGuidance
 
 FIRST_ITERATIONS = 40
-ITERATIONS = 3  # in each further cycle
+ITERATIONS = 3  # per cycle after the first
 FIRST_THRUST = 0.85  # of the largest
 
 

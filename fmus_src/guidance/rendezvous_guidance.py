@@ -155,7 +155,7 @@ class RendezvousGuidance(Block):
         self.plan_turn(angle)
         spin = norm(self.spin_axis)
         approach = self.arrival_time - self.turn_end
-        # the way per acceleration: phases 1 and 2, and half of phase 3 with the velocity of phase 2
+        # distance per acceleration: phases 1 and 2, and half of phase 3 at the velocity of phase 2
         reach = self.turn_start * (self.turn_end - 0.5 * self.turn_start + 0.5 * approach)
         there = self.target_position + self.arrival_time * self.target_velocity
         self.place = there - self.final_distance * self.spin_axis / spin
@@ -239,7 +239,7 @@ class RendezvousGuidance(Block):
                 following = change
         begin = time + self.delay_fraction * self.translation_period
         if self.translation_count == 0:
-            begin = time  # nothing acts before the first force, which makes up for it
+            begin = time  # no force acts before the first command, which compensates for this
         end = (float(following) + self.delay_fraction) * self.fast_period
         if following < change:
             end = float(following) * self.fast_period + self.delay_fraction * self.translation_period

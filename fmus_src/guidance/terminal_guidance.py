@@ -8,9 +8,9 @@ from ..kernel.integrators import STEP_ROUNDING
 from ..mathlib.lunar.gravity import central_gravity
 from ..mathlib.vectors import Vector3, vector
 
-# Cycles; a last burn is never a sliver of one, in which small misses would ask for a large thrust.
+# Cycles; a shorter last burn would need a large thrust for small misses.
 LAST_BURN = 1.5
-# Solves at the start at most, until time-to-go and the gravity corrected over it agree to SETTLED of it.
+# Most solutions at the start until time to go and gravity correction agree to SETTLED of the time.
 SETTLING = 20
 SETTLED = 1e-10
 
@@ -275,7 +275,7 @@ class TerminalGuidance(Block, interface=True):
         if self.terminal_step == TerminalStep.EXACT:
             self.command.burn_duration = UNLIMITED
             if self.time_to_go <= self.hold_time():
-                # from command_time on, which is earlier where the last command is held
+                # from command_time on, which lies earlier if the last command is held
                 self.command.burn_duration = time - self.command.command_time + self.time_to_go
         elif self.time_to_go < self.cycle:
             self.finished = True

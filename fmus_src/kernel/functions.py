@@ -17,11 +17,11 @@ from .elementary import exponential, hyperbolic, inverse, logarithm, power, root
 F = TypeVar("F", bound=Callable)
 
 DOMAIN_ERROR, RANGE_ERROR = "math domain error", "math range error"
-EITHER_ERROR = ""  # the argument decides
+EITHER_ERROR = ""  # depends on the argument
 
-VERSION = 1  # of the bits: counts up with every change of a result of a function
+VERSION = 1  # of the results: incremented with every change of a function's bits
 
-# Every function that computes one of those at the end: what an infinite result of finite arguments is, None if there is
+# Functions of one argument: exception for an infinite result of a finite argument; None if there is
 # none.
 FAULTS: dict[Any, str | None] = {}
 

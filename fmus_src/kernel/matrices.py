@@ -12,7 +12,7 @@ __all__ = [
 ]  # fmt: skip
 
 SQUARINGS = 30  # of a matrix, for its largest eigenvalue to 1e-9
-TERMS = 16  # of the exponential's series: at a norm of 1/2 what is left out is below 1e-19
+TERMS = 16  # of the exponential's series: at a norm of 1/2 the remainder is below 1e-19
 
 
 def diagonal(v: Vector) -> Matrix:

@@ -157,7 +157,7 @@ class Matrix:
         return Matrix, (self.rows,)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
-        import numpy as np  # kernels do without
+        import numpy as np  # not needed by kernels
 
         return np.array(self.rows, dtype)
 

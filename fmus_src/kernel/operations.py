@@ -43,5 +43,5 @@ def add_method(
     text = "\n    ".join([f"def {name}({arguments}):", *lines])
     exec(compile(text, __file__, "exec"), namespace)
     method = namespace[name]
-    method.__qualname__ = f"{owner.__qualname__}.{name}"  # which messages about missing fields name
+    method.__qualname__ = f"{owner.__qualname__}.{name}"  # named in messages about missing fields
     setattr(owner, name, method)

@@ -86,7 +86,7 @@ def _write_methods(kind: type[Vector]) -> None:
     refusal = [
         "elif isinstance(factor, Vector):",
         f"    raise TypeError(f'a vector of {len(names)} times one of {{len(factor)}}')",
-    ]  # a number of the other's would be multiplied with all of this one
+    ]  # a number type's own operator would multiply element by element
     for name, sign, refused in (("__mul__", "*", refusal), ("__truediv__", "/", [])):
         by_component = [f"    {line}" for line in fill(names, f"self.{{0}} {sign} factor.{{0}}")]
         by_number = [f"    {line}" for line in fill(names, f"self.{{0}} {sign} factor")]

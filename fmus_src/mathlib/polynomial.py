@@ -7,8 +7,8 @@ points, roots of the derivative, isolate the roots, which are computed by Newton
 
 import math
 
-LARGEST = 1e15  # roots beyond are not looked for
-SETTLED = 1e-12  # of the root; a step of Newton's method this small leaves nothing behind but rounding
+LARGEST = 1e15  # larger roots are ignored
+SETTLED = 1e-12  # of the root; a smaller Newton step leaves only rounding errors
 
 
 def evaluate(c: list, x: float) -> float:
@@ -58,7 +58,7 @@ def root_between(c: list, low: float, high: float, rising: bool, guess: float) -
         if slope != 0.0:
             newton = x - value / slope
         before = x
-        # Newton's steps halve at least, or the bracket does
+        # each iteration at least halves the Newton step or the bracket
         if newton > low and newton < high and abs(newton - x) <= 0.5 * abs(step):
             x = newton
             if abs(x - before) <= SETTLED * x:

@@ -25,7 +25,7 @@ from ..mathlib.space.orientation import (
 )
 from ..mathlib.vectors import Vector3, cross, dot, norm, vector
 
-LOWEST_AIR = 100e3  # m, height at which both tables of the air begin
+LOWEST_AIR = 100e3  # m, lowest height of both air density tables
 
 
 class SpaceModel(Block, interface=True):

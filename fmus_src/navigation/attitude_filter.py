@@ -19,7 +19,7 @@ from ..mathlib.attitude.quaternion import (
 from ..mathlib.estimation.tracking import DISTURBANCE, RATE, TRACKED, measure_chain, predict_triple
 from ..mathlib.vectors import cross, dot, is_finite, vector
 
-# Inputs that the outputs depend on at once: all but the jets' torque, which is that of the step just past.
+# Inputs with direct effect on outputs: all except the jets' torque, which acted in the last step.
 AT_ONCE = ("measured_quaternion", "sample_count", "planned_quaternion", "planned_angular_velocity", "gyro_momentum")
 
 
@@ -158,7 +158,7 @@ class AttitudeFilter(Block):
     def predict(self, h: float) -> None:
         """Propagate estimate and covariance by h (s), with total angular momentum conserved except for the jets."""
         momentum_body = self.inertia * self.angular_velocity + self.last_momentum
-        # half of what jets and disturbance give over h, and the angular velocity in the middle
+        # half of the change by jets and disturbance over h, and the angular velocity in the middle
         impulse_body = 0.5 * h * (self.jet_torque + self.inertia * self.disturbance)
         selected = 0.5 * (h * cross(self.angular_velocity, momentum_body) + self.gyro_momentum - self.last_momentum)
         rotation = from_rotation_vector(h * (self.angular_velocity + (impulse_body - selected) / self.inertia))

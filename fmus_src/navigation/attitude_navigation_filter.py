@@ -20,10 +20,10 @@ from ..mathlib.vectors import Vector3, Vector4, across, cross, dot, is_finite, n
 from .attitude_navigation import AttitudeNavigationStatus
 from .multiplicative_filter import MultiplicativeFilter
 
-STAR, SUN, FIELD = 0, 1, 2  # sensors that the gate counts apart
-TURNS = 8  # cycles by which a star sample may be late
+STAR, SUN, FIELD = 0, 1, 2  # sensors with separate counts of rejected samples
+TURNS = 8  # sample periods by which a star sample may be delayed
 COARSE = 30.0  # s without a star sample
-TRIAD_SINE = 0.17  # of the smallest angle between two directions that make an attitude
+TRIAD_SINE = 0.17  # sine of the least angle between two directions for an attitude
 
 
 class AttitudeNavigationFilter(MultiplicativeFilter):

@@ -191,7 +191,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         variance = sigma * sigma
         s = self.weigh(row, variance)
         if not s > 0.0:
-            return 0.0  # no error in estimate or sensor: nothing to learn
+            return 0.0  # neither estimate nor sensor has an error
         square = innovation * innovation / s
         self.innovation_square = square
         if self.innovation_gate > 0.0 and not square <= self.innovation_gate * self.innovation_gate:
@@ -199,7 +199,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
             if not trusted or not math.isfinite(square) or s <= variance:
                 self.rejected_count = self.rejected_count + 1
                 return square
-            growth = (innovation * innovation - variance) / (s - variance)  # makes it a one-sigma innovation
+            growth = (innovation * innovation - variance) / (s - variance)  # makes the innovation one sigma
             self.covariance = growth * self.covariance
             s = self.weigh(row, variance)
         correction = self.take_in(row, innovation, s, variance)

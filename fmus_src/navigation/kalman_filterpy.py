@@ -19,7 +19,7 @@ class KalmanNavigationFilterpy(FilteredNavigation):
 
     def filter(self) -> Any:
         """Return a filterpy.kalman.KalmanFilter with the present covariance; nothing is stored in it between steps."""
-        from filterpy.kalman import KalmanFilter  # with scipy.stats, half a second of whoever reads the catalogue
+        from filterpy.kalman import KalmanFilter  # imports scipy.stats, which takes half a second
 
         made = KalmanFilter(dim_x=15, dim_z=1)
         made.P = np.array(self.covariance)

@@ -55,7 +55,7 @@ class OrbitalFilter(AttitudeObserver):
         """Propagate the covariance over a sample period, linearised at angles (rad) and rates (rad/s) of its middle."""
         period = self.sample_period
         by_angles, by_rates = angle_rate_derivatives(evaluate_angles(angles), w, self.orbital_rate)
-        f = identity(6)  # 1 + T df/dx, with the rates less the biases
+        f = identity(6)  # 1 + T df/dx, with rates minus biases
         f[ANGLES, ANGLES] = identity(3) + period * by_angles
         f[ANGLES, BIASES] = -period * by_rates
         walk = self.gyro_sigma * period

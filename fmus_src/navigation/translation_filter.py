@@ -10,7 +10,7 @@ from ..mathlib.attitude.quaternion import is_attitude, normalise, to_reference
 from ..mathlib.estimation.tracking import RATE, TRACKED, measure_chain, predict_pair
 from ..mathlib.vectors import Vector3, is_finite, norm, vector
 
-# Inputs that the outputs depend on at once: all but the force, which is that of the step just past.
+# Inputs with direct effect on outputs: all except the force, which acted in the last step.
 AT_ONCE = (
     "relative_position",
     "sample_count",

@@ -10,7 +10,7 @@ from ..mathlib.vectors import Vector3, across, clip, cross, dot, norm, vector
 from ..units import deg
 from .moon_lander import MoonLander
 
-HALVINGS = 60  # of a step, until the moment at which the tank is empty is exact
+HALVINGS = 60  # of a step, to find the time at which the tank is empty
 
 
 class AttitudeMoonLander(MoonLander):
@@ -140,7 +140,7 @@ class AttitudeMoonLander(MoonLander):
         below = self.position
         last = self.velocity
         back = 0.0
-        for _ in range(3):  # Newton's steps; the ground is all but flat over one of ours
+        for _ in range(3):  # Newton steps; the ground is nearly flat over an internal step
             sinking = -dot(self.velocity, self.vertical())
             if sinking > 0.0:
                 back = clip(back - self.altitude / sinking, 0.0, h)

@@ -7,7 +7,7 @@ from ..kernel.enumerations import Enumeration, member
 from ..mathlib.vectors import vector
 from .landing_inputs import LandingInputs
 
-NEVER = -1.0  # s; the time of what has not happened
+NEVER = -1.0  # s; time of an event that has not occurred
 ROUNDING = 1e-6  # s, allowed for in times of communication points
 
 

@@ -8,7 +8,7 @@ from .hover_phases import HoverPhases
 from .landing_sequence import ROUNDING, LandingPhase, LandingStatus
 from .orbit_phases import OrbitPhases, PhaseEnd
 
-LEAST_MARGIN = 0.9  # of the least weight: what the least thrust must stay below
+LEAST_MARGIN = 0.9  # of the dry weight; the least thrust must be smaller
 
 
 class LandingSequencer(OrbitPhases, HoverPhases):
@@ -29,7 +29,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
 
     def initialize(self) -> None:
         self.sample_inputs(self.start_time)
-        self.is_sampled = False  # once more with the first step, when all inputs are known
+        self.is_sampled = False  # sampled again in the first step, when all inputs are known
         self.last_thrust = self.start_time
         if self.is_refused():
             self.phase = LandingPhase.REFUSED

@@ -219,7 +219,7 @@ class OrbitPhases(LandingSequence, interface=True):
         if unsolved or self.since_start(ahead) >= self.braking_patience - ROUNDING:
             self.note(LandingStatus.BRAKING_FAILED, ahead)
             return PhaseEnd.ELSEWHERE if far else PhaseEnd.OVER
-        # without a solution from its start on, the guidance says that no time is left
+        # without a solution since its start, the guidance outputs a time to go of 0
         counts = self.sampled_braking_status < TerminalStatus.NOT_CONVERGED or self.sampled_time_to_go > 0.0
         ending = self.sampled_braking_finished or (counts and self.sampled_time_to_go <= self.handover_time_to_go)
         ending = ending and answered

@@ -15,7 +15,7 @@ from ...units import UnitDefinition, unit_definition
 from ...variables import Output, Parameter, State, Variable
 from ..judge.tunable import NEVER_READ, find_fixed
 
-UNREAD = "not used by this block"  # a parameter that it has in common with others
+UNREAD = "not used by this block"  # for parameters that a slot's blocks share
 STATE_ANNOTATION = "org.perilune.state"
 LOG_CATEGORIES = {
     "logStatusError": "what ended a step, with the traceback or source line",

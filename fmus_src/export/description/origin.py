@@ -14,10 +14,10 @@ import fmpy
 from ....common.errors import InputError
 from ....common.paths import IS_CHECKOUT, PACKAGE, ROOT
 
-# The release of this version, which its FMUs are dated with, so that builds are the same bytes.
+# Release date of this version, with which its FMUs are dated for reproducible builds.
 RELEASED = datetime(2026, 11, 29, tzinfo=UTC)
 EPOCH = "SOURCE_DATE_EPOCH"  # s since 1970; of reproducible-builds.org
-STANDARD = Path(fmpy.__file__).parent / "c-code"  # headers under BSD-2, licence inside
+STANDARD = Path(fmpy.__file__).parent / "c-code"  # headers under BSD-2, with the licence in them
 STANDARD_HEADERS = {
     2: ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h"),
     3: ("fmi3FunctionTypes.h", "fmi3Functions.h", "fmi3PlatformTypes.h"),
@@ -81,10 +81,10 @@ def _text_of(date: datetime) -> str:
 @cache
 def _licence(package: str) -> str:
     """Return the licence text of an installed package, or of Perilune in a checkout."""
-    if package == "perilune" and IS_CHECKOUT:  # where metadata next to the sources may be found first, without it
+    if package == "perilune" and IS_CHECKOUT:  # metadata next to the sources, without the licence, may be found first
         return (ROOT / "LICENSE").read_text(encoding="utf-8")
     text = distribution(package).read_text("licenses/LICENSE")
-    if text is None and package == "perilune":  # an unpacked source distribution, of which a wheel is being built
+    if text is None and package == "perilune":  # an unpacked source distribution from which a wheel is built
         text = (PACKAGE.parent / "LICENSE").read_text(encoding="utf-8")
     assert text is not None, f"{package} is installed without its licence"
     return text

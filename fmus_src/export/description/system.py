@@ -160,4 +160,4 @@ def _add_structure(
         attributes = {"dependencies": " ".join(map(str, inputs))}
         attributes["dependenciesKind"] = " ".join(["dependent"] * len(inputs))
         etree.SubElement(listed, "Unknown", {"index": str(indices[name])} | attributes)
-        etree.SubElement(initial, "Unknown", index=str(indices[name]))  # on all that is known
+        etree.SubElement(initial, "Unknown", index=str(indices[name]))  # depends on all knowns

@@ -28,7 +28,7 @@ from .kernel import (
 )
 from .vectors import is_variable
 
-Outcomes = frozenset[tuple[int, object]]  # (line, what ends the call there)
+Outcomes = frozenset[tuple[int, object]]  # (line, outcome that ends the call)
 NO_OUTCOME: Outcomes = frozenset()
 ZERO_DIVISION = "ZeroDivisionError"
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from .kernel import Function, Kernel, body_of, targets_of
 from .statements import local_names
 
-NEVER = None  # what is assigned after a statement that control does not leave
+NEVER = None  # names assigned after a statement that never ends
 
 
 class FlowCheck:

@@ -50,7 +50,7 @@ class _Ranges:
         """Join the ranges of all values assigned to each variable until none changes."""
         binding = (ast.For, ast.Assign, ast.AnnAssign)
         parts = [part for part in ast.walk(self.function.source.node) if isinstance(part, binding)]
-        parts.sort(key=lambda part: (part.lineno, part.col_offset))  # a variable's first value comes first
+        parts.sort(key=lambda part: (part.lineno, part.col_offset))  # in order of a variable's assignments
         rounds = 0
         changed = True
         while changed:

@@ -52,7 +52,7 @@ def records_of(kernel: Kernel) -> list[RecordType]:
                     add(part.field(name))
                 ordered[part] = None
 
-    for variable in kernel.block_class.variables.values():  # a state may be one that no function reads
+    for variable in kernel.block_class.variables.values():  # a state may be read by no function
         add(type_of_variable(variable))
     for function in kernel.functions:
         for kind in (*function.parameters.values(), *function.locals.values(), *function.types.values()):

@@ -29,7 +29,7 @@ from .kernel import (
 )
 from .typed import typecheck
 
-SELF = "self."  # before the name of a variable of the block, among those of locals and arguments
+SELF = "self."  # prefix of block variables among locals and arguments
 PERIOD_REASON = "the sample period"
 PYTHON_ONLY, OTHER_PYTHON = (
     "a block with Python only proves nothing",

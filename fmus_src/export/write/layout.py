@@ -8,13 +8,13 @@ import textwrap
 from .names import comment
 
 WIDTH = 110
-LINE_COLUMN = 92  # where the numbers of Python lines stand
-MEMBER_COLUMN = 44  # where the descriptions of struct members stand
+LINE_COLUMN = 92  # column of the Python line numbers
+MEMBER_COLUMN = 44  # column of the descriptions of struct members
 INDENT = "    "
 NO_BREAK = "\x00"
 TYPE_AND_NAME = re.compile(
     r"\b(const|double|int64_t|bool|Vector2|Vector3|Vector4|Matrix\d+x\d+|Fault|return) "
-)  # stay on one line with what follows
+)  # stay on one line with the following token
 
 
 class CodeLines:

@@ -7,8 +7,8 @@ import ast
 from ..judge.kernel import Function, KernelCall, MakeMatrix, MatrixType
 from ..judge.vectors import is_variable
 
-FEW = 16  # elements that are written out,
-FEW_TERMS = 64  # if they have no more terms of sums together
+FEW = 16  # elements of an unrolled matrix,
+FEW_TERMS = 64  # if their sums have at most this number of terms together
 SHORT = 4  # terms of a sum that is one expression
 
 

@@ -30,7 +30,7 @@ from ..judge.kernel import (
 
 C_TYPES = {FLOAT: "double", INT: "int64_t", BOOL: "bool"}
 
-# Words that a Python name may be and a C or C++ name may not, and what the generated code itself uses.
+# Reserved words of C and C++ that are valid Python names, and names used by the generated code.
 _RESERVED_TEXT = """
     auto break case char const continue default do double else enum extern float for goto if inline int long
     register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
@@ -44,7 +44,7 @@ _RESERVED_TEXT = """
 RESERVED = frozenset(_RESERVED_TEXT.split())
 
 
-# What the wrappers of fmi/ call their own; block types and functions stay clear of these.
+# Names used by the wrappers in fmi/, which block types and functions must avoid.
 _WRAPPER_NAMES_TEXT = """
     Block Byte Component DoubleInt64 Element Environment Fault Logger Mode Range Samples SavedState Snapshot Status
     Trait Variable VariableType accept_tuned add_and_subtract advance check_arithmetic check_logging check_mode

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-OR, AND, EQUALITY, RELATION, SUM, PRODUCT, UNARY, ATOM = range(8)  # C's precedence; 0 binds least
+OR, AND, EQUALITY, RELATION, SUM, PRODUCT, UNARY, ATOM = range(8)  # precedence in C; 0 is the lowest
 CONDITIONAL = -1
 OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
     ast.Add: ("+", SUM),

@@ -13,7 +13,7 @@ from .names import Names, identifier
 from .placement import list_assigned
 from .writer import ZERO, FunctionWriter
 
-FEW = 8  # elements that are written out where a loop would do
+FEW = 8  # largest number of elements unrolled in place of a loop
 
 
 class StatementWriter(FunctionWriter):
@@ -38,7 +38,7 @@ class StatementWriter(FunctionWriter):
                 self.lines.add(f"{self.declare(name)};")
             self.write(statement)
             self.last_line = max(self.last_line, statement.end_lineno or 0)
-        self.used = outer_names  # C forgets a block's variables at its end
+        self.used = outer_names  # variables of a C block end with it
 
     def write(self, statement: ast.stmt) -> None:
         """Write an accepted statement."""

@@ -75,7 +75,7 @@ def translate_functions(block_class: type[Block]) -> tuple[str, dict[str, str]]:
     return text, {function.name: names.functions[function] for function in kernel.functions}
 
 
-@cache  # an FMU is translated twice, without its GUID, which is a hash of that, and with it
+@cache  # an FMU is translated without and with its GUID, which is a hash of the former
 def _around_tables(block_class: type[Block]) -> tuple[list[str], str]:
     """Return the C before the tables, which contain the GUID, and after them: kernel and entry points."""
     kernel = analyse_kernel(block_class)

@@ -8,7 +8,7 @@ INNOVATION_SQUARE = Port(
     0.0, unit="1", description="normalised innovation squared of the last sample, sum over three components"
 )
 INTERNAL_STEP = Port(0.1, unit="s", minimum=1e-4, description="largest step of the numerical integration")
-TIME_ROUNDING = 1e-9  # s, by which times of communication points and samples may miss: importers round or add them up
+TIME_ROUNDING = 1e-9  # s, tolerance of communication points and sample times, which importers round or sum
 SAMPLES_TAKEN = Port(0, description="number of samples used since the start")
 SAMPLE_COUNT = Port(0, description="number of samples since the start; a change signals a new sample")
 SAMPLE_PERIOD = Port(0.2, unit="s", minimum=0.0, description="sample period; 0: a sample at every communication point")

@@ -20,7 +20,7 @@ PART_3 = 2.0222662487111665e-21
 PART_4 = 8.4784276603689e-32
 TAIL_3 = 2.0222662487959506e-21  # PART_3 + PART_4
 DIGIT = 16777216.0  # 2^24
-DIGITS = 8  # of 24 bits in a product, so that 120 are left behind 60 that cancel
+DIGITS = 8  # of 24 bits in a product: 120 bits remain after 60 that cancel
 
 # 2/pi in digits of 24 bits
 TWO_OVER_PI_DIGITS = (
@@ -105,7 +105,7 @@ def reduce_large(x: float) -> tuple[int, float, float]:
         z = z * DIGIT
         digits[i] = float(math.floor(z))
         z = z - digits[i]
-    # product digits 2^(exponent - 24 (k + 2)) and up, of which those that are multiples of 4 do not matter
+    # product digits from 2^(exponent - 24 (k + 2)) up; multiples of 4 are irrelevant
     first = (exponent - 50) // 24 + 1
     if first < 0:
         first = 0

@@ -4,7 +4,7 @@ Sources: Knuth, "The Art of Computer Programming" 2, 1969, 4.2.2, theorem B; Dek
 extending the available precision", Numerische Mathematik 18, 1971.
 """
 
-ROUND = 6755399441055744.0  # 1.5 2^52: added and taken away, it leaves the nearest whole number
+ROUND = 6755399441055744.0  # 1.5 2^52: added and subtracted, it leaves the nearest integer
 SPLITTER = 134217729.0  # 2^27 + 1 (Veltkamp)
 
 

@@ -15,10 +15,10 @@ from ...kernel.functions import acos, atan2, cos, sin
 from ...kernel.matrices import Matrix, add_product, diagonal, identity, matrix, zeros
 from ..vectors import Vector2, Vector3, Vector4, vector
 
-ISOTROPIC_RHO = 0.9797958971132712  # 2 sqrt(6)/5: the three axes are alike where the momentum is 0
+ISOTROPIC_RHO = 0.9797958971132712  # 2 sqrt(6)/5, for equal properties of the three axes at zero momentum
 # acos(1/sqrt(3)) off -x and x: the angles of zero momentum under the law with ISOTROPIC_RHO
 ISOTROPIC_ANGLES = (0.6154797086703873, -0.6154797086703873, 3.7570723622601803, 2.5261129449194057)
-LEAST_SQUARE = 1e-12  # of a and b: nearer to a pair's surface y = 2 or z = 2 counts as on it
+LEAST_SQUARE = 1e-12  # of a and b; smaller values count as on a pair's surface y = 2 or z = 2
 
 
 def cluster_momentum(angles: Vector4) -> Vector3:
@@ -113,7 +113,7 @@ def distribute_rates(
     sine_2 = sin(fourth - third)
     if not (abs(sine_1) >= least and abs(sine_2) >= least and abs(common) >= least and least > 0.0):
         return False, none
-    # what is left to x1 and x2 where y and z change at constant u and v
+    # change left to x1 and x2 when y and z change at constant u and v
     fall_1 = u * y * momentum_rate.y / a
     fall_2 = v * z * momentum_rate.z / b
     u_rate = (q * (momentum_rate.x + fall_1 + fall_2) - b * gain * residual) / common

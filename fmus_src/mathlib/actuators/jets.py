@@ -16,7 +16,7 @@ from ...kernel.records import Field, Record
 from ..vectors import Vector3, cross, vector
 
 JETS = 8
-NEGLIGIBLE = 1e-12  # of the strongest: a strength below it counts as none
+NEGLIGIBLE = 1e-12  # of the largest; a smaller strength counts as 0
 
 # Signs of corners 1 to 8: of forces, of torques, and of all three axes, which give no wrench.
 X = (1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0)
@@ -217,7 +217,7 @@ def nearest_levels(strength: Vector3, force: Vector3, quantum: float, highest: f
         scale = 2.0 * highest / (sizes - smallest)
     best = math.inf
     for candidate in range(16):
-        # below or above on each axis, of the even or the odd numbers
+        # the lattice point below or above on each axis, of even or odd numbers
         odd = float(candidate % 2)
         above = candidate // 2
         cost = 0.0

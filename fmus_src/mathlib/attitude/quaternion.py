@@ -9,7 +9,7 @@ import math
 from ...kernel.functions import atan2, cos, sin
 from ..vectors import Vector3, Vector4, cross, norm, vector
 
-SHORTEST = 0.5  # of a quaternion, below which it is no attitude: a tracker that is lost gives zeros
+SHORTEST = 0.5  # least length of a quaternion that is an attitude; a lost tracker gives zeros
 
 
 def quaternion(scalar: float, e: Vector3) -> Vector4:
@@ -40,7 +40,7 @@ def normalise(q: Vector4) -> Vector4:
         if size > largest:
             largest = size
     if largest > 0.0 and math.isfinite(largest):
-        r = q / largest  # so that no square overflows
+        r = q / largest  # avoids overflow of squares
         return r / math.sqrt(r.w * r.w + r.x * r.x + r.y * r.y + r.z * r.z)
     return vector(1.0, 0.0, 0.0, 0.0)
 
@@ -49,7 +49,7 @@ def is_attitude(q: Vector4) -> bool:
     """Return True if a finite q is at least `SHORTEST` long, so that it can be normalised to an attitude."""
     for i in range(4):
         if abs(q[i]) >= SHORTEST:
-            return True  # so that no square overflows
+            return True  # avoids overflow of squares
     return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z >= SHORTEST * SHORTEST
 
 

@@ -10,7 +10,7 @@ from .sensor_errors import add_cross
 
 # The states of a covariance: errors of position and velocity, and of the inertial sensor.
 STATES = 15
-MOTION_STATES = 6  # which of them are position and velocity
+MOTION_STATES = 6  # number of position and velocity states
 POSITION = block(0, 3)
 VELOCITY = block(3, 3)
 BIAS = block(6, 3)

@@ -6,7 +6,7 @@ from ...kernel.functions import exp
 from ...kernel.matrices import Matrix
 from ..vectors import Vector3, clip, vector
 
-LATEST = 4  # samples by which one may be late
+LATEST = 4  # largest latency, in samples
 
 
 def next_markov(error: Vector3, elapsed: float, time: float, sigma: float, numbers: Vector3) -> Vector3:

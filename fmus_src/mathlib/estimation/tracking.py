@@ -10,7 +10,7 @@ Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.2, 6.2.2 and 6.2.3 (disc
 from ...kernel.matrices import Matrix, matrix, zeros
 from .kalman import innovation_variance, predict, take_in
 
-# Rows and columns: what is tracked, its rate, and what disturbs the rate.
+# Rows and columns: value, rate, disturbance of the rate.
 TRACKED = 0
 RATE = 1
 DISTURBANCE = 2

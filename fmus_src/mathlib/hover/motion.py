@@ -11,7 +11,7 @@ from ...kernel.functions import cos, log, sin
 from ...kernel.records import Field, Record
 from .shape import HoverProgramme, HoverShape, burnt, full_thrust, pitch_segment, shape_of
 
-LONGEST = 30.0  # s; longest interval of eight nodes, which leave below 1e-9 of the motion
+LONGEST = 30.0  # s; longest interval of eight nodes, for errors below 1e-9 of the motion
 
 
 class HoverVehicle(Record):

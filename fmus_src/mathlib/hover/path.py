@@ -11,16 +11,16 @@ from .motion import HoverVehicle, end_motion
 from .shape import HoverProgramme, without_programme
 from .solution import HoverSolution, PlanKind, solve
 
-NEAR = 0.01  # of the drop, where the first programme aside ends
+NEAR = 0.01  # of the drop, horizontal distance of the first tilted programme
 GROWTH = 1.5  # of x from one programme without first burn to the next
 GROWTH_WITH_FIRST_BURN = 1.2
 LEAST_GROWTH = 1.03
 LARGEST_STRETCH = 0.06  # of the end, from one programme to the next
 LEAST_STRETCH = 0.001
-NEARER = 0.9  # of the farthest x without first burn, where one begins
-NEARER_STILL = 0.2  # of it, where none begins there
-BEGINNINGS = 4  # that are tried
-ROOM = 1.25  # times the end of the programme in which a first burn begins; there it can go farther
+NEARER = 0.9  # of the largest x without first burn, at which a first burn begins
+NEARER_STILL = 0.2  # of it, if no first burn begins there
+BEGINNINGS = 4  # number of attempts
+ROOM = 1.25  # factor on the end time of a programme in which a first burn begins
 LARGEST_PATH = 60  # programmes
 TILT = 0.01  # rad, for the response to small tilts
 

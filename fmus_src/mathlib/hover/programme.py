@@ -12,8 +12,8 @@ from .path import aside, ending, further, stretch, vertical
 from .shape import HoverProgramme, without_programme
 from .solution import HoverSolution, PlanKind, propellant_fraction, solve
 
-STRAIGHT = 1.0  # m; nearer to the vertical the vertical programme is flown
-FIRST_WIDTH = 0.05  # s, from which Newton's method finds that of a first burn
+STRAIGHT = 1.0  # m, horizontal distance below which the vertical programme is used
+FIRST_WIDTH = 0.05  # s, initial value of a first burn's width for Newton's method
 WIDENING = 1.3  # of a first burn, from one programme to the next
 SECTION = 0.6180339887498949  # golden
 TIME_SETTLED = 1e-3  # s, of the best end

@@ -8,7 +8,7 @@ import math
 
 from ..vectors import Vector3, dot, norm, vector
 
-STANDARD_GRAVITY = 9.80665  # m/s2, which specific impulse refers to
+STANDARD_GRAVITY = 9.80665  # m/s2, reference of specific impulse
 
 
 def from_centre(position: Vector3, radius: float) -> Vector3:

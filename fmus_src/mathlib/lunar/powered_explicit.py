@@ -15,13 +15,13 @@ from ...kernel.functions import exp, expm1, log
 from ...kernel.records import Field, Record, replace
 from ..vectors import Vector3, clip, dot, norm
 
-MOST_BURNT = 0.999  # of tau, that a time to go may be
+MOST_BURNT = 0.999  # of tau, largest time to go
 SETTLED = 1e-6  # of the time to go
-SHORTEST = 1e-3  # s, that a time to go may be
-LARGEST_IMPULSE = 20.0  # exhaust speeds
-SMALLEST_SPREAD = 1e-9  # of S T, that Q - S K may be
-LOWEST_OF_MINIMUM = 0.5  # of the least thrust, and ...
-MOST_OF_MAXIMUM = 1.3  # ... of the largest, which an iteration may try
+SHORTEST = 1e-3  # s, least time to go
+LARGEST_IMPULSE = 20.0  # in units of the exhaust speed
+SMALLEST_SPREAD = 1e-9  # of S T, least magnitude of Q - S K
+LOWEST_OF_MINIMUM = 0.5  # of the least thrust,
+MOST_OF_MAXIMUM = 1.3  # of the largest thrust: bounds of the thrust in an iteration
 
 
 class SteeringState(Record):

@@ -13,7 +13,7 @@ from ...kernel.matrices import Matrix, block, cross_matrix, identity, matrix, ze
 from ...kernel.records import Field, Record
 from ..vectors import Vector3, cross, vector
 
-# Rows and columns of (angles, angular velocity) where it is one vector, and of single angles.
+# Rows and columns of the vector (angles, angular velocity), and of single angles.
 ANGLES = block(0, 3)
 RATES = block(3, 3)
 ROLL = 0

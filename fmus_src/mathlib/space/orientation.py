@@ -95,7 +95,7 @@ def earth_axes(t: float, tt_minus_ut1: float) -> PlanetAxes:
     )
 
 
-# Of the arguments E1 to E13 (deg, deg a day), and the amplitudes (deg) of their sines in right ascension, of their
+# Arguments E1 to E13 (deg, deg a day), and amplitudes (deg) of their sines in right ascension, of their
 # cosines in declination, of their sines in the prime meridian.
 LUNAR_ARGUMENTS = (
     125.045, -0.0529921, 250.089, -0.1059842, 260.008, 13.0120009, 176.625, 13.3407154, 357.529, 0.9856003,

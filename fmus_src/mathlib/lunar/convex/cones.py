@@ -24,11 +24,11 @@ CENTRE = 5 * ROWS  # w
 AXIS = 6 * ROWS  # a
 FACTOR = 7 * ROWS  # b, in the first row of a cone
 RESIDUAL = 8 * ROWS  # of the slacks
-SHIFT = 9 * ROWS  # of the multiplier's step, and what the gradient is formed of
+SHIFT = 9 * ROWS  # of the multiplier's step, and terms of the gradient
 CORRECTION = 10 * ROWS
 SCALED_SLACK = 11 * ROWS
 SCALED_MULTIPLIER = 12 * ROWS
-FIELDS = 13 * ROWS + 4  # with as many as the largest cone has behind the last, for the proof of indices
+FIELDS = 13 * ROWS + 4  # with the rows of the largest cone after the last, to prove indices valid
 
 
 def lorentz(c: list, at: int, size: int) -> float:

@@ -32,8 +32,8 @@ GRAVITY = 222
 LOG_MASS = 297
 PLAN = 322
 
-LOWEST_LOG_MASS = -5.0  # that a problem is expanded about
-SEED_BURNT = 0.75  # of the mass, and of what the largest thrust burns
+LOWEST_LOG_MASS = -5.0  # least logarithm of mass in an expansion
+SEED_BURNT = 0.75  # of the mass, and of the propellant at the largest thrust
 
 
 class DescentTask(Record):

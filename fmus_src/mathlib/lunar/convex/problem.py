@@ -49,7 +49,7 @@ KINDS = 5  # of cones in an interval
 LARGER = 5  # than the rows of any cone
 CONES = 122
 
-# What a problem is expanded about: gravity at the nodes, and over the intervals log mass and thrust limits.
+# Expansion of a problem: gravity at the nodes, log mass and thrust limits of the intervals.
 MIDDLE = 75
 LOWER_LIMIT = 99
 UPPER_LIMIT = 123
@@ -76,7 +76,7 @@ class DescentProblem(Record):
     time = Field(unit="s", description="unit of time")
 
 
-# Callers take the row modulo ROWS and the size modulo LARGER, by which every index is proven to be inside its list.
+# Callers reduce the row modulo ROWS and the size modulo LARGER, which proves every index valid.
 def cone_row(j: int) -> int:
     """Return the first row of cone ``j``."""
     first = STAGE * (j // KINDS)

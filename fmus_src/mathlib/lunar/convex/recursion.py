@@ -27,7 +27,7 @@ from .problem import (
     DescentProblem,
 )
 
-# Left of an interval: R as a Cholesky factor (4 x 4), its diagonal inverted, and K = R^-1 (S + B'PA) (4 x 7).
+# Stored for an interval: Cholesky factor of R (4 x 4) with inverted diagonal, K = R^-1 (S + B'PA) (4 x 7).
 FACTORS = 16 * INTERVALS
 GAINS = FACTORS + 28 * INTERVALS
 

@@ -7,8 +7,8 @@ from .problem import INTERVALS
 FREQUENCY = 0.15  # rad/s, of the error's oscillator ...
 DAMPING = 0.9  # ... and its damping ratio
 CORRECTION = 0.12  # of the largest thrust
-WEAK = 0.3  # of the largest thrust: where a plan thrusts less, as in coasts, ...
-COAST_CORRECTION = 0.7  # ... corrections are limited to so much of it, and the axis is not turned over
+WEAK = 0.3  # of the largest thrust: if a plan's thrust is less, as in coasts, ...
+COAST_CORRECTION = 0.7  # ... corrections are limited to this fraction of it, so the axis is not reversed
 
 
 def interval_at(step: float, elapsed: float) -> int:
