@@ -100,7 +100,7 @@ def begin(p: DescentProblem, expansion: list, point: list, c: list) -> None:
 
 
 def raise_to(c: list, at: int, lowest: float) -> None:
-    """Return the larger of a number and ``lowest``."""
+    """Set an element of c to ``lowest`` if it is smaller."""
     if not c[at] > lowest:
         c[at] = lowest
 
