@@ -87,7 +87,7 @@ PART = re.compile(r"([./]?)([A-Za-z]+|1)(-?\d+)?")
 def unit_definition(name: str) -> UnitDefinition | None:
     """Return the definition of a unit by name, or None if it is not a product of SYMBOLS.
 
-    A unit with an offset cannot be part of a product.
+    A unit with an offset cannot occur in a product.
     """
     if name in SYMBOLS:
         return SYMBOLS[name]

@@ -36,7 +36,7 @@ class Variable:
 
     ``declared`` is the start value and fixes type and size: a float, int or bool, a list of values of one such type, or
     a `Matrix` of floats. It may also be an `Enumeration`, which defines the bounds and is listed in the description;
-    ``start`` is then its first member unless given. ``unit`` is a name known to `fmus_src.units`; ``minimum``,
+    ``start`` is then its first member or another. ``unit`` is a name known to `fmus_src.units`; ``minimum``,
     ``maximum`` and ``nominal`` apply to each element; ``frame`` names the frame of a vector's components. A list with
     ``columns`` is a matrix in row order, whose elements are named by row and column; the elements of a `Matrix` are
     numbered consecutively.

@@ -209,7 +209,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         return square
 
     def note(self, sensor: int, rejected_before: int) -> None:
-        """Count a processed sample, and its rejection if a part of it was rejected."""
+        """Count a processed sample, and its rejection if one of its components was rejected."""
         self.sample_count = self.sample_count + 1
         if self.rejected_count > rejected_before:
             self.rejected_in_a_row[sensor] = self.rejected_in_a_row[sensor] + 1

@@ -30,7 +30,7 @@ VECTOR_NAMES: dict[type[ast.AST], str] = {
 def parenthesise(expression: tuple[str, int], outer: int) -> str:
     """Return the text of an expression, in parentheses if the surrounding operator has higher precedence.
 
-    The expression is given as text and precedence.
+    ``expression`` contains text and precedence.
     """
     text, precedence = expression
     return f"({text})" if precedence < outer else text

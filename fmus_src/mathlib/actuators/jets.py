@@ -149,7 +149,7 @@ def least_propellant(thrust: list, maximum: float) -> float:
 
     For opposite corners i and 9 - i let s = p_i + p_(9-i) and d = p_i - p_(9-i), with n the signs of the second null
     vector and u = n d. A shift S of all s and l of all u gives no wrench; thrusts are not negative if |u + l| <= s + S.
-    The best S for a given l is max(A + l, Q - l) with A = max(u - s) and Q = max(-u - s), and the sum of thrusts is 4
+    The best S for an l is max(A + l, Q - l) with A = max(u - s) and Q = max(-u - s), and the sum of thrusts is 4
     S, least at l = (Q - A)/2. The largest thrust is then max(A + D, Q + C)/2 with C = max(u + s) and D = max(s - u),
     and no other l and S give less: the optimum without a maximum respects the maximum whenever that is possible.
     Otherwise the wrench is scaled. Returns the scale, 1 without scaling.

@@ -96,7 +96,7 @@ def grow_first_burn(x: float, y: float, vehicle: HoverVehicle, p: HoverProgramme
 
 
 def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle) -> PlannedProgramme:
-    """Return the programme to (x, y) that ends at a given time (s).
+    """Return the programme to (x, y) that ends at a prescribed time (s).
 
     It has a first burn unless the programme without first burn ends at just that time.
     """
