@@ -33,7 +33,7 @@ def reduce_modulo(high: float, low: float, m: float) -> float:
 
 
 def high_words(v: Vector3) -> Vector3:
-    """Return the integer quotient of v / 65536; the remainder has 16 bits, so products with 32-bit numbers are exact."""
+    """Return the integer quotient of v / 65536; the remainder has 16 bits: products with 32-bit numbers are exact."""
     return vector(nearest(v.x / 65536.0), nearest(v.y / 65536.0), nearest(v.z / 65536.0))
 
 

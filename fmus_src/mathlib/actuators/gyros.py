@@ -2,8 +2,9 @@
 
 Momenta are those of the cluster divided by that of one rotor, in body axes. Pair 1 turns about z in the xy plane, pair
 2 about -y in the xz plane; gimbal angles (rad) are measured from x. The three momentum components leave one of the four
-angles free. With x1 and x2 the momenta of the pairs along x, a and b their largest possible values for these y and z, u = x1/a and v = x2/b, the distribution law u - v + rho (u v - 1) = 0 removes this freedom: each pair biases the
-other and stays away from its singular states |pair| = 0 and 2. Derivations: docs/systems/robot_rendezvous.md.
+angles free. With x1 and x2 the momenta of the pairs along x, a and b their largest possible values for these y and z, u
+= x1/a and v = x2/b, the distribution law u - v + rho (u v - 1) = 0 removes this freedom: each pair biases the other and
+stays away from its singular states |pair| = 0 and 2. Derivations: docs/systems/robot_rendezvous.md.
 
 Source: Somov 2013; Somov, Platonov and Sorokin 2005.
 """

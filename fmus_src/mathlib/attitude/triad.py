@@ -47,8 +47,8 @@ def parallel(a: Vector3, b: Vector3, sine: float) -> bool:
 def triad(body_first: Vector3, body_second: Vector3, first: Vector3, second: Vector3, sine: float) -> AxesAttitude:
     """Return the attitude that aligns the first direction exactly and the second within their plane.
 
-    Each direction, of any length, is an argument in body and in inertial axes; ``sine`` is the sine of the smallest angle
-    allowed between the two. Source: Black 1964; Markley and Crassidis 2014, section 5.1.
+    Each direction, of any length, is an argument in body and in inertial axes; ``sine`` is the sine of the smallest
+    angle allowed between the two. Source: Black 1964; Markley and Crassidis 2014, section 5.1.
     """
     if parallel(body_first, body_second, sine) or parallel(first, second, sine):
         return AxesAttitude(quaternion=vector(1.0, 0.0, 0.0, 0.0), exists=False)

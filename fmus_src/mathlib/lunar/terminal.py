@@ -110,8 +110,8 @@ def effort_rises(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) ->
 def least_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     """Return the time to go (s) with the least integral of |a0 + a1 t|^2 (the first minimum); 0 if none exists.
 
-    It exists for g > 0 and dr other than 0: for a hover at a distance h above, below or at the side of the target it is sqrt(6
-    h/g). Source: D'Souza 1997, with a velocity at the target.
+    It exists for g > 0 and dr other than 0: for a hover at a distance h above, below or at the side of the target it is
+    sqrt(6 h/g). Source: D'Souza 1997, with a velocity at the target.
     """
     return weighted_effort_time(dr, v, dv, g, 0.0)
 
