@@ -151,7 +151,7 @@ class _Effects:
                     self._changes(argument)
 
     def _is_also_used(self, callee: Function, argument: ast.expr, arguments: list[ast.expr]) -> bool:
-        """Return True if a matrix that a call changes reaches it another way: Python and C would differ."""
+        """Return True if a matrix changed by a call is also passed to it in another way: Python and C would differ."""
         if not isinstance(self.function.types[argument], MatrixType):
             return False
         several = [ast.unparse(each) for each in arguments].count(ast.unparse(argument)) > 1

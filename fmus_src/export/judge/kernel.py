@@ -48,7 +48,7 @@ class List:
 
 @dataclass(frozen=True)
 class VectorType:
-    """Type of a vector: a value of two to four floats."""
+    """Type of a vector of two to four floats."""
 
     size: int
 
@@ -58,7 +58,7 @@ class VectorType:
 
 @dataclass(frozen=True)
 class MatrixType:
-    """Type of a matrix: a variable of a fixed number of rows and columns, handed on by reference."""
+    """Type of a matrix with fixed numbers of rows and columns, passed by reference."""
 
     rows: int
     columns: int
@@ -89,7 +89,7 @@ class RecordType:
 
 
 def field_type(kind: Any) -> Scalar | VectorType | RecordType:
-    """Return the type that a field's Python type stands for."""
+    """Return the kernel type for the Python type of a field."""
     if kind in (float, int, bool):
         return Scalar(kind.__name__)
     return VectorType(len(kind.names)) if issubclass(kind, vector_types.Vector) else RecordType(kind)
@@ -97,7 +97,7 @@ def field_type(kind: Any) -> Scalar | VectorType | RecordType:
 
 @dataclass(frozen=True)
 class BoundFunction:
-    """Type of a function or a method of the block that is passed on to be called; in C it has no value."""
+    """Type of a function or method of the block that is passed as an argument; it has no value in C."""
 
     function: FunctionType
     owner: type | None
@@ -181,7 +181,7 @@ class KernelCall:
 
 @dataclass(frozen=True)
 class IntegerRange:
-    """Smallest and largest value that an int can have."""
+    """Smallest and largest possible value of an int."""
 
     low: int
     high: int
@@ -279,7 +279,7 @@ class Kernel:
     violations: list[Violation] = field(default_factory=list)
 
     def report(self, source: Source, node: ast.AST, rule: str | SubsetRule, **details: object) -> None:
-        """Add a violation of a rule of the table at a place in the source, once."""
+        """Add a violation of a rule of the table at a position in the source, once."""
         self.report_at(source.path, getattr(node, "lineno", source.node.lineno), rule, **details)
 
     def report_block(self, rule: str, **details: object) -> None:
@@ -296,7 +296,7 @@ class Kernel:
 
 
 def length_of(kind: Type | Several | None) -> int | None:
-    """Return the `len` of a value of a type."""
+    """Return `len` of a value of a type."""
     if isinstance(kind, MatrixType):
         return kind.rows
     return kind.size if isinstance(kind, List | VectorType) else None

@@ -25,7 +25,7 @@ class MatrixTypes(RecordTypes):
     def operate_on_matrices(
         self, node: ast.AST, operator: ast.operator, left: Type | Several, right: Type | Several
     ) -> Type | None:
-        """Infer the type of ``left operator right``, where one is a matrix of floats or the operator is ``@``."""
+        """Infer the type of ``left operator right`` if one is a matrix of floats or the operator is ``@``."""
         if isinstance(left, MatrixType) and left.element is FLOAT:
             if isinstance(right, MatrixType) and right.element is FLOAT:
                 return self._operate_on_two(node, operator, left, right)

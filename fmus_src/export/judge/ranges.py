@@ -67,7 +67,7 @@ class _Ranges:
                         changed = True
 
     def _assign(self, node: ast.AST) -> list[tuple[str, IntegerRange]]:
-        """Return ints that a statement assigns to variables, with their ranges."""
+        """Return the ints that a statement assigns to variables, with their ranges."""
         if isinstance(node, ast.For) and isinstance(node.target, ast.Name) and isinstance(node.iter, ast.Call):
             return [(node.target.id, self.loop_range(node.iter))]
         if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
@@ -79,7 +79,7 @@ class _Ranges:
         return []
 
     def loop_range(self, call: ast.Call) -> IntegerRange:
-        """Return values that a loop variable takes."""
+        """Return the range of a loop variable."""
         bounds = [self.of(argument) for argument in call.args[:2]]
         first = bounds[0] if len(bounds) == 2 else IntegerRange(0, 0)
         stop = bounds[-1]
@@ -92,7 +92,7 @@ class _Ranges:
         return _clamp(self.without_bounds(node))
 
     def without_bounds(self, node: ast.expr) -> IntegerRange:
-        """Return the range before it is cut to 64 bits."""
+        """Return the range of an int expression before it is limited to 64 bits."""
         if isinstance(node, ast.Constant) and isinstance(node.value, int):
             return IntegerRange(int(node.value), int(node.value))
         if node in self.function.constants and not isinstance(self.function.constants[node].value, tuple):
@@ -207,7 +207,7 @@ def _loops_of_reads(function: Function) -> dict[ast.expr, ast.Call]:
 
 
 def _clamp(interval: IntegerRange) -> IntegerRange:
-    """Cut a range to 64 bits: values beyond end the call, so no variable ever holds them."""
+    """Limit a range to 64 bits: larger values end the call with an error, so no variable contains them."""
     return IntegerRange(min(max(interval.low, INT64.low), INT64.high), max(min(interval.high, INT64.high), INT64.low))
 
 

@@ -24,8 +24,8 @@ from .kernel import (
 )
 from .vectors import is_variable
 
-UNUSED = "_"  # a target for unused ones of several values
-ANY_VECTOR = VectorType(0)  # declared as Vector, its size not known yet
+UNUSED = "_"  # target for unused values
+ANY_VECTOR = VectorType(0)  # declared as Vector, with unknown size
 ANY_MATRIX = MatrixType(0, 0)  # declared as Matrix
 
 

@@ -15,7 +15,7 @@ from ...kernel import functions
 
 @dataclass(frozen=True)
 class SubsetRule:
-    """Why something is refused, and what to write instead."""
+    """Reason for rejecting a construct, and the alternative."""
 
     what: str
     remedy: str
@@ -56,7 +56,7 @@ MATH_FUNCTIONS: dict[str, MathFunction] = {
 
 
 def _read_rules(text: str) -> dict[str, SubsetRule]:
-    """Read rules by name, from two lines each: ``name: what is refused``, and indented what to write instead."""
+    """Return rules by name from pairs of lines: ``name: what is rejected``, then, indented, the alternative."""
     lines = text.strip().splitlines()
     rules = {}
     for first, remedy in zip(lines[::2], lines[1::2], strict=True):
@@ -196,7 +196,7 @@ LANGUAGE_PAGE = "What a kernel may use"  # of the documentation site, derived fr
 OTHER_SYNTAX = SubsetRule("{name} is outside the subset", f'write what the page "{LANGUAGE_PAGE}" lists')
 OTHER_FUNCTION = f'take one of the page "{LANGUAGE_PAGE}", write one in the file, or declare python_only = True'
 
-# What a kernel may not say although each word of it is allowed.
+# Rules for constructs composed of allowed elements.
 RULES: dict[str, SubsetRule] = _read_rules("""
 no source: {name}: its source cannot be read
     define it in a .py file

@@ -204,7 +204,7 @@ class _Flow:
         self.sources[name] = self.sources.get(name, frozenset()) | origins
 
     def _read(self, node: ast.AST, deciding: Names) -> Names:
-        """Return what an expression follows from, and take in what its calls assign."""
+        """Return the names from which an expression follows, and record assignments by its calls."""
         if isinstance(node, ast.expr) and isinstance(self.function.types.get(node), BoundFunction):
             return frozenset()
         if isinstance(node, ast.Attribute) and is_self_attribute(node):

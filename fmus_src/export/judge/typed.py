@@ -54,7 +54,7 @@ def typecheck(block_class: type[Block]) -> Kernel:
 
 
 class _FunctionMaker:
-    """Makes one Function per Python function and combination of list and vector types."""
+    """Registry of one Function per Python function and combination of list and vector types."""
 
     def __init__(self, kernel: Kernel) -> None:
         self.kernel = kernel

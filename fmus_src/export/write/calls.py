@@ -65,7 +65,7 @@ class CallWriter(ABC):
         return [f"{self.write(holder, ATOM)}{member}[{k}]" for k in self.function.parts[node]]
 
     def vector(self, elements: list[str]) -> str:
-        """Return a vector of components; in parentheses for its commas, since isfinite and fabs are macros."""
+        """Return a vector of components, in parentheses because isfinite and fabs are macros and it contains commas."""
         return f"(({c_type(VectorType(len(elements)))}){{{{{', '.join(elements)}}}}})"
 
     def write_call(self, node: ast.Call) -> tuple[str, int]:

@@ -114,7 +114,7 @@ class ExpressionWriter(CallWriter):
         return f"{self.write(node.value, ATOM)}{self.place(node)}", ATOM
 
     def place(self, node: ast.Subscript, index: str = "") -> str:
-        """Return the suffix of a list or vector that means one element."""
+        """Return the C suffix that selects one element of a list or vector."""
         member = ".x" if isinstance(self.function.types[node.value], VectorType) else ""
         return f"{member}[{index or self.index(node)}]"
 

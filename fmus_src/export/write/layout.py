@@ -18,7 +18,7 @@ TYPE_AND_NAME = re.compile(
 
 
 class CodeLines:
-    """Lines of C at the current depth of indentation."""
+    """Lines of C at the current indentation."""
 
     def __init__(self, depth: int = 0) -> None:
         self.text: list[str] = []

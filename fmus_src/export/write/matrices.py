@@ -121,7 +121,7 @@ class MatrixWriter(MatrixEntries):
         self._each(kind, False, write)
 
     def _each(self, kind: MatrixType, small: bool, write: Callable[[Index, Index], list[str]]) -> None:
-        """Write statements for each element: written out, or in loops."""
+        """Write statements for each element, unrolled or in loops."""
         if small:
             for i in range(kind.rows):
                 for j in range(kind.columns):

@@ -117,7 +117,7 @@ def _function_names(functions: list[Function]) -> dict[Function, str]:
 
 
 def _distinction(kind: Type) -> str:
-    """Return the suffix that distinguishes a function of these arguments from others of its name."""
+    """Return the suffix that distinguishes a function with these arguments from others of the same name."""
     if isinstance(kind, BoundFunction):
         return kind.function.__name__
     if isinstance(kind, RecordType):

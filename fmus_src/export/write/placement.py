@@ -11,7 +11,7 @@ Path = tuple[tuple[int, int], ...]  # (block, position in it) from the function'
 
 
 class LocalDeclarations:
-    """Declarations of local variables, and the loops whose variable C can declare in the for itself.
+    """Declarations of local variables, and loops whose variable C can declare in the for statement.
 
     ``with_value`` maps an assignment to the names it declares; ``before`` maps a statement to names declared without a
     value before it.

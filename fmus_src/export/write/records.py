@@ -63,7 +63,7 @@ def _write_operation(lines: CodeLines, kind: RecordType, head: str, write: Calla
 
 
 def _write_checked_division(lines: CodeLines, kind: RecordType) -> None:
-    """Write the division by a number that may be zero."""
+    """Write the division of a record by a number that may be zero."""
     name = c_type(kind)
     lines.open(
         f"static inline {name} py_divide_{name}(Fault *fault, const char *file, int line, {name} a, double k)\n{{"

@@ -22,7 +22,7 @@ ROLES = {"parameter": "ROLE_PARAMETER", "input": "ROLE_INPUT", "output": "ROLE_O
 
 
 def write_tables(block_class: type[Block], type_name: str, guid: str, fmi: int) -> str:
-    """Write the tables of the wrapper: GUID, declared starts, and variables by value reference."""
+    """Write the wrapper's tables: GUID, declared starts, and variables by value reference."""
     starts = CodeLines()
     starts.open("static const Block STARTS = {")
     elements = CodeLines()
@@ -96,8 +96,7 @@ def write_ranges(rows: Iterable[tuple[int, int, float, float]]) -> list[str]:
 
 
 def _references(block_class: type[Block], fmi: int) -> list[str]:
-    """Return names by value reference: of elements in FMI 2.0, of whole variables in FMI 3.0,
-    which has a table of these."""
+    """Return names by value reference: of elements in FMI 2.0, of whole variables in FMI 3.0, which has their table."""
     lines = CodeLines()
     if fmi == 3:
         lines.comment("In order of value references.")

@@ -108,7 +108,7 @@ def _matrices(kernel: Kernel) -> list[str]:
 
 
 def _struct(block_class: type[Block], type_name: str) -> str:
-    """Write a struct of one member per variable, with causality, unit, frame and description."""
+    """Write the block's struct with one member per variable, commented by causality, unit, frame and description."""
     lines = CodeLines()
     lines.comment("Variables in order of declaration.")
     lines.open(f"typedef struct {type_name} {{")
@@ -133,7 +133,7 @@ def _about(variable: Variable) -> str:
 
 
 def _constants(names: Names) -> list[str]:
-    """Return module constants that the kernel uses; those of math are in kernel_math.h."""
+    """Return the module constants that the kernel uses; those of math are in kernel_math.h."""
     lines = CodeLines()
     for constant, name in sorted(names.constants.items(), key=lambda item: item[1]):
         if constant.module == "math":
