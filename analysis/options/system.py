@@ -14,7 +14,7 @@ class TrustOptions(TypedDict, total=False):
     """Permissions of foreign FMUs"""
 
     in_process: Annotated[
-        bool, Option("trust foreign FMUs: load them into this process, not into one of their own", False)
+        bool, Option("trust foreign FMUs: load them into this process, not into separate ones", False)
     ]
     allow: Annotated[
         Sequence[str],
@@ -22,7 +22,7 @@ class TrustOptions(TypedDict, total=False):
     ]
     isolate: Annotated[
         Isolation,
-        Option("restrict foreign FMUs as far as the system does, or refuse them where it does not", "available"),
+        Option("restrict foreign FMUs as far as the machine can, or refuse them where it cannot", "available"),
     ]
 
 
@@ -69,15 +69,14 @@ class TreatmentOptions(TypedDict, total=False):
     flavour: Annotated[
         Flavour | None,
         Option(
-            "which build of Perilune's FMUs; fused: native ones, the steps of the system compiled as one function; "
+            "build of Perilune's FMUs; fused: native ones, the steps of the system compiled as one function; "
             "default: native where built, fused under way in a batch where that pays"
         ),
     ]
     allow_unmatched: Annotated[
         bool,
         Option(
-            "accept, with a note, what parameter sets and mappings should not have: unknown names and units, "
-            "values given twice",
+            "accept, with a note, errors in parameter sets and mappings: unknown names and units, values given twice",
             False,
         ),
     ]
@@ -101,7 +100,7 @@ class LimitOptions(TypedDict, total=False):
     call_timeout: Annotated[
         float,
         Option(
-            "wall-clock limit of one call of a foreign FMU, loading and instantiation included",
+            "wall-clock limit of one call of a foreign FMU, including loading and instantiation",
             300.0,
             unit="s",
             metavar="SECONDS",
@@ -181,7 +180,7 @@ class ReportFiles(JsonFile, total=False):
 
 
 # Options of several verbs, each named where its group has it.
-Seed = Annotated[int | None, Option("instead of the campaign's root seed", metavar="S")]
+Seed = Annotated[int | None, Option("root seed; default: the campaign's", metavar="S")]
 Workers = Annotated[int | None, Option("simulations in parallel; default: one per processor", metavar="N")]
 Overwrite = Annotated[bool, Option("overwrite existing results in the folder of --output", False)]
 UntilDecided = Annotated[bool, Option("stop as soon as the campaign's requirements are met or violated", False)]

@@ -93,7 +93,7 @@ class CampaignOptions(SystemKeywords, SimulationOptions, total=False):
 class TrialsOptions(TypedDict, total=False):
     """Which trials a campaign has"""
 
-    trials: Annotated[int | None, Option("instead of the campaign's number of trials", metavar="N")]
+    trials: Annotated[int | None, Option("number of trials; default: the campaign's", metavar="N")]
     draws: Annotated[
         FilePath | None,
         Option(

@@ -84,7 +84,9 @@ DESCRIBE = Verb(
 class ValidateOptions(SystemKeywords, total=False):
     """Options of validate"""
 
-    all_variants: Annotated[bool, Option("check every SSD of an archive, not only the one that would be flown", False)]
+    all_variants: Annotated[
+        bool, Option("check every SSD of an archive, not only the one that would be simulated", False)
+    ]
 
 
 VALIDATE = Verb(
@@ -109,7 +111,7 @@ class VerifyOptions(TrustOptions, total=False):
         ),
     ]
     flavour: Annotated[Build | None, Option("which build of an FMU that is given by name")]
-    timeout: Annotated[float | None, Option("limit of a simulation on the wall clock", metavar="T", unit="s")]
+    timeout: Annotated[float | None, Option("wall-clock limit of each simulation", metavar="T", unit="s")]
 
 
 VERIFY = Verb(
@@ -143,7 +145,7 @@ class DiffOptions(TypedDict, total=False):
 
 DIFF = Verb(
     "diff",
-    "put two runs over each other, signal by signal",
+    "compare two runs, signal by signal",
     (
         Argument("first", "FIRST", "a .parquet or .csv that `run --output` wrote, or another tool's"),
         Argument("second", "SECOND", "another one"),
@@ -176,7 +178,7 @@ DOCS = Verb(
 
 NEW_BLOCK = Verb(
     "new block",
-    "write NAME.py, a block of your own to start from",
+    "write NAME.py, a template for your own block",
     (NAME, SLOT),
     function="new.new_block",
     examples={"perilune new block my_guidance --slot terminal_guidance": "my_guidance.py, which runs as it is"},
@@ -184,7 +186,7 @@ NEW_BLOCK = Verb(
 
 NEW_SYSTEM = Verb(
     "new system",
-    "write the folder NAME, a system of your own to start from: blocks, parameter sets, campaign",
+    "write the folder NAME, a template for your own system: blocks, parameter sets, campaign",
     (NAME,),
     function="new.new_system",
     examples={"perilune new system my_axis": "a folder with plant, controller, description, campaign, loop"},
@@ -197,7 +199,7 @@ class ComposeOptions(TypedDict, total=False):
     output: Annotated[
         FilePath | None,
         Option(
-            "of a system: write its file to F.toml, what it names next to it; default: print it",
+            "of a system: write its file to F.toml, with all files it refers to; default: print it",
             metavar="F.toml",
             suffixes=(".toml",),
         ),
@@ -281,7 +283,7 @@ class ExportOptions(AssemblyOptions, total=False):
     ]
     flavour: Annotated[
         Build | None,
-        Option("default: native; of FILE.py both, as far as a compiler is here"),
+        Option("default: native; for FILE.py both, if a compiler is installed"),
     ]
     ssp: Annotated[
         Literal["1", "2"] | None,

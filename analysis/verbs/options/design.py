@@ -245,7 +245,7 @@ BOUND = Verb(
 class BoundsOptions(TypedDict, total=False):
     """Options of design bounds"""
 
-    trials: Annotated[int | None, Option("instead of the campaign's number of trials", metavar="N")]
+    trials: Annotated[int | None, Option("number of trials; default: the campaign's", metavar="N")]
     intervals: Annotated[int | None, Option("of each bound; default: 80", minimum=10, maximum=MOST_INTERVALS)]
     workers: Annotated[int | None, Option("bounds in parallel; default: one per processor", metavar="N")]
     store: Annotated[bool, Option("store the table where [lookup.bound] of the campaign reads it", False)]

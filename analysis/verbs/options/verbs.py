@@ -28,7 +28,7 @@ PURPOSES = {  # headings of `perilune --help`
 }
 VERBS: dict[str, Verb] = {verb.name: verb for verbs in PURPOSES.values() for verb in verbs}
 GROUPS = {  # first word of verbs -> what they do
-    "new": "write a block or a system of your own to start from",
+    "new": "write a template for your own block or system",
     "design": "design control laws, and plans of least propellant",
 }
 
