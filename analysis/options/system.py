@@ -70,7 +70,7 @@ class TreatmentOptions(TypedDict, total=False):
         Flavour | None,
         Option(
             "build of Perilune's FMUs; fused: native ones, the steps of the system compiled as one function; "
-            "default: native where built, fused under way in a batch where that pays"
+            "default: native where built, fused during a batch if that is faster"
         ),
     ]
     allow_unmatched: Annotated[
