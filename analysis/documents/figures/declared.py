@@ -206,7 +206,7 @@ class PathPoint:
 
 @dataclass(frozen=True)
 class PathFigure(FigureDeclaration):
-    """A scalar over another one or an arc, with ``equal`` to equal scales; ``points`` are further positions."""
+    """A scalar over another one or an arc, on ``equal`` scales if requested; ``points`` are further positions."""
 
     x: Signal | Arc
     y: Signal
