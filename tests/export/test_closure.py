@@ -43,8 +43,8 @@ def runs(closure, folder, class_name="Outside"):
     code = (
         f"import sys; sys.path.insert(0, {str(folder)!r})\n"
         f"from {closure.package}.{closure.block_module} import {class_name} as block\n"
-        f"from {closure.package}.runtime import Component\n"
-        "component = Component(block); component.start(); print(component.block.y)\n"
+        f"from {closure.package}.runtime import BlockInstance\n"
+        "component = BlockInstance(block); component.start(); print(component.block.y)\n"
         "assert not any(name.split('.')[0] in ('fmus_src', 'analysis', 'common') for name in sys.modules)\n"
     )
     done = subprocess.run([sys.executable, "-I", "-c", code], cwd=folder, capture_output=True, text=True, check=False)
