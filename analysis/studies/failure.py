@@ -16,7 +16,7 @@ from ..campaigns.definition.campaign import Campaign
 from ..campaigns.definition.expressions import Expression, Where
 
 Margin = Callable[[Mapping[str, np.ndarray]], np.ndarray]
-NEVER = -np.nextafter(0.0, 1.0)  # the margin of a strict comparison of equals: next to failure, and none
+NEVER = -np.nextafter(0.0, 1.0)  # margin of a strict comparison of equals: just below failure
 OPPOSITE: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Lt: ast.GtE,
     ast.LtE: ast.Gt,
@@ -74,7 +74,7 @@ def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
         case ast.UnaryOp(op=ast.Not(), operand=operand):
             return _margin(operand, not negated, where)
         case ast.BoolOp(op=joint, values=values):
-            either = isinstance(joint, ast.Or) != negated  # of not (a and b): not a or not b
+            either = isinstance(joint, ast.Or) != negated  # not (a and b) is not a or not b
             return _join_limit_states([_margin(value, negated, where) for value in values], either)
         case ast.Compare(left=left, ops=operators, comparators=comparators):
             sides = [left, *comparators]

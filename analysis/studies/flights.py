@@ -48,7 +48,7 @@ class SampleFlights:
         self.noise = noise_of(self.prepared, noise_trial, plan.campaign.seed)
         self.facts = study_provenance(self.plan, systems)
         self.flown = 0
-        self.lost: Counter[str] = Counter()  # flights that crashed, hung or ran out of memory
+        self.lost: Counter[str] = Counter()  # simulations that crashed, hung or ran out of memory
         self._pool = FlyerPool(self.plan, self._count, self.prepared.flies_in_threads)
         self._progress = progress_bar(unit="flight")
 
@@ -82,7 +82,9 @@ class SampleFlights:
         self._pool.__exit__(*error)
 
 
-def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> TrialTable | None:  # of a module: workers import it
+def _fly(
+    flyer: Flyer, variant: str, plan: BatchPlan
+) -> TrialTable | None:  # a function of a module, since workers import it
     return flyer.fly_others(variant, plan)
 
 

@@ -105,7 +105,7 @@ class StudyResult:
     known. ``lost`` counts simulations that crashed, hung or ran out of memory: they are failures.
     """
 
-    DRAWS: ClassVar[str]  # the file of draws with which flights are flown again
+    DRAWS: ClassVar[str]  # file of draws for repeated simulations
 
     space: DrawSpace
     flown: Flown

@@ -19,8 +19,8 @@ from .sobol import CONFIDENCE, Indices, indices, rank_correlations, saltelli_poi
 from .units import units_of
 
 SUCCESS = "success"
-NOISE = "noise realisation"  # the input that all random noise is
-EDGE = 2.0**-40  # of the unit interval, where a normal draw would be infinite
+NOISE = "noise realisation"  # name of the input that represents all random noise
+EDGE = 2.0**-40  # distance from the ends of the unit interval, where normal draws are infinite
 
 
 def sensitivity(

@@ -64,11 +64,11 @@ def indices(values: np.ndarray, base: int, random: np.random.Generator) -> Indic
 
     def statistic(rows: np.ndarray) -> np.ndarray:
         part = pages[:, :, rows]
-        if part.shape[:2] == (1, 3):  # one number of one input, which scipy refuses: twice, and the first of the two
+        if part.shape[:2] == (1, 3):  # scipy rejects one number of one input: pass it twice and use the first result
             part = np.repeat(part, 2, axis=0)
         parts = {"f_A": part[:, 0], "f_B": part[:, 1], "f_AB": part[:, 2:].swapaxes(0, 1)}
         sobol = scipy.stats.sobol_indices(func=parts, n=base)
-        shape = (len(part), -1)  # which a single number has lost
+        shape = (len(part), -1)  # restores the axis of a single number
         return np.stack([order.reshape(shape)[: len(pages)] for order in (sobol.first_order, sobol.total_order)])
 
     whole = statistic(np.arange(base))

@@ -40,9 +40,9 @@ from ..poles.spectrum import Spectrum
 from ..poles.zeroth_level import ZerothLevel, condition_of, under
 
 ROUTINE = "upper levels"
-_SOLVED = 1e-6  # of the equations, in units of the largest pole; Newton does the rest
+_SOLVED = 1e-6  # residual of the equations, in units of the largest pole; Newton's method does the rest
 _STEPS = 200
-_PLACED = 1e4 * np.finfo(float).eps  # of kappa |Ac|: how far from the poles rounding may leave an F
+_PLACED = 1e4 * np.finfo(float).eps  # share of kappa |Ac| by which rounding may displace the poles of an F
 
 
 class UpperLevels:
@@ -131,7 +131,7 @@ def _best(family: UpperLevels, lower: Spectrum, draws: Iterator[np.ndarray]) -> 
         except PlacementError as error:
             refused = error
     if not feedbacks:
-        assert refused is not None  # there is a start
+        assert refused is not None  # there is at least one start
         raise refused
     return replace(min(feedbacks, key=lambda one: one.norm), method=ROUTINE)
 

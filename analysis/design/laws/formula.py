@@ -25,11 +25,11 @@ from .expression_tree import (
 )
 from .law import NetworkOperator
 
-LONGEST_INLINE = 40  # characters of a subexpression that is written where it is used
+LONGEST_INLINE = 40  # longest subexpression, in characters, that is written where it is used
 SOURCE_LEVELS = {"pi + theta": SUM_LEVEL, "(hf - h)/h0": PRODUCT_LEVEL}
 
 
-# operations that name their argument more than once, or between bars
+# operations with their argument more than once, or between bars
 NEEDS_A_NAME = {
     number for number, notation in UNARY.items() if notation.formula.count("{z}") > 1 or "|" in notation.formula
 }

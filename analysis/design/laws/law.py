@@ -19,7 +19,7 @@ from ....fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY
 
 FORMAT, VERSION = "perilune-network-operator", 1
 KEYS = ("format", "version", "name", "description", "matrix", "q", "exp_saturation")
-EXP_SATURATIONS = ("true", "legacy")  # by their number in the blocks' parameter exp_saturation
+EXP_SATURATIONS = ("true", "legacy")  # indexed by the blocks' parameter exp_saturation
 PARAMETERS = 3
 
 Matrix = tuple[tuple[int, ...], ...]

@@ -25,7 +25,7 @@ from .polynomial import block_companion, make_polynomial
 from .results import PlacementError, Reason, StateFeedback
 from .spectrum import Spectrum
 
-FORMULA = "generalised Ackermann"  # as refusals name it
+FORMULA = "generalised Ackermann"  # name in error messages
 
 
 def ackermann(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback:

@@ -16,7 +16,7 @@ from .polynomial import make_polynomial
 from .results import PlacementError, Reason, StateFeedback
 from .spectrum import Spectrum
 
-TOLERANCE = 1e-9  # relative, below which a direction or a singular value counts as none
+TOLERANCE = 1e-9  # relative; smaller directions and singular values count as 0
 
 
 def controllability_matrix(a: np.ndarray, b: np.ndarray, blocks: int) -> np.ndarray:

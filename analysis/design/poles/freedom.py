@@ -26,9 +26,9 @@ from .multilevel import PoleLevel, decompose, place_on_levels
 from .results import PlacementError, Reason, StateFeedback
 from .spectrum import Spectrum
 
-_ORDERS = (2.0, 16.0, 128.0)  # of the norms that tend to the largest singular value; the first is smooth everywhere
+_ORDERS = (2.0, 16.0, 128.0)  # orders of norms that tend to the largest singular value; the first is smooth everywhere
 _COARSE, _FINE = (1e-3, 400), (1e-6, 600)  # slope and steps at which a descent ends
-_KEPT = 2  # starts that are gone on with
+_KEPT = 2  # starts that are continued
 Objective = Callable[[np.ndarray], tuple[float, np.ndarray]]
 
 

@@ -28,9 +28,9 @@ class DecomposedPlant(StrEnum):
 class Spread(StrEnum):
     """Criterion for the distribution of poles over the levels."""
 
-    FIRST = "first"  # that applies
-    LEAST_NORM = "least_norm"  # the smallest of all
-    SMALLEST = "smallest"  # of what is found from there among all F that have the poles
+    FIRST = "first"  # the first that applies
+    LEAST_NORM = "least_norm"  # the smallest |F| of all
+    SMALLEST = "smallest"  # the smallest found from there among all F with the poles
 
 
 def output_feedback(

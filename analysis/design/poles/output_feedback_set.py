@@ -29,7 +29,7 @@ from .plant import input_matrix, output_matrix, real_matrix, state_matrix
 from .polynomial import block_companion
 from .results import OutputFeedback, PlacementError, Reason
 
-_RESIDUAL = 1e-10  # of the right side
+_RESIDUAL = 1e-10  # relative to the right side
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ def output_feedback_set(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> OutputFeedb
         problem = f"C of {len(outputs)} rows has rank {rank}"
         remedy = "leave out what other outputs say already"
         raise PlacementError("set of output feedbacks", Reason.RANK, problem, rank, remedy)
-    # [N] V C^perp = -T A^p C^perp, each row of [N] by itself
+    # [N] V C^perp = -T A^p C^perp, each row of [N] separately
     seen = stack @ hidden
     row = -power @ hidden @ np.linalg.pinv(seen)
     retained = null_space(seen.T).T

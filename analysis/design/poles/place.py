@@ -35,9 +35,9 @@ _ORTHONORMAL = 1e-9
 class FreedomUse(StrEnum):
     """Criterion for the freedom that several inputs leave."""
 
-    DIAGONAL = "diagonal"  # nothing: diagonal matrices, blocks for pairs
-    LEAST_CONDITION = "least_condition"  # of the eigenvectors
-    LEAST_NORM = "least_norm"  # of the gain
+    DIAGONAL = "diagonal"  # no use: diagonal matrices, blocks for pairs
+    LEAST_CONDITION = "least_condition"  # least condition number of the eigenvectors
+    LEAST_NORM = "least_norm"  # least norm of the gain
 
 
 class PlaceOptions(TypedDict, total=False):

@@ -25,7 +25,7 @@ def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
     lying = list(zip(odd[0 : 2 * across : 2], odd[1 : 2 * across : 2], spectrum.pairs[:across], strict=True))
     rooms = [degree - any(j in (first, second) for first, second, _ in lying) for j, degree in enumerate(degrees)]
     parts = Spectrum(spectrum.real, spectrum.pairs[across:]).deal(rooms)
-    assert parts is not None  # what does not fit lies across
+    assert parts is not None  # pairs that do not fit use two elements
     coefficients = np.zeros((max(degrees) + 1, len(degrees), len(degrees)))
     for j, part in enumerate(parts):
         coefficients[: part.size + 1, j, j] = part.polynomial
@@ -35,7 +35,7 @@ def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
             coefficients[:, other, j] = sign * pair.imag * factor
             coefficients[:, j, j] = np.roll(factor, 1) - pair.real * factor
     for j, degree in enumerate(degrees):
-        coefficients[degree, j, j] -= 1.0  # the leading one, which is not stored
+        coefficients[degree, j, j] -= 1.0  # the leading coefficient, which is not stored
     return coefficients[:-1]
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from ....common.errors import InputError
 from .spectrum import distance, match
 
-_SEMISIMPLE = 1e-9  # relative, of the singular values that count as none
+_SEMISIMPLE = 1e-9  # relative; smaller singular values count as 0
 
 
 class Reason(StrEnum):

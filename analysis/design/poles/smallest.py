@@ -19,13 +19,13 @@ from scipy.optimize import minimize
 from .results import OutputFeedback, PlacementError, Reason
 from .spectrum import match
 
-_NEWTON_STEPS = 3  # the second is within rounding where the first was small
-_RANK = 1e-12  # relative; half of the equations say the same for conjugate poles
-_STARTS = 5  # the smallest that the spreads gave
-_ACCURACY = 1e-10  # of |F|^2, relative to the start's
+_NEWTON_STEPS = 3  # steps; the second is within rounding if the first was small
+_RANK = 1e-12  # relative; half of the equations are redundant for conjugate poles
+_STARTS = 5  # number of smallest results of distributions to start from
+_ACCURACY = 1e-10  # tolerance of |F|^2, relative to the start's
 _STEPS = 100  # of one search
-_ROUNDS, _WORTH = 10, 0.01  # searches one after the other, and what the last must have brought
-_ALLOWED = 1000.0 * np.finfo(float).eps  # of kappa |Ac|; how far from the poles rounding may leave an F
+_ROUNDS, _WORTH = 10, 0.01  # number of successive searches, and the least improvement of the last
+_ALLOWED = 1000.0 * np.finfo(float).eps  # share of kappa |Ac| by which rounding may displace the poles of an F
 
 
 def polish(feedback: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
@@ -97,7 +97,7 @@ def _search(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) 
         return -(c @ polynomial_and_slope(loop(free))[1] @ driven).swapaxes(1, 2).reshape(len(a), -1)
 
     first = start.gain.ravel() / scale
-    # combinations of the equations whose derivatives are orthonormal where it starts
+    # combinations of the equations with orthonormal derivatives at the start
     mixed = np.linalg.pinv(qr(slope(first).T, mode="economic")[1].T)
     ended = minimize(
         lambda free: (free @ free, 2.0 * free),

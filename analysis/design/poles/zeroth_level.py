@@ -35,7 +35,7 @@ from .spectrum import Spectrum
 
 _ORTHONORMAL = 1e-9
 _SOLVED = 1e-5  # of the polynomial's coefficients, poles measured by the largest required one; Newton does the rest
-_STEPS = 60  # of a search: those that arrive took fewer
+_STEPS = 60  # iterations of a search; successful ones took fewer
 
 
 class ZerothLevel:

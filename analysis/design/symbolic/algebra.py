@@ -12,7 +12,7 @@ import numpy as np
 
 from ....common.errors import InputError
 
-Expression = Any  # of sympy, which has no types
+Expression = Any  # sympy expression, untyped
 Symbols = Any  # a sympy matrix
 
 

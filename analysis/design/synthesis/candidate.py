@@ -84,7 +84,7 @@ class Evaluator(Protocol):
     """Interface of the evaluator of laws."""
 
     objectives: int  # number of objectives
-    trials: int  # of an evaluation that is complete
+    trials: int  # number of trials of a complete evaluation
 
     def evaluate(self, tasks: Sequence[EvaluationTask], bar: AdmissionThreshold | None) -> list[Evaluation]:
         """Evaluate laws, each from the trial after the known ones; objectives are sums of numbers >= 0.

@@ -80,7 +80,7 @@ def fly_law(
     given: dict[str, ParameterValue] | None = overlay
     while flown < trials:
         result = flyer.fly_one(VARIANT, flown, given)
-        given = None  # the law stays
+        given = None  # the law is unchanged
         values = [objective_value(expression, result, flown) for expression in expressions]
         sums = tuple(total + value for total, value in zip(sums, values, strict=True))
         successes += result.success

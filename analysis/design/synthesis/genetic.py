@@ -48,7 +48,7 @@ class SearchState:
     flights: int = 0
     population: list[Candidate] = field(default_factory=list)
     known: dict[str, Evaluation] = field(default_factory=dict)
-    front: list[Candidate] = field(default_factory=list)  # the Pareto set of all that were evaluated
+    front: list[Candidate] = field(default_factory=list)  # Pareto set of all evaluated candidates
     champion: Candidate | None = None  # most successes
     history: list[dict[str, float]] = field(default_factory=list)
     succeeded: bool = False

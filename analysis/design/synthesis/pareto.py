@@ -48,7 +48,7 @@ class ParetoOrder:
         self.ranks = ranks(objectives)
         front = objectives[self.ranks == 0]
         usable = np.where(np.isfinite(front), front, np.nan)
-        known = ~np.all(np.isnan(usable), axis=0)  # an objective that no point reaches says nothing
+        known = ~np.all(np.isnan(usable), axis=0)  # an objective that is infinite for all points does not count
         self.ideal = np.zeros(objectives.shape[1])
         self.extent = np.ones(objectives.shape[1])
         self.ideal[known] = np.nanmin(usable[:, known], axis=0)

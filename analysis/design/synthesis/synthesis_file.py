@@ -22,7 +22,7 @@ from .search_settings import SearchSettings
 from .variations import OUTPUTS, SIZE, SOURCES, edges_in, edges_out
 
 OWN_KEYS = ("component", "fmu", "law", "step", "stop_time", "objectives")
-REFUSED = {  # tables of a campaign, and why they do not go with a search
+REFUSED = {  # tables of a campaign that a search does not permit, with the reason
     "compare": "one law flies at a time",
     "record": "nothing is kept of the flights",
     "group": "a law is judged by all trials",

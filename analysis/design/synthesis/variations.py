@@ -17,7 +17,7 @@ import numpy as np
 from ....fmus_src.mathlib.network_operator import SIZE, SOURCES
 from ..laws.law import Matrix
 
-OUTPUTS = (14, 15)  # nodes counted from 0, as everywhere but on the screen
+OUTPUTS = (14, 15)  # nodes count from 0, as everywhere except in output
 NOTHING, CHANGE_UNARY, CHANGE_BINARY, ADD_EDGE, REMOVE_EDGE = range(5)
 PLACES = [(row, column) for column in range(SOURCES, SIZE) for row in range(column)]  # where edges may be
 UNARY_CHOICE = (*range(1, 20), 23)  # operations that a synthesis uses

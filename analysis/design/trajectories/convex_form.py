@@ -19,8 +19,8 @@ from .path import OFF, PlannedPath
 from .point_mass import PointMassProblem
 from .solvers import clarabel
 
-SOLVES = 12  # three to six are needed
-CHANGE = 1e-7  # of the propellant fraction between two solves
+SOLVES = 12  # usually three to six
+CHANGE = 1e-7  # change of the propellant fraction between two solutions
 TOLERANCE = 1e-10
 
 
@@ -126,7 +126,7 @@ def _solve(
     ]
 
     middle = (here + there) @ log_about / 2.0
-    ratio = np.exp(-middle)  # of the mass at the start to that in the middle of an interval
+    ratio = np.exp(-middle)  # ratio of the initial mass to that in the middle of an interval
     away = sparse.csr_array((here + there) / 2.0) @ z  # y = away z - middle
     maximum = problem.most / unit * ratio
     below = [(s + sparse.diags_array(maximum) @ away, maximum * (1.0 + middle))]

@@ -28,8 +28,8 @@ SCALARS = (
     "gravitational_parameter",
     "target_altitude",
 )  # the attributes: each a parameter, or a number
-STOP = ("altitude",)  # of a piece: from the same start to rest over the site, higher
-HOVER = ("mass", "minimum_thrust", "start_altitude", "end_altitude")  # of one from hover to hover
+STOP = ("altitude",)  # a piece from the same start to rest higher above the site
+HOVER = ("mass", "minimum_thrust", "start_altitude", "end_altitude")  # a piece from hover to hover
 ASIDE = "aside"  # the vector from site to site
 NUMBER = re.compile(r"-?\d+(\.\d+)?([eE][+-]?\d+)?")
 START = "start"  # the parameter set that braking starts from

@@ -9,9 +9,9 @@ from .convex_form import PointMassPath, solve_fixed_time
 from .path import PlanError
 from .point_mass import PointMassProblem
 
-BOUND_INTERVALS = 240  # of a bound, unless others are requested
-COARSE = 40  # intervals of the search's first look
-GROWTH = 1.3  # from one time of it to the next
+BOUND_INTERVALS = 240  # default intervals of a bound
+COARSE = 40  # intervals of the bracket's coarse solutions
+GROWTH = 1.3  # factor between its durations
 FIRST, LAST = -8, 11  # times from 1/8 to 18 times the natural one
 ACCURACY = 1e-2  # s; the propellant is flat there
 

@@ -12,8 +12,8 @@ from .path import PlanError
 from .point_mass import PointMassProblem
 from .solvers import clarabel
 
-INTERVALS = 80  # of each, unless others are requested
-ACCURACY = 0.1  # s, of the duration
+INTERVALS = 80  # default intervals of each
+ACCURACY = 0.1  # s, accuracy of the duration
 
 Bounded = tuple[float, float]
 

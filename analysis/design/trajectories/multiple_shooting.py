@@ -19,7 +19,7 @@ from .solvers import Symbol, casadi
 
 TOLERANCE = 1e-9
 ITERATIONS = 1000
-THROTTLE = 0.7  # of the guess
+THROTTLE = 0.7  # throttle of the guess
 
 
 @dataclass(frozen=True)

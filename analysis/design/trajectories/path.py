@@ -8,8 +8,8 @@ import numpy as np
 
 from ....common.errors import EndedError, ExitStatus
 
-OFF = 0.02  # of the range from least to full throttle: above it an interval belongs to a burn
-ALL = 1.0 - 1e-6  # from where on it counts as all of it
+OFF = 0.02  # share of the range from least to full throttle, above which an interval belongs to a burn
+ALL = 1.0 - 1e-6  # share above which it counts as full
 
 
 class PlanError(EndedError):
@@ -62,7 +62,7 @@ class PlannedPath:
         burns = []
         for first, after in edges:
             idle = (1.0 - fraction[[first, after - 1]]) * step[[first, after - 1]]
-            if after - first == 1:  # where in its interval such a burn lies nobody knows
+            if after - first == 1:  # the position of such a burn in its interval is unknown
                 idle /= 2.0
             burns.append((float(self.time[first] + idle[0]), float(self.time[after] - idle[1])))
         return burns

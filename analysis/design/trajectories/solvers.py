@@ -9,7 +9,7 @@ from typing import Any
 
 from ....common.errors import InputError
 
-Symbol = Any  # of CasADi, which has no types; where one stands, a number or an array may
+Symbol = Any  # CasADi expression, untyped; a number or an array may replace it
 
 
 @cache

@@ -16,11 +16,11 @@ import numpy as np
 from ..trajectories.vehicle import Transfer, Vehicle
 from .true_optimum import OptimalPath
 
-NODES = (1.0 - np.cos(np.pi * np.arange(7) / 6.0)) / 2.0  # of an interval, as parts of it (Chebyshev)
+NODES = (1.0 - np.cos(np.pi * np.arange(7) / 6.0)) / 2.0  # nodes as fractions of an interval (Chebyshev)
 _POWERS = np.arange(1.0, 8.0)
 # Integrals from each node to 1 of the polynomials that are 1 at one node and 0 at the others.
 INTEGRALS = (1.0 - NODES[:, np.newaxis] ** _POWERS) / _POWERS @ np.linalg.inv(np.vander(NODES, increasing=True))
-FREE = 0.01  # of its largest: an angular acceleration below has no sign
+FREE = 0.01  # share of the largest angular acceleration, below which it has no sign
 IN_ORDER = [0, 1, 2, 3, 6, 4, 5]  # the optimum's states in the paper's order
 
 

@@ -17,10 +17,10 @@ from ..trajectories.vehicle import Vehicle
 from .nonlinear import minimise
 from .programme import Programme
 
-FAR, FAST, TURNING = 100.0, 5.0, 0.05  # m, m/s and rad/s that count alike, as 1 rad does
-SCALE = 1e3  # of the propellant fraction
-SHORTEST = 1e-3  # s, of a burn
-LONGEST = 8.0  # s, of an interval of the quadrature
+FAR, FAST, TURNING = 100.0, 5.0, 0.05  # m, m/s and rad/s of equal weight, as 1 rad
+SCALE = 1e3  # scale of the propellant fraction
+SHORTEST = 1e-3  # s, least duration of a burn
+LONGEST = 8.0  # s, longest interval of the quadrature
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
 NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0  # over [0, 1]
 HALF = math.pi / 2.0

@@ -21,11 +21,11 @@ from ..trajectories.vehicle import Transfer, Vehicle
 from .nonlinear import minimise
 from .programme import Programme, kernel_vehicle
 
-FAR, FAST = 100.0, 5.0  # m and m/s that count alike
-SCALE = 1e3  # of the propellant fraction
-SHORTEST = 0.01  # s, of the turn
+FAR, FAST = 100.0, 5.0  # m and m/s of equal weight
+SCALE = 1e3  # scale of the propellant fraction
+SHORTEST = 0.01  # s, least duration of the turn
 SHORTEST_BURN = 1e-3  # s
-NO_SHAPE = 1e3  # of the conditions where the times have no shape
+NO_SHAPE = 1e3  # value of the conditions if the times have no shape
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from scipy.optimize import minimize
 
-SETTLED = 1e-8  # of each scaled condition
-PRECISION = 1e-10  # of the function between two iterations
+SETTLED = 1e-8  # tolerance of each scaled condition
+PRECISION = 1e-10  # change of the function between two iterations
 ITERATIONS = 500
 
 Function = Callable[[np.ndarray], float]

@@ -17,8 +17,8 @@ from ..trajectories.path import PlannedPath
 from ..trajectories.vehicle import Transfer, Vehicle
 
 STEP = 0.25  # s, of a path
-DURATIONS = (0.84, 1.22, 27)  # of the best: from, to, how many
-DISTANCES = (1.6, 25)  # of the one that is asked for: to, how many
+DURATIONS = (0.84, 1.22, 27)  # relative to the best: from, to, count
+DISTANCES = (1.6, 25)  # relative to the requested one: to, count
 
 
 @dataclass(frozen=True)

@@ -52,7 +52,7 @@ class BaseSimulation(ABC):
     recorder: FlightRecorder
     layout: Layout
     signal_names: list[str]
-    flights = 0  # since its process began, of one in a separate process
+    flights = 0  # runs of the current child process, for simulations in one
 
     def __init__(self, prepared: PreparedSystem, **choices: Unpack[Choices]) -> None:
         self.prepared = prepared

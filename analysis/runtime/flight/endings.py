@@ -15,7 +15,7 @@ from ..loop.library import load_library
 from ..ssp.names import split_name
 from .program import Layout
 
-TERMINATED = "terminated"  # an FMU asked for the end
+TERMINATED = "terminated"  # an FMU requested the end
 STATUS = {
     codes.STOP_TIME: "stop_time",
     codes.FINISHED: "finished",
@@ -99,12 +99,12 @@ def end_request(instance: Instance) -> float | None:
 
     Perilune's FMUs never ask: pythonfmu reports the failed step of a block as such a request.
     """
-    if instance.fmu.is_own or instance.fmu.version == 3:  # which says so with the step
+    if instance.fmu.is_own or instance.fmu.version == 3:  # version 3 reports it with the step
         return None
     try:
         if instance.slave.getBooleanStatus(fmi2.fmi2Terminated):
             return float(instance.slave.getRealStatus(fmi2.fmi2LastSuccessfulTime))
-    except Exception:  # fmpy raises bare Exception where the FMU does not answer either
+    except Exception:  # FMPy raises bare Exception if the FMU does not answer
         return None
     return None
 
@@ -172,7 +172,7 @@ def ended_in_words(
     The status is ``failed`` if ``time`` is outside the step.
     """
     allowed = load_library().perilune_time_allowance(begin, end)
-    if not begin - allowed <= time <= end + allowed:  # NaN is not, either
+    if not begin - allowed <= time <= end + allowed:  # also rejects NaN
         words = "fmi2DoStep asked for the end by discard"
         return STATUS[codes.OUTSIDE_STEP], _outside_words(words, time, begin, end, subject, instances)
     component, instance = list(instances.items())[subject]

@@ -14,7 +14,7 @@ from .orders.injections import NEVER
 from .parameters import Key, Parameters
 from .results import Flight
 
-RECORD_BYTES = 2**23  # of a group: dozens of long flights, thousands of short ones
+RECORD_BYTES = 2**23  # record of a group: dozens of long flights, thousands of short ones
 
 
 def group_of(table: FlightTable, keys: Mapping[str, Key], parameters: Parameters, margin: float) -> arrays.RunGroup:
@@ -63,7 +63,7 @@ class FlightGroup:
     signals: Mapping[str, np.ndarray]
     ends: np.ndarray
     statuses: list[str]
-    complete: np.ndarray  # bool, whether each came to its end
+    complete: np.ndarray  # bool, True for flights that completed
     messages: list[str]
 
     @classmethod

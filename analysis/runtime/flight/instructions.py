@@ -134,7 +134,7 @@ class InstructionList(InstructionRows):
         for orders in self.orders:
             orders.read_back()
         for component in range(len(self.orders)):
-            self.read(component)  # again: there are FMUs that compute outputs only when they leave initialisation
+            self.read(component)  # again: some FMUs compute outputs only when they leave initialisation
 
     def side_by_side(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
         """Step all components with their current inputs, then read all outputs (Jacobi's method)."""

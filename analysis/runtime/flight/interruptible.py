@@ -19,7 +19,7 @@ from .results import HUNG, TIMED_OUT, Flight, FlightResult
 
 T = TypeVar("T")
 Flown = TypeVar("Flown", bound=Flight)
-PATIENCE = 1.5  # s that a flight has to reach its next communication point
+PATIENCE = 1.5  # s, time for a flight to reach its next communication point
 
 
 class StuckError(TimeoutError):
@@ -65,7 +65,7 @@ def _within(simulation: BaseSimulation, timeout: float | None, work: Callable[[]
             where = progress_text(simulation.prepared, simulation.recorder)
             raise StuckError(f"an FMU {late}, {where}") from None
         flight = future.result()
-    simulation.interrupt(False)  # the next flight is not to end at once
+    simulation.interrupt(False)  # so that the next flight does not end at once
     if flight.status != "interrupted":
         return flight  # the last point was reached in the meantime
     message = f"took longer than its time limit of {timeout:g} s: ended at t = {_point(simulation):g} s"
@@ -117,7 +117,7 @@ def _start_into(work: Callable[[], T], future: Future[T]) -> None:
     def run() -> None:
         try:
             future.set_result(work())
-        except BaseException as error:  # whatever it is, it is raised where the work is waited for
+        except BaseException as error:  # any exception is raised again by the waiting thread
             future.set_exception(error)
 
     threading.Thread(target=run, daemon=True).start()

@@ -92,7 +92,7 @@ class LifeCycle:
         if not instance.is_there or not self._terminate(name, instance) or not sound:
             return False
         if verdict_in_cache(instance.fmu) is None and instance.fmu.is_alone:
-            instance.free()  # the trial needs its place
+            instance.free()  # the test needs its place
         if not reset_verdict(instance.fmu).resets or not instance.is_there:
             return False
         try:

@@ -91,7 +91,7 @@ class Memory(BaseMemory[Snapshot]):
             ]
             references = list(dict.fromkeys(item.reference for item in mine.values()))
             self._pieces.append(FmuReals(instance, np.array(references, dtype=np.uint32), len(mine)))
-        # Followers' outputs that others read a step late are remembered by the exchange only.
+        # Followers' outputs that others read a step late are stored by the exchange only.
         followers = set(prepared.schedule.followers)
         self._slots: list[int] = []
         for name, slot in layout.slots.items():
@@ -154,7 +154,7 @@ def _find_cells(fmu: Fmu, frozen: set[int]) -> dict[int, ScalarVariable]:
     for variable in fmu.variables.values():
         index = variable.reference + variable.index
         if variable.representation.name == "Float64" and variable.causality in REMEMBERED and index not in frozen:
-            remembered.setdefault(index, variable)  # not once more by an alias
+            remembered.setdefault(index, variable)  # an alias is not a second cell
     return remembered
 
 

@@ -47,7 +47,7 @@ class Parameters:
         self._tuned = tuned
         self._table = TransferTable() if table is None else table
         self.transfers: dict[int, ComponentTransfers] = {}
-        self._layout: dict[int, tuple[str, int]] = {}  # of FMI 3.0: type and first byte
+        self._layout: dict[int, tuple[str, int]] = {}  # FMI 3.0: type and first byte
         self.keys: list[Key] = []
         self.types: dict[Key, str] = {}
         self.references: list[int] = []
@@ -80,7 +80,7 @@ class Parameters:
         self.values = arrays.Settings(
             np.zeros(count), np.zeros(count, dtype=np.int32), np.zeros(count, dtype=np.uint64)
         )
-        self.words = np.zeros(count, dtype=np.uint64)  # of FMI 3.0, as `arrays.Fmi3` has them
+        self.words = np.zeros(count, dtype=np.uint64)  # FMI 3.0, as in `arrays.Fmi3`
         self.update({key: settings.variables[key] for key in self.keys if key in settings.variables})
         for key in self.keys:
             if key not in settings.variables:

@@ -97,8 +97,8 @@ class _Builder:
         self.slots = self.signals.numbers
         self.exchanged = Exchanged(network, wanted, more, injections)
         self.table = TransferTable()
-        self.component_slots: dict[int, ComponentSlots] = {}  # of components of FMI 2.0
-        self.transfers: dict[int, ComponentTransfers] = {}  # of components of FMI 3.0
+        self.component_slots: dict[int, ComponentSlots] = {}  # by components of FMI 2.0
+        self.transfers: dict[int, ComponentTransfers] = {}  # by components of FMI 3.0
         self.parameters = Parameters(network, settings, self.table, self.exchanged.tuned)
         self.texts, self.binaries = (TextSlots(network, settings, kind) for kind in TEXTS)
         placing = TransferPlacing(network, self.exchanged, self.signals, self.table)
@@ -222,7 +222,7 @@ class _Builder:
     def _fault_slot(self, injection: Injection) -> int:
         changeable(
             self.network, injection.connector, ("connector", injection.connector), tunable=True
-        )  # refuses others
+        )  # rejects other connectors
         return self.slots[injection.connector]
 
     def layout(self) -> Layout:

@@ -34,14 +34,18 @@ if TYPE_CHECKING:  # imported where a table is written
 
 NONFINITE = "nonfinite"
 TIMED_OUT = "timed_out"
-CRASHED, HUNG, OUT_OF_MEMORY = LOST = "crashed", "hung", "out_of_memory"  # with the process, or the thread, of a flight
+CRASHED, HUNG, OUT_OF_MEMORY = LOST = (
+    "crashed",
+    "hung",
+    "out_of_memory",
+)  # ended with the process or thread of the simulation
 COMPLETE = ("finished", "stop_time", "terminated")
 ENDINGS = {
     "finished": "completed",
     "stop_time": "stop time reached",
     TIMED_OUT: "timed out",
     OUT_OF_MEMORY: "out of memory",
-}  # where words differ
+}  # if it differs from the status
 
 
 def require_pandas() -> None:

@@ -20,7 +20,7 @@ from .orders.injections import Injection, of_excitation, of_fault
 from .parameters import Key
 from .program import Layout
 
-TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry rounding
+TIME_MARGIN = 1e-6  # fraction of a step: communication points, start + n h, are rounded
 
 
 @dataclass(frozen=True)

@@ -96,7 +96,7 @@ class Simulation(BaseSimulation):
         """See `BaseSimulation.fuse`. Raises InputError if the compiler rejects the steps or changes results."""
         if not self.fused_steps and can_fuse(self.prepared) and is_compilable(self.program):
             fused = replace(self.prepared, options=self.prepared.options.but(flavour=FUSED))
-            with self.loop.under_way:  # the instances are read: `close` leaves them alone meanwhile
+            with self.loop.under_way:  # prevents `close` while the instances are read
                 self.fused_steps = self._fuse(fused)
             self.prepared = fused
 
@@ -272,7 +272,7 @@ class Simulation(BaseSimulation):
             code, first, count = self.program.instructions[
                 outcome.instruction, [codes.CODE, codes.FIRST, codes.COUNT]
             ].tolist()
-            if code == codes.TAKE_BACK and self.fmi3 is not None:  # of one variable
+            if code == codes.TAKE_BACK and self.fmi3 is not None:  # a transfer of one variable
                 first = int(self.fmi3.transfers.rows[first, codes.FIRST_VALUE])
             parameters.learn_unreadable(first, count)
         elif outcome.is_refused_again(self.program):

@@ -16,7 +16,7 @@ from .representations import REPRESENTATIONS, TEXTS
 from .variable import shape
 
 RELEASED = re.compile(r"3\.\d+(\.\d+)?")  # drafts such as 3.0-beta.2 have other functions
-MOST_ELEMENTS = 1_000_000  # of all arrays of an FMU
+MOST_ELEMENTS = 1_000_000  # elements in all arrays of an FMU
 SCALAR_REFERENCES = ("Output", "ContinuousStateDerivative", "ClockedState", "InitialUnknown", "EventIndicator")
 NUMBERS = ("start", "min", "max", "nominal")
 

@@ -8,7 +8,7 @@ import numpy as np
 
 UNBOUNDED = (-np.inf, np.inf)
 SINGLE = float(np.finfo(np.float32).max)
-EXACT = 2**53  # whole numbers up to this one are float64 exactly
+EXACT = 2**53  # integers up to this one are exact in float64
 
 
 class Representation(NamedTuple):
@@ -16,8 +16,8 @@ class Representation(NamedTuple):
 
     name: str
     type: str
-    dtype: str  # of numpy, empty for bytes of any length
-    limits: tuple[float, float] = UNBOUNDED  # exact, as Python's whole numbers
+    dtype: str  # numpy dtype, empty for bytes of any length
+    limits: tuple[float, float] = UNBOUNDED  # exact, as Python integers
 
     @property
     def is_wide(self) -> bool:

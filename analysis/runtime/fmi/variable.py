@@ -26,7 +26,7 @@ class ScalarVariable:
     name: str
     type: str
     representation: Representation
-    reference: int  # value reference; of an element the array's
+    reference: int  # value reference, for an element its array's
     causality: str
     variability: str
     initial: str | None = None
@@ -36,10 +36,10 @@ class ScalarVariable:
     unit: str | None = None
     is_relative: bool = False  # a difference of values in the unit, to which its offset does not apply
     description: str | None = None
-    items: Mapping[str, int] = field(default_factory=dict)  # of an Enumeration
-    meanings: Mapping[str, str] = field(default_factory=dict)  # of those of its items that have a description
-    array: str = ""  # name of the array that it is an element of
-    index: int = 0  # among the array's elements
+    items: Mapping[str, int] = field(default_factory=dict)  # items of an Enumeration
+    meanings: Mapping[str, str] = field(default_factory=dict)  # descriptions of its items, if any
+    array: str = ""  # name of the array that contains it
+    index: int = 0  # position among the array's elements
 
     @property
     def is_tunable(self) -> bool:

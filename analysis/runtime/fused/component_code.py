@@ -21,8 +21,8 @@ JOINED = re.compile(r"(\w+)##")  # the first half of a name that a macro joins
 USE = re.compile(r"^[A-Z_]+\((\w+)", re.MULTILINE)  # of a macro that defines something, its argument after that half
 RESERVED = re.compile(r"_[_A-Z]")
 WRAPPER = '#include "fmi2_wrapper.h"'
-INSTEAD = {"fmi2Functions.h": "fmi2FunctionTypes.h"}  # its types alone: the functions are not in the unit
-NEEDED = '#include "fmi2_types.h"\n#include "life_cycle.h"'  # of the wrapper: an instance and its steps
+INSTEAD = {"fmi2Functions.h": "fmi2FunctionTypes.h"}  # only the types: its functions are not in the unit
+NEEDED = '#include "fmi2_types.h"\n#include "life_cycle.h"'  # of the wrapper, only an instance and its steps are needed
 
 OFFSETS = """
 /* The offset of a variable in an instance, by its value reference. */
@@ -32,7 +32,7 @@ _UNIT_EXPORT uint32_t offset_of(uint32_t reference)
 }
 """
 
-# What C and its library call themselves, and the unit has once; the compiler refuses what is missing here.
+# Names of C and its library, which must not be prefixed; the compiler rejects code if one is missing here.
 STANDARD = frozenset(
     re.findall(
         r"\w+",

@@ -25,9 +25,9 @@ from .refusals import INSTALL, NO_COMPILER, has_code
 from .unit import ENTRY, SELF_TEST, write_unit
 
 FILE = "fused.c"
-# This processor's instructions round as those of all others do, and take a tenth less time.
+# Instructions of this processor round like those of all others, and take a tenth less time.
 FLAGS = (*FMU_FLAGS, FOR_THIS_PROCESSOR)
-MOST_CODES = 64  # of FMUs, that are kept
+MOST_CODES = 64  # FMUs in the cache
 MOST_INSTRUCTIONS = 20_000  # a minute of compilation
 
 

@@ -16,7 +16,7 @@ from ....fmus_src.export.write.names import literal
 from ..loop import arrays, codes
 
 INJECTIONS = {codes.OVERRIDE: "OVERRIDE", codes.BIAS: "BIAS", codes.FREEZE: "FREEZE", codes.EXCITE: "EXCITE"}
-INSTANCE_POINTER = "c{}"  # of a component whose C is in the unit
+INSTANCE_POINTER = "c{}"  # for components whose C is in the unit
 
 
 class Instruction(NamedTuple):

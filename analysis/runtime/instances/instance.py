@@ -20,7 +20,7 @@ from ..system.options import LOG_LEVELS, SAID_FROM
 from .library import LOADING, Library, acquire, release
 from .slaves import Fmi3Slave, Slave
 
-MOST_MESSAGES = 1000  # of a component, in a flight
+MOST_MESSAGES = 1000  # messages of a component in a simulation
 LONGEST_MESSAGE = 4096  # bytes
 STATUSES = ("OK", "warning", "discard", "error", "fatal", "pending")
 
@@ -41,7 +41,7 @@ class Log:
         self.level = level
         self.place = ""
         self.emit = self.write_line if emit is None else emit
-        self._counts: dict[str, int] = {}  # of messages, by component
+        self._counts: dict[str, int] = {}  # numbers of messages by component
         self._clock: Callable[[], float] | None = None
 
     @property
@@ -180,7 +180,7 @@ class _Heard(list[bytes]):
 
 # fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
 _logs: dict[str, _Heard] = {}
-_environments: dict[int, _Heard] = {}  # likewise of FMI 3.0, by the pointer passed to instances
+_environments: dict[int, _Heard] = {}  # likewise for FMI 3.0, by the pointer passed to instances
 _instances = itertools.count(1)
 _alone: set[str] = set()  # digests of FMUs that are instantiated, and may be only once in a process
 
@@ -226,7 +226,7 @@ def _make_formatting_callbacks() -> fmi2.fmi2CallbackFunctions:
 
 _logger = fmi2.fmi2CallbackLoggerTYPE(_log)
 _plain_callbacks = _make_callbacks()
-_fmi3_callback = fmi3.fmi3LogMessageCallback(_log_of_fmi3)  # whose messages are plain
+_fmi3_callback = fmi3.fmi3LogMessageCallback(_log_of_fmi3)  # FMI 3.0 has unformatted messages
 _formats = True
 
 

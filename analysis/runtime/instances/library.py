@@ -43,8 +43,8 @@ FUNCTION_NAMES = (
     "fmi3Terminate",
 )
 
-# fmpy changes the process's working directory while it loads a library: whoever does so, or reads
-# files by relative path next to threads that do, holds this.
+# FMPy changes the process's working directory while it loads a library. Hold this lock while doing so,
+# or while reading files by relative path when other threads may do so.
 LOADING = threading.RLock()
 
 
@@ -53,7 +53,7 @@ class Library:
 
     def __init__(self, fmu: Fmu) -> None:
         self._restore = _nothing if fmu.is_self_contained else load_library().perilune_restore_floats
-        with contextlib.chdir(Path.cwd()):  # back also when loading fails
+        with contextlib.chdir(Path.cwd()):  # restores it also if loading fails
             try:
                 self._slave: Slave = (FMU2WatchedSlave if fmu.version == 2 else Fmi3Slave)(
                     guid=fmu.description.guid,

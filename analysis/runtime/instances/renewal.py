@@ -12,9 +12,9 @@ class Renewal(StrEnum):
     """Way to restore an FMU to its initial state for the next simulation."""
 
     RESET = "reset"
-    INSTANCE = "instance"  # another one, in the same process
-    PROCESS = "process"  # another one, which loads the FMU from files that are as unpacked
-    IRREPRODUCIBLE = "irreproducible"  # it depends on what no process can renew, such as the clock
+    INSTANCE = "instance"  # a new instance in the same process
+    PROCESS = "process"  # a new process, which loads the FMU from files as unpacked
+    IRREPRODUCIBLE = "irreproducible"  # depends on something that no process restores, such as the clock
 
 
 @dataclass(frozen=True)

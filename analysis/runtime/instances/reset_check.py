@@ -57,7 +57,7 @@ def try_renewals(
     parameters must equal those of the first bit for bit, and process and folder must be unchanged. ``simulated`` is
     called with the SHA-256 of the first instance's outputs and parameters.
     """
-    with LOADING, chdir(Path.cwd()):  # back, should the FMU have gone elsewhere
+    with LOADING, chdir(Path.cwd()):  # restores the folder if the FMU changes it
         before = read_traces(fmu.folder)
         first = _simulate_anew(fmu, simulated)
         reason, is_usable = first.failure, first.is_usable
@@ -79,7 +79,7 @@ class _Simulation:
 
     rows: list[bytes]
     failure: str = ""
-    is_usable: bool = True  # the FMU: no instance may follow a fatal error (FMI 2.0, fmi2Fatal)
+    is_usable: bool = True  # False after a fatal error: no instance may follow (FMI 2.0, fmi2Fatal)
 
     @property
     def is_complete(self) -> bool:
@@ -111,7 +111,7 @@ def _try_reset(fmu: Fmu, expected: list[bytes]) -> tuple[str, bool]:
         used = instantiate(fmu, fmu.name)
         try:
             list(_simulate(used, changes))
-        except FMICallException as error:  # does not fly with these
+        except FMICallException as error:  # fails with these values
             _free(used, error)
             continue
         try:

@@ -47,7 +47,7 @@ class Fmi3Slave(CallWatch, fmi3.FMU3Slave):  # type: ignore[misc]  # FMPy has no
             False,  # visible
             True,  # loggingOn
             uses_events,
-            uses_events,  # early return: only for its events there is something to do before the step's end
+            uses_events,  # early return: the caller only has to act before the step's end if events occurred
             (fmi3.fmi3ValueReference * 0)(),
             0,
             environment,

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-BYTECODE = "__pycache__"  # which Python writes, and whoever imports the sources again has
+BYTECODE = "__pycache__"  # bytecode, which Python writes when sources are imported
 
 
 @dataclass(frozen=True)

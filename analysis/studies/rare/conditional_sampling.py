@@ -52,10 +52,10 @@ class FreshStreams:
         return np.arange(self._next - count, self._next)
 
 
-ACCEPTED = 0.44  # the acceptance rate of draws that is aimed at (ibid., section 4.3)
-GROUPS = 10  # of chains, between which moves are adapted (ibid.: a tenth of the chains)
+ACCEPTED = 0.44  # target acceptance rate of draws (ibid., section 4.3)
+GROUPS = 10  # groups of chains, between which moves are adapted (ibid.: a tenth of the chains)
 FIRST_SPREAD = 0.6
-INERT_AFTER = 10  # fresh streams of a source, none of which changes a margin
+INERT_AFTER = 10  # number of fresh streams of a source that change no margin
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ from .conditional_sampling import Points
 from .outcome import RareOutcome
 from .subset_simulation import StalledLevelError, subset_simulation
 
-SAMPLES = 4500  # of a level: an interval of a factor 1.3 to either side at 1e-4
+SAMPLES = 4500  # samples of a level: the interval at 1e-4 is a factor 1.3 to either side
 LEAST = 1e-9
 
 

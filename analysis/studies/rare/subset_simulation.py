@@ -24,10 +24,10 @@ from .uncertainty import (
     fractional_interval,
 )
 
-SHARE = 0.1  # of a level's points that are in the next event (Au and Beck 2001, section 5)
-MOST_TIED = 0.5  # of a level's points, above which they share one margin rather than approach the failure
-LEAST_ACCEPTED = 0.05  # of the noise moves of any one source, below which a level's points are not trusted
-FEW = 20  # moves of one noise source, below which its own acceptance rate says nothing
+SHARE = 0.1  # share of a level's points in the next event (Au and Beck 2001, section 5)
+MOST_TIED = 0.5  # share of a level's points with one margin, above which they do not approach the failure
+LEAST_ACCEPTED = 0.05  # acceptance rate of any source's noise moves, below which a level is not trusted
+FEW = 20  # moves of one noise source, below which its acceptance rate is not meaningful
 
 
 @dataclass(frozen=True)

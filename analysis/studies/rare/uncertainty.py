@@ -86,6 +86,6 @@ def family_interval(probability: float, families: np.ndarray, first: int, confid
     squares = fractions**2
     variance = max(float(squares.sum()) - 1.0 / first, 0.0)
     freedom = max(2.0 * float(squares.sum()) ** 2 / float((squares**2).sum()) - 1.0, 1.0)
-    deviation = np.sqrt(np.log1p(variance))  # of the logarithm, where that is normal
+    deviation = np.sqrt(np.log1p(variance))  # of the logarithm, which is normal
     factor = float(np.exp(t.ppf(0.5 + confidence / 2.0, freedom) * deviation))
     return ConfidenceInterval(probability / factor, min(probability * factor, 1.0), float(np.sqrt(variance)))

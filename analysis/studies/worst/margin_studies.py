@@ -56,7 +56,7 @@ class MarginStudies:
         check_draws(self._plan, [prepared])
         self.channels = [channel.name for channel in self._study.channels]
         self.reasons: list[str] = []
-        self.lost: Counter[str] = Counter()  # none: a study whose flight is lost has a reason
+        self.lost: Counter[str] = Counter()  # never counted: a study whose simulation is lost has a reason
         self.facts = study_provenance(self._plan, {"default": prepared})
         self.facts |= {"loop": asked.loop.name, "point": asked.point.name, "time": self._study.bench.time}
         self._held = ExitStack()
@@ -119,7 +119,7 @@ def _margins(study: PointStudy, cells: Sequence[int], plan: BatchPlan) -> list[L
         return str(error)
 
 
-_begun: tuple[PointStudy, Sequence[int]] | None = None  # of a worker process
+_begun: tuple[PointStudy, Sequence[int]] | None = None  # state of a worker process
 
 
 def _begin(asked: MarginAsked, cells: Sequence[int]) -> None:
@@ -128,5 +128,5 @@ def _begin(asked: MarginAsked, cells: Sequence[int]) -> None:
 
 
 def _in_process(plan: BatchPlan) -> list[LoopMargins] | str:
-    assert _begun is not None  # the process has begun with it
+    assert _begun is not None  # the process was started with it
     return _margins(*_begun, plan)

@@ -55,7 +55,7 @@ def metric_objective(campaign: Campaign, text: str | None) -> Objective:
     return Objective(expression.text, of, expression=expression)
 
 
-MOST = 1e9  # what a margin without a crossing counts as: more than any
+MOST = 1e9  # value of a margin without a crossing: more than any other
 SIZES = {
     "disk": ("disk_margin", MarginQuantity.DISK),
     "modulus": ("modulus_margin", MarginQuantity.MODULUS),

@@ -16,7 +16,7 @@ from .search import LEAST
 REALISATIONS = 5
 QUANTILE = 0.5
 ONE = "one noise realisation"
-FRESH = 10  # times as many realisations fly for the point that wins
+FRESH = 10  # factor on the realisations for the worst point
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from ...stability.request.declaration import LoopDeclaration, PointDeclaration
 from ...stability.request.request import Request, Subject, read_request
 
 OF_A_LOOP = ("margin", "point", "at")
-OF_FLIGHTS = {  # and what to do where a margin is looked for
+OF_FLIGHTS = {  # with the remedy for a search for a margin
     "metric": "give one of them",
     "compare": "choose by `use`",
     "faults": "margins are of a system without faults",

@@ -17,9 +17,9 @@ from scipy.optimize import differential_evolution, minimize
 from scipy.stats import qmc
 
 Function = Callable[[np.ndarray], np.ndarray]
-GLOBAL = 0.75  # of the evaluations are those of the evolution
+GLOBAL = 0.75  # share of the evaluations for the evolution
 PER_DIMENSION, FEWEST = 5, 20  # members of a generation
-RADII = (0.1, 1e-4)  # of COBYQA's trust region, in edges of the cube
+RADII = (0.1, 1e-4)  # radii of COBYQA's trust region, in edges of the cube
 LEAST = 100  # evaluations
 
 
@@ -155,7 +155,7 @@ def _climb(counted: _Counted) -> None:
     _to_ends(counted)
     bounds = [(0.0, 1.0)] * counted.point.size
     smooth = {"maxfev": counted.left // 2, "initial_tr_radius": RADII[0], "final_tr_radius": RADII[1]}
-    if smooth["maxfev"] > 2 * counted.point.size + 1:  # what its first model takes
+    if smooth["maxfev"] > 2 * counted.point.size + 1:  # evaluations of its first model
         counted.begin("COBYQA")
         minimize(badly, counted.point, method="COBYQA", bounds=bounds, options=smooth)
     while counted.left > 0:

@@ -28,10 +28,10 @@ from .request import MarginAsked
 from .search import LEAST, SearchPhase, largest
 
 FLIGHTS = 2000
-STUDIES = 500  # a margin costs more than a flight
+STUDIES = 500  # a margin costs more than a simulation
 MARGIN = "disk"
 SIGMAS = 3.0
-RANDOM = 0.2  # of the flights are random trials, with which the worst is compared
+RANDOM = 0.2  # share of random trials, with which the worst is compared
 
 
 class SampleEvaluator(Protocol):
@@ -136,7 +136,7 @@ class _Search:
         """Return the worst of random trials and of a search from them. Raises InputError."""
         space, sigmas = self._space, self._sigmas
         points = _Points(flights_of, objective, self._over if flights_of.noise.sources else None)
-        budget = self._flights - (0 if points.over is None else points.over.fresh)  # those of fresh noise left out
+        budget = self._flights - (0 if points.over is None else points.over.fresh)  # without those of fresh noise
         random = np.random.Generator(np.random.Philox(np.random.SeedSequence(self._seed)))
         own = space.from_normals(standard_normals(random, (int(RANDOM * budget) // points.realisations, space.size)))
         places = space.to_box(own, sigmas)

@@ -13,7 +13,7 @@ from .rows import Callee, InstructionRows, Stretch
 
 TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES) if name.startswith("fmi2")}
-# Real, Integer (and Enumeration), Boolean, String: what sets parameters, what reads them back.
+# Setter and getter of parameters: Real, Integer (and Enumeration), Boolean, String.
 PARAMETER_CALLS = (
     ((codes.PARAMETERS, "SetReal"), (codes.READ_BACK, "GetReal")),
     ((codes.WHOLE_PARAMETERS, "SetInteger"), (codes.WHOLE_READ_BACK, "GetInteger")),

@@ -9,7 +9,7 @@ from ....options.fault import Fault
 from ...loop import codes
 
 KIND_NUMBERS = {"override": codes.OVERRIDE, "bias": codes.BIAS, "freeze": codes.FREEZE}
-NEVER = (math.inf, math.inf)  # the window of a fault that does not fly
+NEVER = (math.inf, math.inf)  # window of a fault that does not act
 
 
 class Injection(NamedTuple):

@@ -16,8 +16,8 @@ from .slots import Slots
 
 EXCHANGES = FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
 CAUSALITIES = ("input", "output")  # set and get
-SETTERS = (0, 2, 4)  # of EXCHANGES
-GETTERS = (1, 3, 5)  # of EXCHANGES
+SETTERS = (0, 2, 4)  # indices in EXCHANGES
+GETTERS = (1, 3, 5)  # indices in EXCHANGES
 
 
 class ComponentSlots(NamedTuple):

@@ -55,7 +55,7 @@ class TransferPlacing:
                 self._add(component, group, is_given=True)
             )
             transfers.bases.append((first, len(group), self._slots.add_bases(component, group)))
-        transfers.discrete += self._add_texts(texts[0])  # behind the others: they are numbers in a row
+        transfers.discrete += self._add_texts(texts[0])  # after the others, whose numbers must be consecutive
         transfers.outputs += [self._add(component, group) for group in groups(outputs)]
         transfers.outputs += self._add_texts(texts[1])
         named = {short for short, name in names.items() if name in exchanged.named and name not in self._slots.numbers}

@@ -10,7 +10,7 @@ import numpy as np
 from ...instances.library import FUNCTION_NAMES
 from ...loop import codes
 
-Stretch = tuple[int, int]  # first, and how many
+Stretch = tuple[int, int]  # first and count
 
 
 class Callee(Protocol):
@@ -52,10 +52,10 @@ class InstructionRows:
     def __init__(self, instances: Sequence[Callee], fault_slots: Sequence[int]) -> None:
         self.addresses = [(instance.address, instance.function_addresses()) for instance in instances]
         self._self_contained = [instance.is_self_contained for instance in instances]
-        self.between_steps = False  # all FMUs: what they give and take then may be in their memory
+        self.between_steps = False  # all FMUs are between steps: their memory may be accessed directly
         self.fault_slots = fault_slots
         self.rows: list[list[int]] = []
-        self._ended = 0  # before this one are the instructions of other parts
+        self._ended = 0  # earlier instructions belong to other sections
 
     def array(self) -> np.ndarray:
         """Return the collected instructions, uint64 [instruction, column]."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from ...fmi.variable import ScalarVariable
 from ...system.passing.settings import SystemSettings
 
-BASE = " as set"  # behind the name of a parameter that changes in flight
+BASE = " as set"  # suffix for the unchanged value of a parameter that changes during simulation
 
 
 @dataclass

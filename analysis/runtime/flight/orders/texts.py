@@ -15,7 +15,7 @@ from ...system.passing.settings import SystemSettings
 from ...system.schedule import origin
 from .transfers import whole
 
-LONGEST = {"String": 4096, "Binary": 65536}  # bytes of one, of a String with its end
+LONGEST = {"String": 4096, "Binary": 65536}  # bytes of one text, including a String's terminating zero
 
 
 class TextSlots:

@@ -21,7 +21,7 @@ NUMBERS = {
     "EnterEventMode": codes.ENTER_EVENT_MODE,
     "UpdateDiscreteStates": codes.UPDATE_DISCRETE_STATES,
     "EnterStepMode": codes.ENTER_STEP_MODE,
-}  # of the loop for functions, as it imports nothing of the modules that load them
+}  # the loop's numbers of functions: it does not import the modules that load them
 assert all(FUNCTION_NAMES[number] == f"fmi3{name}" for name, number in NUMBERS.items())
 
 
