@@ -22,7 +22,7 @@ DIFFERENCES = {
     "step": "have different steps",
     "algorithm": "exchange values by different algorithms",
 }
-DEFINITION = ("expression", "reduction", "condition", "delay")  # of a metric
+DEFINITION = ("expression", "reduction", "condition", "delay")  # definition of a metric
 
 
 Result = TypeVar("Result", bound=CampaignComparison)

@@ -75,7 +75,7 @@ class Scatter:
     title: str = ""
 
 
-SCHEMES = ("table", "counter")  # one table of all trials, or every trial by itself: other values
+SCHEMES = ("table", "counter")  # one table of all trials, or counter-based values for each block of trials
 
 
 @dataclass(frozen=True)

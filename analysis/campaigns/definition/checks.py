@@ -21,7 +21,7 @@ from .faults import check_drawn
 from .metrics import names_needed
 from .plan import BatchPlan, with_streams
 
-OVER_TIME = ("output", "local", "calculatedParameter", "independent")  # causalities of what an FMU says itself
+OVER_TIME = ("output", "local", "calculatedParameter", "independent")  # causalities of values that an FMU computes
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:

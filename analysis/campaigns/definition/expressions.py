@@ -224,7 +224,7 @@ class Expression:
         translator = _Translator(self.text, where)
         if "#" in self.text:
             translator.refuse("a comment", "drop it, or put it outside the text")
-        if "\0" in self.text:  # of which Python's parser says different things from version to version
+        if "\0" in self.text:  # Python's versions report it differently
             translator.refuse("a null character at the place of a plain one", "write plain characters")
         try:
             body = translator.translate(_parse(self.text))

@@ -11,7 +11,7 @@ from ....common.paths import names_fmu
 from ...runtime.ssp.archive import OSP_DESCRIPTION, SystemArchive, open_system, system_names
 from .source import EXTENDS, parse_toml
 
-FOLDERS = ("campaigns", SystemArchive.campaign_path(""))  # of a system's folder, and of an archive that was unpacked
+FOLDERS = ("campaigns", SystemArchive.campaign_path(""))  # in a system's folder, and in an unpacked archive
 
 
 def find_system(raw: bytes, path: Path, named: Sequence[str]) -> str | None:

@@ -17,7 +17,7 @@ from ..draws.declared import Continuous, Independent
 from ..draws.generators import standard_normals
 from .table import TomlTable, names, number, numbers, sequence
 
-FLAT = 1e-12  # of the largest eigenvalue of a covariance, below which nothing varies
+FLAT = 1e-12  # fraction of the largest eigenvalue of a covariance, below which an axis does not vary
 
 
 class _Jointly(Continuous, Independent):

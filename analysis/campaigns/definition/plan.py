@@ -81,7 +81,7 @@ def with_streams(prepared: PreparedSystem) -> list[str]:
     return [name for name, fmu in prepared.network.fmus.items() if {SEED, STREAM} <= fmu.variables.keys()]
 
 
-PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
+PART = 32768  # trials whose draws are checked together; few enough for bounded memory
 
 
 @dataclass(frozen=True)
@@ -103,11 +103,11 @@ class BatchPlan:
     series: InputSeries | None = None
     watch: Watch = UNWATCHED
     given: GivenDraws | None = None
-    compared_by: str = ""  # what errors name for the compared FMUs: --compare, or the campaign's file
+    compared_by: str = ""  # origin of the compared FMUs in errors: --compare, or the campaign's file
     source: CampaignSource | None = None  # the campaign's file, with those that it extends
     until_decided: bool = False  # whether it ends as soon as the campaign's requirements are decided
-    archive: SystemArchive | None = None  # flown instead of what `system` names, for which it stands
-    known_draws: Draws | None = field(default=None, compare=False, repr=False)  # of all trials, drawn before
+    archive: SystemArchive | None = None  # simulated instead of the system that `system` names
+    known_draws: Draws | None = field(default=None, compare=False, repr=False)  # draws of all trials, if known already
 
     @cached_property
     def draws(self) -> Draws:

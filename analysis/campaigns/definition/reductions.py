@@ -17,7 +17,7 @@ EVER = (-np.inf, np.inf)  # a window, or a band
 class ReductionRule(NamedTuple):
     """Reduction of rows to a number. Fields that a reduction does not use are ignored. Times in s."""
 
-    kind: int  # place in REDUCTIONS
+    kind: int  # index in REDUCTIONS
     window: tuple[float, float]  # both ends included
     band: tuple[float, float]  # within which values have settled
     delay: float  # of `first`

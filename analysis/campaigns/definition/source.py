@@ -17,11 +17,11 @@ from ....common.regular import names_file, read_input
 from ...runtime.ssp.archive import SystemArchive
 from .table import TomlTable
 
-LOOKUP, FILE = "lookup", "file"  # tables of which each refers to a file
+LOOKUP, FILE = "lookup", "file"  # tables that each refer to a file
 EXTENDS = "extends"
 HERE = "."  # in its list, the position of the file's own entries; the end where it is not listed
 Origin = tuple[str, int]  # file and line
-Attached = tuple[str, bytes | None]  # a file's label, and its content where there is one
+Attached = tuple[str, bytes | None]  # a file's label, and its content or None
 
 
 @dataclass(frozen=True)
@@ -174,7 +174,7 @@ def parse_toml(raw: bytes, label: str) -> dict[str, object]:
         _check_integers(content, "", label)
     except RecursionError as error:
         raise InputError(label, "", "not TOML: too many arrays or tables in one another", "correct the file") from error
-    except ValueError as error:  # of integers of many thousand digits, too
+    except ValueError as error:  # also for integers of many thousand digits
         if isinstance(error, InputError):
             raise
         raise InputError(label, "", f"not TOML: {error}", "correct the file there") from error
@@ -226,7 +226,7 @@ FLAT = ("set", "derive", "compare")  # tables whose names have dots
 
 
 KEY = r"""(?:[A-Za-z0-9_-]+|"(?:[^"\\]|\\.)*"|'[^']*')"""
-MOST_SEGMENTS = 100  # of a name: it takes tomllib the square of their number
+MOST_SEGMENTS = 100  # segments of a name: tomllib's time grows with their square
 LONG_NAME = re.compile(rf"""(?<![\w.-])(?>{KEY}(?:[ \t]*+\.[ \t]*+{KEY}){{{MOST_SEGMENTS}}})""")
 DOTTED = rf"{KEY}(?:\s*\.\s*{KEY})*"
 HEADER = re.compile(rf"\s*\[(?P<array>\[)?\s*(?P<name>{DOTTED})\s*\]")

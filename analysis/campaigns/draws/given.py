@@ -20,7 +20,7 @@ if TYPE_CHECKING:  # imported where a file is read
     import pyarrow
 
 STREAMS = "streams_of"  # the column that says whose random streams a row flies with; streams_of.NAME of one component
-ALL = ""  # the component that stands for all that have no streams of their own
+ALL = ""  # key for all components without a separate entry
 TRIAL = "trial"
 REMEDY = "give a Parquet file of draws"
 
@@ -104,9 +104,9 @@ def read_given(path: Path, campaign: CampaignDraws) -> GivenDraws:
         TABLE_TRIALS.check(file.metadata.num_rows, path, "rows")
         _check_columns(path, file.schema_arrow, campaign)
         table = file.read()
-    except OSError as error:  # Arrow's own errors of damaged files are such, too
+    except OSError as error:  # includes Arrow's errors for damaged files
         raise InputError(path, "", error.strerror or str(error), REMEDY) from error
-    except (UnicodeDecodeError, pyarrow.ArrowException) as error:  # the former of names of columns
+    except (UnicodeDecodeError, pyarrow.ArrowException) as error:  # the former for names of columns
         raise InputError(path, "", f"not Parquet: {error}", REMEDY) from error
     stream_columns = [name for name in table.column_names if stream_component(name) is not None]
     if not table.num_rows:

@@ -21,7 +21,7 @@ from ....common.errors import InputError, suggestion
 from .declared import Formula
 
 TRIAL, INPUTS = "trial", "inputs"  # the first two columns
-DIGITS = 16  # of SHA-256, hexadecimal
+DIGITS = 16  # hexadecimal digits of SHA-256
 MADE_BY, INPUT = "# made by: ", "# input: "
 WRITE = "write it again; perilune design bounds writes that of [lookup.bound]"
 

@@ -19,8 +19,8 @@ from ..definition.plan import TrialSamples
 from ..definition.reductions import largest
 from ..trials import TrialTable
 
-Columns = Mapping[str, np.ndarray]  # of flights, an entry for each: named as in tables of trials
-COMPLETE = "complete"  # true of a simulation that did not fail
+Columns = Mapping[str, np.ndarray]  # an entry for each simulation, named as in tables of trials
+COMPLETE = "complete"  # true for a simulation that completed
 
 
 class MetricEvaluator:

@@ -10,8 +10,11 @@ from ..trials import TrialTable, join_trials
 from .flyer import Flyer
 from .workers import FlyerPool
 
-MOST_IN_THREAD, MOST_IN_PROCESS = 500, 10  # trials of a task: enough to send, few enough to share out or lose
-TASKS = 16  # for each worker, at least: few trials at the end, when some have nothing left to do
+MOST_IN_THREAD, MOST_IN_PROCESS = (
+    500,
+    10,
+)  # trials of a task: enough to be worth sending, few enough to distribute or lose
+TASKS = 16  # least number for each worker, so that they end at about the same time
 
 
 def fly_shards(
@@ -22,7 +25,7 @@ def fly_shards(
     Yields each shard's number and trials by variant on completion, in any order of shards.
     """
     variants = [variant.name for variant in pool.plan.campaign.variants()]
-    owners: dict[int, tuple[int, str]] = {}  # of tasks that are handed out: shard and variant
+    owners: dict[int, tuple[int, str]] = {}  # shard and variant of submitted tasks
 
     def tasks() -> Iterator[tuple[str, range]]:
         places = itertools.count()

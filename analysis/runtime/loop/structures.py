@@ -35,7 +35,7 @@ class Member(NamedTuple):
     """Member of a structure: the dtype of the array that it points to, or None; the axis whose size it is, or None."""
 
     name: str
-    source: str  # attribute that it is filled from
+    source: str  # attribute from which it is filled
     dtype: Any
     axis: int | None
     is_structure: bool

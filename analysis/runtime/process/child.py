@@ -37,7 +37,7 @@ from . import messages
 from .channel import ChannelError, receive_request, send_answer, send_line, send_numbers, unpack
 from .shared_recorder import SharedRecorder, open_recorder
 
-SEED = 0  # of generators that FMUs leave at their start, as that of C's rand() is
+SEED = 0  # seed of generators that FMUs do not seed themselves, as C's rand() starts with a fixed one
 
 
 def main() -> None:
@@ -51,7 +51,7 @@ def main() -> None:
         assert isinstance(order.channel, int)
         channel = socket.socket(fileno=order.channel)
     subject = unpack(order.content)
-    load_library()  # before limits on calls of FMUs hold
+    load_library()  # before limits on calls of FMUs apply
     send_answer(channel, messages.Done())
     leave(do_task(order.task, subject, channel, order.files))
 
@@ -107,7 +107,9 @@ def _copy_files(fmu: Fmu) -> Path:
     try:
         return Path(shutil.copytree(fmu.folder, Path(tempfile.mkdtemp(dir=folder)) / "fmu"))
     except OSError as error:
-        reason = error.args[0][0][2] if isinstance(error, shutil.Error) else reason_of(error)  # of the first file
+        reason = (
+            error.args[0][0][2] if isinstance(error, shutil.Error) else reason_of(error)
+        )  # reason for the first file
         problem, remedy = f"its files cannot be copied to it: {reason}", "free some space there, or set TMPDIR"
         raise InputError(fmu.label, str(folder), problem, remedy) from error
 
@@ -127,7 +129,7 @@ class RequestHandler:
         self._snapshots: dict[int, Snapshot] = {}
 
     def _write(self, line: str) -> None:
-        with suppress(ChannelError):  # an FMU's function is under way: the next answer fails, too
+        with suppress(ChannelError):  # during a call of an FMU: the next answer fails, too
             send_line(self._channel, line)
 
     def _open_recorder(self, rows: int, files: Sequence[int], name: str) -> SharedRecorder:

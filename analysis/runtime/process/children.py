@@ -31,14 +31,14 @@ from .channel import pack, receive_frame, receive_request, send_request
 from .output import forward_output
 from .restriction import ProcessLimits
 
-PATIENCE = 2.0  # s that a server has to end
-LOADING = 60.0  # s that a spawned child has to load what a simulation needs
-GRACE = 1.0  # s that it has to end after it has closed its channel
+PATIENCE = 2.0  # s, time for a server to end
+LOADING = 60.0  # s, time for a spawned child to load its modules
+GRACE = 1.0  # s, time for it to end after closing its channel
 CAN_FORK = hasattr(os, "fork")
 SAME_HASHES = {"PYTHONHASHSEED": "0"}  # so that Python FMUs iterate over sets in one order, in any process
 _lock = threading.RLock()
 _numbers = itertools.count(1)
-Subject = PreparedSystem | Fmu  # of a child; a server keeps it as long as it lives here
+Subject = PreparedSystem | Fmu  # subject of a child; the server keeps it as long as it exists in this process
 
 
 @dataclass(frozen=True)
@@ -76,8 +76,8 @@ class ServerProcess:
                 env={**os.environ, **SAME_HASHES},
                 start_new_session=True,
             )
-        self._keys: dict[int, int] = {}  # by identity of the subjects that the server has
-        self._forgotten: deque[int] = deque()  # keys that the server is still to forget
+        self._keys: dict[int, int] = {}  # keys of the subjects that the server has, by identity
+        self._forgotten: deque[int] = deque()  # keys that the server still has to discard
         self.is_running, self._has_served = True, False
 
     def close(self) -> None:
@@ -154,8 +154,8 @@ class SpawnedChild:
             with suppress(OSError), self._process.stdin as standard_input:  # it may have ended
                 standard_input.write(pickle.dumps(order, pickle.HIGHEST_PROTOCOL))
         self.channel.settimeout(LOADING)
-        with suppress(OSError, EOFError):  # the first request fails likewise
-            receive_frame(self.channel)  # it is loaded: limits on calls of FMUs hold from here on
+        with suppress(OSError, EOFError):  # the first request fails as well
+            receive_frame(self.channel)  # it is loaded: limits on calls of FMUs apply from here on
         self._reader = threading.Thread(
             target=forward_output, args=(self._process.stdout, subject.printers), daemon=True
         )

@@ -18,10 +18,10 @@ from . import messages
 from .channel import ANSWER, FREED, LINE, NUMBERS, UnreadableError, read_answer, receive_frame, send_request
 from .children import Child
 
-POLL_PERIOD = 0.25  # s, between looks at a silent child
-FRAME_TIMEOUT = 10.0  # s in which the next bytes of an answer follow, after its first
+POLL_PERIOD = 0.25  # s, between checks of a silent child
+FRAME_TIMEOUT = 10.0  # s, time between the bytes of an answer
 REPEAT = "simulate again, where memory ran out with fewer `workers`"
-PATIENCE = 1.5  # s that a child has to free its instances
+PATIENCE = 1.5  # s, time for a child to free its instances
 
 
 class ServerEndedError(EndedError):
@@ -86,7 +86,7 @@ class ChildConnection:
         if kind == NUMBERS and len(content) == 8 * count:
             return np.frombuffer(content)
         self._read(kind, content, messages.Refused)
-        raise AssertionError  # a refusal is raised
+        raise AssertionError  # `Refused` raises its error
 
     def send(self, request: object, files: Sequence[int] = ()) -> None:
         """Send a request that has no answer, or whose answer `receive` returns; ignore a child that has exited."""

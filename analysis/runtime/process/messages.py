@@ -102,12 +102,12 @@ class SpawnOrder:
     content: bytes  # its subject, pickled
 
 
-# Reasons for which a child was killed, or failed
+# Reasons why a child was killed, or failed
 OVER_MEMORY_LIMIT = "out of memory"
 NEAR_MEMORY_LIMIT = "near its memory limit"
 CHANNEL_CLOSED = "it closed its channel"
 SERVER_ENDED = "the flight server has ended"
-NO_CHANNEL = 76  # of sysexits.h: the exit status of a child that cannot use its channel
+NO_CHANNEL = 76  # exit status (sysexits.h) of a child that cannot use its channel
 
 
 @dataclass(frozen=True)

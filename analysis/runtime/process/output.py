@@ -14,7 +14,7 @@ BLOCK = 65536  # bytes read at a time
 LONGEST_LINE = 4096  # bytes
 LINE_LIMIT = 1000  # of a child
 NAME_LIMIT, LONGEST_NAMES = 3, 200  # components, and characters
-OURS = ("perilune", "log")  # beginnings of Perilune's lines, before a colon
+OURS = ("perilune", "log")  # prefixes of Perilune's lines, before a colon
 
 
 class PrintedLines:

@@ -111,8 +111,8 @@ class _Trials:
         self._fmu = fmu
         self._options = options
         self._watch = watch
-        self._formats = True  # of messages, as in `SystemTask`
-        self._digest = ""  # of the first simulation in a new process
+        self._formats = True  # formats of messages, as in `SystemTask`
+        self._digest = ""  # SHA-256 of the first simulation in a new process
 
     def decide(self) -> ResetVerdict:
         """Test a reset and a new instance in one process, then whether a second process gives the same results.
@@ -138,7 +138,7 @@ class _Trials:
         except ChildEndedError as error:
             if error.status != CRASHED:
                 raise
-        self._formats = False  # one without its arguments may have ended it
+        self._formats = False  # a format without its arguments may have ended it
         return self._try(with_reset=True)
 
     def _try(self, *, with_reset: bool) -> ResetVerdict:

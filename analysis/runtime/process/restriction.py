@@ -27,7 +27,7 @@ LANDLOCK_CREATE_RULESET, LANDLOCK_ADD_RULE, LANDLOCK_RESTRICT_SELF = 444, 445, 4
 LANDLOCK_CREATE_RULESET_VERSION, LANDLOCK_RULE_PATH_BENEATH = 1, 1
 O_PATH = 0o10000000
 
-# LANDLOCK_ACCESS_FS_..., by the first version of Landlock that has them.
+# LANDLOCK_ACCESS_FS_..., by the first version of Landlock that supports them.
 WRITE_FILE = 1 << 1
 CHANGES_FOLDERS = sum(1 << bit for bit in range(4, 13))  # remove and make files, folders, devices, links
 REFER, TRUNCATE, IOCTL_DEV = 1 << 13, 1 << 14, 1 << 15

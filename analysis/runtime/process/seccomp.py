@@ -10,7 +10,7 @@ import struct
 from collections.abc import Iterable, Sequence
 
 Values = tuple[int | str, ...]
-Rule = tuple[int, dict[int, Values]]  # the number of a call, and what its arguments may be
+Rule = tuple[int, dict[int, Values]]  # number of a call, and permitted values of its arguments
 
 SOCKET = 41
 OTHERS = {
@@ -21,7 +21,7 @@ OTHERS = {
     "process_madvise": 440,
     "process_mrelease": 448,
     "kcmp": 312,
-    "io_uring_setup": 425,  # carries out calls that no filter sees
+    "io_uring_setup": 425,  # executes calls that bypass filters
     "io_uring_enter": 426,
     "io_uring_register": 427,
     "bpf": 321,
@@ -41,7 +41,7 @@ PIDFD_SEND_SIGNAL = 424
 CALLER = "caller"
 ITSELF: Values = (0, CALLER)
 PRIO_PROCESS, IOPRIO_WHO_PROCESS = 0, 1
-SETTINGS: dict[str, Rule] = {  # of limits, priority, processors and pages of memory
+SETTINGS: dict[str, Rule] = {  # settings of limits, priority, processors and pages of memory
     "prlimit64": (302, {0: ITSELF}),
     "setpriority": (141, {0: (PRIO_PROCESS,), 1: ITSELF}),
     "ioprio_set": (251, {0: (IOPRIO_WHO_PROCESS,), 1: ITSELF}),
@@ -52,7 +52,7 @@ SETTINGS: dict[str, Rule] = {  # of limits, priority, processors and pages of me
     "migrate_pages": (256, {0: ITSELF}),
     "move_pages": (279, {0: ITSELF}),
 }
-SIGNALS: dict[str, Rule] = {  # to be filtered where Landlock does not
+SIGNALS: dict[str, Rule] = {  # filtered if Landlock does not
     "kill": (62, {0: (CALLER,)}),
     "tkill": (200, {0: (CALLER,)}),
     "tgkill": (234, {0: (CALLER,)}),
@@ -66,7 +66,7 @@ X32 = 0x40000000  # the bit of calls of another interface to the same kernel
 # Instructions of the filter.
 LOAD, IS_EQUAL, IS_AT_LEAST, RETURN = 0x20, 0x15, 0x35, 0x06
 ALLOW, REFUSE = 0x7FFF0000, 0x00050000 | errno.EPERM
-NUMBER, ARCHITECTURE, FIRST_ARGUMENT, ARGUMENT_SIZE = 0, 4, 16, 8  # where the filter's data has them
+NUMBER, ARCHITECTURE, FIRST_ARGUMENT, ARGUMENT_SIZE = 0, 4, 16, 8  # offsets in the filter's data
 PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 22, 2
 
 

@@ -34,12 +34,12 @@ from .child import do_task
 from .output import OutputPipe
 from .restriction import Restriction, restrict
 
-WATCH_PERIOD = 0.1  # s, between looks at the children's memory
-GRACE = 0.2  # s that a child has to end after it has closed its channel
-NEAR = 0.9  # of its limit of memory: a child that fails there has failed for want of it
+WATCH_PERIOD = 0.1  # s, between checks of the children's memory
+GRACE = 0.2  # s, time for a child to end after closing its channel
+NEAR = 0.9  # share of its memory limit: a child that fails above it has run out of memory
 PR_SET_CHILD_SUBREAPER = 36
 IS_LINUX = sys.platform == "linux"
-RESERVED = 2  # addresses, by what may be in memory: programs reserve more than they use
+RESERVED = 2  # reserved addresses per permitted memory: programs reserve more than they use
 
 
 @dataclass
@@ -180,7 +180,7 @@ def main(control: int) -> None:
     _adopt_orphans()
     server = FlightServer(socket.socket(fileno=control))
     try:
-        load_library()  # which children, that write no cache, use
+        load_library()  # for children, which do not write to the cache
         server.serve()
     finally:
         server.close()
@@ -191,7 +191,7 @@ def _live(
     order: messages.Begin, subject: Any, descriptors: list[int], output: int, scratch: str, server: int
 ) -> NoReturn:
     """Do the task of a child that process ``server`` has just forked, and exit."""
-    status = 70  # of sysexits.h: an error of our own
+    status = 70  # an internal error (sysexits.h)
     try:
         end_with_parent(server)
         os.setsid()

@@ -18,9 +18,9 @@ from ..system.prepared import PreparedSystem
 with suppress(ImportError):  # on Windows
     import fcntl
 
-NUMBER_SIZE = 8  # bytes, of every number here
+NUMBER_SIZE = 8  # bytes of every number here
 HEAD = OUTCOME_WORDS + 3  # words: outcome, halt, phase
-F_SEAL_SHRINK, F_SEAL_GROW, F_SEAL_FUTURE_WRITE = 0x2, 0x4, 0x10  # of <linux/fcntl.h>
+F_SEAL_SHRINK, F_SEAL_GROW, F_SEAL_FUTURE_WRITE = 0x2, 0x4, 0x10  # from <linux/fcntl.h>
 NAME = "perilune_flight"
 _numbers = itertools.count(1)
 

@@ -29,7 +29,7 @@ from .resets import TrialWatch, find_verdicts, note_processes
 from .shared_recorder import SharedRecorder
 from .system_process import RECORDERS, Scenario, SystemProcess
 
-ATTEMPTS = 2  # at a simulation whose server ends
+ATTEMPTS = 2  # attempts at a simulation whose server ends
 
 
 class ProcessSimulation(BaseSimulation):
@@ -49,17 +49,17 @@ class ProcessSimulation(BaseSimulation):
         self.signal_names = self._selection.signal_names(self.layout, prepared.network.file)
         self._types = {name: self.layout.types[name] for name in self.signal_names}
         self._values: dict[str, ParameterValue] = {}
-        self._announced: deque[tuple[Scenario, int]] = deque()  # sent, with their recorders: under way, or to follow
-        self._resets = TrialWatch()  # of trials that are under way in another thread
+        self._announced: deque[tuple[Scenario, int]] = deque()  # sent, with their recorders: running, or waiting
+        self._resets = TrialWatch()  # ends tests that run in another thread
         self._is_halted = False
         self._renews = True  # False once a reset has ended a child
-        self._needs_processes = False  # True if only a new process is without effects of a simulation before
+        self._needs_processes = False  # True if only a new process is free of effects of an earlier simulation
         self._noted: set[str] = set()  # texts of warnings
-        self._formats = True  # of messages, which can end a process whose arguments are missing
+        self._formats = True  # formats of messages, which can end a process if arguments are missing
         try:
             self._start()
         except ServerEndedError:
-            self._start()  # of another server
+            self._start()  # a child of another server
 
     @property
     def recorder(self) -> SharedRecorder:  # type: ignore[override]
@@ -86,7 +86,7 @@ class ProcessSimulation(BaseSimulation):
 
     def announce(self, values: Mapping[str, ParameterValue], faults: Sequence[Fault | None]) -> None:
         """See `BaseSimulation.announce`."""
-        with suppress(ServerEndedError):  # the simulation itself meets it, too
+        with suppress(ServerEndedError):  # the simulation itself raises it, too
             self._find_verdicts()
         is_ready = self.process.is_open and self._renews and not self._is_halted and not self._needs_processes
         has_recorder = not self._announced or len(self.process.recorders) == RECORDERS

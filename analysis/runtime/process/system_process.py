@@ -23,7 +23,7 @@ from .connection import ChildConnection, ChildEndedError, Watchdog
 from .restriction import limits_for
 from .shared_recorder import SharedRecorder, make_recorder
 
-RECORDERS = 2  # the caller reads one simulation while the next one is under way
+RECORDERS = 2  # the caller reads one simulation while the next one runs
 SEE_LOG = "perilune run --log info shows what it logs"
 
 
@@ -56,10 +56,10 @@ class SystemProcess:
     ) -> None:
         self.prepared = prepared
         self._signals, self._log = signals, log
-        self.turn = 0  # the number of a recorder
+        self.turn = 0  # number of the current recorder
         self.recorders = [self._make_recorder(rows_between(-1, prepared.steps))]
         self.recorder.enter(FmuActivity.INSTANTIATION)
-        self.last: Scenario | None = None  # that was sent
+        self.last: Scenario | None = None  # the last one sent
         self.has_verdicts, self._is_ready = False, False
         self.connection = self._begin(selection, formats=formats)
 

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 
 from fmpy.fmi1 import FMICallException
 
-Sample = float | int | bool | str | bytes  # a whole number of 64 bits is an int, which no float64 need be
-Samples = dict[str, Sample]  # by the names of variables, elements of arrays one by one
+Sample = float | int | bool | str | bytes  # a 64-bit integer is an int, since float64 may not represent it
+Samples = dict[str, Sample]  # by variable name, with separate array elements
 
 
 class FailedError(Exception):

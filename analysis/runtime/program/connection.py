@@ -26,7 +26,7 @@ def transform(network: Network, link: NodeLink, sample: Sample) -> Sample:
     """Return a value after a connection's unit conversion and transformation. Raises FailedError."""
     change = link.transformation
     if change == IDENTITY:
-        return sample  # as it is: texts, and whole numbers that no float64 is
+        return sample  # unchanged: texts, and integers that float64 cannot represent
     if not change.table:
         return float(sample) * change.factor + change.offset
     for source, target in numbers(network, link):

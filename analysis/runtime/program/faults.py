@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ...options.fault import Fault
 from .component import Sample
 
-MARGIN = 1e-6  # of a step: the times of communication points, start + n step, carry rounding
+MARGIN = 1e-6  # fraction of a step: the times of communication points, start + n step, are rounded
 
 
 class Faults:
@@ -16,7 +16,7 @@ class Faults:
     def __init__(self, faults: Sequence[Fault], step: float) -> None:
         self._faults = faults
         self._margin = MARGIN * step
-        self._frozen: dict[int, Sample] = {}  # by the number of a freeze, from when it began
+        self._frozen: dict[int, Sample] = {}  # value at the beginning of a freeze, by its number
 
     def apply(self, name: str, sample: Sample, time: float) -> Sample:
         """Return the value of a connector at a time (s) with its faults applied one after another."""

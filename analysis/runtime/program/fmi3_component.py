@@ -25,7 +25,7 @@ class Fmi3Component(ComponentInstance):
     def __init__(self, name: str, fmu: Fmu, slave: FMU3Slave, starts: Sequence[Start], *, uses_events: bool) -> None:
         self.name, self.fmu, self.slave, self.starts, self.uses_events = name, fmu, slave, starts, uses_events
         self.steps, self.time = False, 0.0  # whether initialisation mode has been left; time reached (s)
-        self.discrete: Samples = {}  # as the FMU has them
+        self.discrete: Samples = {}  # values in the FMU
 
     def initialise(self, start: float, stop: float) -> None:
         """See `ComponentInstance.initialise`."""
@@ -47,7 +47,7 @@ class Fmi3Component(ComponentInstance):
         events = [each for each in arrays if self.uses_events and each[0].variability != "continuous"]
         self._set(arrays if not self.steps else [each for each in arrays if each not in events], values)
         before, self.discrete = self.discrete, {e.name: as_stored(e, values[e.name]) for each in events for e in each}
-        has_texts = any(array[0].type in TEXTS for array in events)  # which count as changed
+        has_texts = any(array[0].type in TEXTS for array in events)  # texts count as changed
         if self.steps and (has_texts or self.discrete != before):
             self.slave.enterEventMode()
             self._set(events, values)

@@ -45,7 +45,7 @@ def fly_reference(
             instance.slave.terminate()
     finally:
         for instance in instances.values():
-            (instance.abandon if is_fatal else instance.free)()  # fmi2Fatal: not to be freed
+            (instance.abandon if is_fatal else instance.free)()  # must not be freed after fmi2Fatal
     return Rows(signals.times, signals.rows, status)
 
 

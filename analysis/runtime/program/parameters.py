@@ -13,7 +13,7 @@ from ..system.passing.settings import SystemSettings
 from .component import FailedError, Sample, Samples
 from .exchange import arrays_of
 
-LOSS = 1e-6  # of a Real: permitted loss in an FMU, by single precision or another unit
+LOSS = 1e-6  # permitted relative loss of a Real in an FMU, by single precision or another unit
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ class ReferenceLoop:
 
     ahead: Sequence[str]
     behind: Sequence[str] = ()
-    refusal: Exception | None = None  # by which it has ended
+    refusal: Exception | None = None  # the error that ended it
 
     def __init__(self, system: PreparedSystem, components: Mapping[str, ComponentInstance], signals: Signals) -> None:
         self.system, self.components, self.signals = system, components, signals

@@ -29,7 +29,7 @@ class Signals:
         self._exchange, self._faults = exchange, faults
         self.time = system.start
         self._drive_row = 0
-        self._starts = {  # of inputs before their source is known, of parameters without their change
+        self._starts = {  # values of inputs before their source is known, and of parameters without a change
             f"{component}.{each.name}": start_of(system.settings, component, each)
             for component, roles in exchange.roles.items()
             for each in roles.given

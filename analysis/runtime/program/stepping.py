@@ -7,7 +7,7 @@ from fmpy.fmi3 import FMU3Slave
 from .component import FailedError, TerminationError
 from .times import tolerance_of
 
-MOST_ROUNDS = 1000  # of event iterations, and of steps in a row that return where they began
+MOST_ROUNDS = 1000  # event iterations, and successive steps that do not advance
 
 
 def enter_step_mode(name: str, slave: FMU3Slave, time: float) -> None:

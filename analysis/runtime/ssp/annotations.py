@@ -94,7 +94,7 @@ def feedthrough_of_component(component: etree._Element, file: str) -> bool | Non
 PREFIX = "org.perilune."
 KINDS = ("bound", "feedthrough", "frames", "report", "stability", "step")
 OURS = {f"{PREFIX}{name}": f"https://perilune.org/{name}" for name in KINDS}
-NEARLY = 0.9  # of difflib's ratio
+NEARLY = 0.9  # least ratio of difflib
 
 
 def check_annotations(root: etree._Element, file: str) -> None:

@@ -132,8 +132,8 @@ class SystemDescription:
     step: float | None
     algorithm: str | None = None
     varies: int | None = None
-    annotations: dict[str, etree._Element] = field(default_factory=dict)  # of the whole document, by type
-    notes: list[str] = field(default_factory=list)  # on what has no effect
+    annotations: dict[str, etree._Element] = field(default_factory=dict)  # those of the whole document, by type
+    notes: list[str] = field(default_factory=list)  # on entries without effect
 
 
 PROXY = "proxyfmu://"

@@ -14,7 +14,7 @@ from ....common.bounds import ARRAY_ELEMENTS
 from ....common.errors import InputError
 from .documents import children
 
-Shape = tuple[int, ...]  # of a scalar: empty
+Shape = tuple[int, ...]  # () for a scalar
 ELEMENT = re.compile(r"(?P<array>.+)\[(?P<index>[1-9]\d*(?:,[1-9]\d*)*)\]")
 
 

@@ -35,7 +35,7 @@ def version_of(root: etree._Element, file: str) -> str:
     """Return the SSP version of a document or a nested one. Raises InputError for unsupported versions."""
     version = root.get("version", "")
     if not root.tag.startswith(f"{{{STANDARD}"):
-        return VERSIONS[0]  # what is no SSP at all is the schema's to say
+        return VERSIONS[0]  # the schema rejects documents that are not SSP
     if version not in VERSIONS:
         problem = f"SSP version {version or '(none)'} is not read"
         raise InputError(file, f"version (line {root.sourceline})", problem, 'write version="1.0" or version="2.0"')

@@ -50,7 +50,7 @@ class PreparedSystem:
     start: float
     step: float
     steps: int
-    periods: dict[str, int]  # communication steps that one step of a component takes, where more than one
+    periods: dict[str, int]  # communication steps in one step of a component, if more than one
     remarks: tuple[str, ...] = ()
     drive: Drive | None = None
     elsewhere: Mapping[str, Callable[[], bytes]] = field(default_factory=dict)

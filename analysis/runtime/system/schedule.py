@@ -11,7 +11,7 @@ from ....common.errors import InputError
 from .feedthrough import Dependencies, Feedthrough, cut_loops
 from .network import Network, Node, NodeLink
 
-Edge = tuple[Node, Node]  # an output, and the input of another component that its value reaches
+Edge = tuple[Node, Node]  # an output, and another component's input to which it is connected
 
 
 @dataclass

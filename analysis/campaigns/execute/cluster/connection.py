@@ -13,10 +13,10 @@ from .sent import identity, refuse_others
 from .shard_tasks import Cluster
 
 OPTION = "`scheduler`"
-ANSWER = 10.0  # s that a scheduler has to answer
-FIRST_WORKER = 30.0  # s that a first worker has to come
-LOGS = ("distributed", "distributed.client")  # which have levels of their own
-LARGEST = "1 TB"  # of what is sent, before dask says that it is large: it is sent once
+ANSWER = 10.0  # s, time for a scheduler to answer
+FIRST_WORKER = 30.0  # s, time for a first worker to join
+LOGS = ("distributed", "distributed.client")  # loggers with separate levels
+LARGEST = "1 TB"  # size above which dask warns of a large message: the campaign is sent only once
 
 
 @contextmanager

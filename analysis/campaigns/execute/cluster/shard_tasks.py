@@ -18,9 +18,9 @@ from . import work
 from .sent import make_sent
 from .tasks import Portions, RetryQueue, Task, WorkersDiedError
 
-WAITING = 2  # tasks for each thread: one flies, one is there when it is done
-LOOK_UP = 1.0  # s, between looks at which workers are there
-WITHOUT_WORKERS = 60.0  # s that a campaign waits for workers to come back
+WAITING = 2  # tasks for each thread: one runs, one waits
+LOOK_UP = 1.0  # s, between checks of the workers
+WITHOUT_WORKERS = 60.0  # s, time for workers to return
 
 
 class Cluster:
@@ -80,7 +80,7 @@ class Cluster:
 
     def _end(self, futures: list[Any], key: str) -> None:
         """Cancel tasks, and end running simulations at their next communication points."""
-        with suppress(Exception):  # the cluster may be what has ended
+        with suppress(Exception):  # the cluster itself may have ended
             self._client.cancel(futures, force=True)
         halting = threading.Thread(target=self._halt, args=(key,), daemon=True)  # a worker that hangs does not answer
         halting.start()

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from ...folder.numbering import Numbering
 
-MOST_DEATHS = 3  # of workers with one trial, before it is held to end them
-FIRST = 4  # trials of a task as long as nobody knows how long one takes
+MOST_DEATHS = 3  # deaths of workers with one trial, before it counts as the cause
+FIRST = 4  # trials of a task while their duration is unknown
 LONGEST, SHORTEST = 3.0, 0.5  # s of a task: little to lose with a worker, and long against the 10 ms that sending costs
-QUICKEST = 1e-6  # s of a trial, below which a clock says nothing
+QUICKEST = 1e-6  # s, least measurable duration of a trial
 ROUNDS = 2  # tasks that each thread is to get at least of what is left, so that all end together
 
 
@@ -34,7 +34,7 @@ class Portions:
     def __init__(self, numbering: Numbering, shards: Sequence[int], variants: Sequence[str]) -> None:
         self._left = deque(Piece(shard, variant, numbering.of(shard)) for shard in shards for variant in variants)
         self.trials = sum(len(piece.trials) for piece in self._left)
-        self._seconds: dict[str, float] = {}  # of a trial, by variant
+        self._seconds: dict[str, float] = {}  # duration of a trial, by variant
 
     def record_duration(self, piece: Piece, seconds: float) -> None:
         self._seconds[piece.variant] = seconds / len(piece.trials)
@@ -74,7 +74,7 @@ def halves(pieces: Sequence[Piece]) -> list[tuple[Piece, ...]]:
     return [tuple(half) for half in parts if half]
 
 
-OWN = MOST_DEATHS - 1  # largest count of failures before a trial has been a task by itself
+OWN = MOST_DEATHS - 1  # largest count of failures before a trial has been a separate task
 Task = tuple[Piece, ...]
 
 

@@ -22,10 +22,10 @@ from ..plan_manifest import restore
 from .sent import Sent, identity, refuse_others
 from .tasks import Piece
 
-FOLDER = "perilune"  # within the worker's own, which dask removes
+FOLDER = "perilune"  # within the worker's folder, which dask removes
 MOST_LOADED = 3  # campaigns whose simulations are kept for the next task
 _looking = threading.Lock()
-_loaded: dict[str, _LoadedCampaign] = {}  # by key, the last used one last
+_loaded: dict[str, _LoadedCampaign] = {}  # by key, most recently used last
 
 
 class HaltedError(RuntimeError):
