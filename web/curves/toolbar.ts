@@ -15,6 +15,9 @@ const BUTTONS: [key: string, label: string, sign: string][] = [
   ["r", "least, greatest, rms of the visible range", "\u03a3"],
 ];
 
+const GESTURES = ["+", "-", "0"]; // a telephone has no button for a pinch and a double tap
+const TELEPHONE = "(max-width: 640px)";
+
 export class Toolbar {
   readonly element = document.createElement("div");
   private readonly cursor = document.createElement("output");
@@ -31,11 +34,12 @@ export class Toolbar {
       button.type = "button";
       button.textContent = sign;
       button.title = label;
+      button.className = GESTURES.includes(key) ? "gesture" : "";
       button.setAttribute("aria-label", label);
       button.addEventListener("click", () => press(key));
       this.element.append(button);
     }
-    this.cursor.textContent = "Point at a figure; drag to zoom.";
+    this.cursor.textContent = matchMedia(TELEPHONE).matches ? "Tap a figure." : "Point at a figure; drag to zoom.";
     this.spoken.className = "spoken";
     this.spoken.setAttribute("aria-live", "polite");
     document.body.append(this.element, this.spoken);

@@ -8,7 +8,6 @@ from functools import cached_property
 from pathlib import Path
 
 from ....common.errors import InputError
-from ....common.regular import check_folder
 from ....fmus_src.kernel.functions import VERSION
 from ...options.choices import FUSED
 from ...runtime.fused.refusals import check_fused
@@ -18,7 +17,7 @@ from ...runtime.system.prepared import PreparedSystem
 from ..definition.checks import check_plan, prepare_variants
 from ..definition.plan import BatchPlan
 from ..folder.campaign_folder import CampaignFolder
-from ..folder.files import FOLDER, NEW_FOLDER, SUMMARY, shard_path
+from ..folder.files import SUMMARY, check_folders, shard_path
 from ..folder.lock import lock_folder
 from ..folder.manifest import FILE, WRITE, CampaignManifest, read_manifest
 from ..folder.numbering import Numbering
@@ -174,7 +173,7 @@ def open_folder(folder: Path, trust: Trust = UNTRUSTED) -> LoadedCampaign:
 def read_folder(folder: Path) -> CampaignFolder:
     """Return the folder of a campaign that is complete or still running. Raises InputError for other folders."""
     folder = folder.absolute()
-    check_folder(folder / FOLDER, NEW_FOLDER)
+    check_folders(folder)
     if (folder / SUMMARY).is_file():
         return CampaignFolder.complete(folder, read_summary(folder / SUMMARY))
     if not (folder / FILE).is_file():

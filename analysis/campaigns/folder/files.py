@@ -15,13 +15,21 @@ import pyarrow.parquet
 from ....common.atomic import whole_file
 from ....common.errors import InputError
 from ....common.machine.arrow import numpy_of, table_of, texts_of
-from ....common.regular import check_regular
+from ....common.regular import check_folder, check_regular
 from ..definition.plan import BatchPlan, TrialSamples
 from ..trials import TrialTable
 
 FOLDER = "trials"
+TRACES = "traces"
 DRAWS = "draws.parquet"
 SUMMARY = "summary.json"
+NEW_FOLDER = "fly the batch again into an empty folder"
+
+
+def check_folders(folder: Path, remedy: str = NEW_FOLDER) -> None:
+    """Reject trials and traces in anything but folders, such as links to some. Raises InputError."""
+    for path in (folder / FOLDER, folder / TRACES, *folder.glob(f"{TRACES}/*")):
+        check_folder(path, remedy)
 
 
 def shard_path(folder: Path, shard: int) -> Path:
@@ -30,7 +38,7 @@ def shard_path(folder: Path, shard: int) -> Path:
 
 def trace_path(folder: Path, variant: str, trial: int) -> Path:
     """Return the path of a trial's trace, with slashes in the variant's name (it may be a path) replaced."""
-    return folder / "traces" / variant.replace("/", "_") / f"{trial:06d}.parquet"
+    return folder / TRACES / variant.replace("/", "_") / f"{trial:06d}.parquet"
 
 
 def clear(folder: Path) -> None:
@@ -97,9 +105,6 @@ def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> 
 
 def describe(table: pyarrow.Table, about: Mapping[str, object]) -> pyarrow.Table:
     return table.replace_schema_metadata({"perilune": json.dumps(about)})
-
-
-NEW_FOLDER = "fly the batch again into an empty folder"
 
 
 def describe_columns(path: Path) -> object:

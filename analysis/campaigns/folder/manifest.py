@@ -15,8 +15,9 @@ import msgspec
 from ....common.atomic import write_atomically
 from ....common.bounds import INPUT_BYTES, TRIALS
 from ....common.errors import InputError
-from ....common.regular import check_folder, read_regular
+from ....common.regular import read_regular
 from ...runtime.instances.renewal import Renewal
+from .files import check_folders
 
 FILE = "manifest.json"
 CONTENTS = "files"  # the folder next to it
@@ -138,8 +139,7 @@ def read_manifest(folder: Path) -> CampaignManifest:
     """Return the manifest in a folder, which is untrusted. Raises InputError."""
     path = folder / FILE
     content = read_regular(path, WRITE, INPUT_BYTES.limit)
-    for written in (folder / "trials", folder / "traces", *folder.glob("traces/*")):
-        check_folder(written, "put a folder in its place")
+    check_folders(folder, "put a folder in its place")
     try:
         document = msgspec.json.decode(content, type=dict[str, msgspec.Raw])
         manifest = msgspec.json.decode(content, type=CampaignManifest)

@@ -12,12 +12,22 @@ import numpy as np
 import pyarrow
 
 from ....common.errors import InputError
-from ....common.regular import check_folder
 from ..definition.campaign import Metric, TrialGroup, groups_of
 from ..definition.expressions import Expression
 from ..trials import TrialTable, join_trials
 from .campaign_folder import CampaignFolder, Shard
-from .files import DRAWS, FLIGHT, FOLDER, NEW_FOLDER, NUMBER_PREFIXES, SUMMARY, numbers, read_table, trace_files
+from .files import (
+    DRAWS,
+    FLIGHT,
+    FOLDER,
+    NEW_FOLDER,
+    NUMBER_PREFIXES,
+    SUMMARY,
+    check_folders,
+    numbers,
+    read_table,
+    trace_files,
+)
 from .manifest import FILE as MANIFEST
 from .manifest import WRITE
 from .provenance import CampaignProvenance
@@ -103,7 +113,7 @@ def read_batch(folder: Path) -> StoredBatch:
     """Return the batch in a folder. Raises InputError if files are missing, damaged, or of two batches."""
     for name in (SUMMARY, FOLDER):
         _check_there(folder, name)
-    check_folder(folder / FOLDER, NEW_FOLDER)
+    check_folders(folder)
     document = read_summary(folder / SUMMARY)
     source = CampaignFolder.complete(folder, document)
     metrics = read_metrics(document, folder / SUMMARY)

@@ -166,11 +166,12 @@ def test_a_wrong_shard_is_named_when_it_is_read(folder, harm, ask):
     assert "\n" not in str(caught.value)
 
 
-def test_a_linked_folder_of_trials_is_refused_by_all_readers(folder, tmp_path):
-    (folder / "trials").rename(tmp_path / "elsewhere")
-    (folder / "trials").symlink_to(tmp_path / "elsewhere")
+@pytest.mark.parametrize("name", ["trials", "traces", "traces/beta"])
+def test_a_linked_folder_is_refused_by_all_readers(folder, tmp_path, name):
+    (folder / name).rename(tmp_path / "elsewhere")
+    (folder / name).symlink_to(tmp_path / "elsewhere")
     for ask in (perilune.open_results, perilune.compare):
-        with pytest.raises(perilune.InputError, match="trials: a link, not a folder"):
+        with pytest.raises(perilune.InputError, match=f"{name}: a link, not a folder"):
             ask(folder)
 
 

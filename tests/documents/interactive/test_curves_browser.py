@@ -149,12 +149,16 @@ def test_touch_and_buttons_reach_a_row(browser, flight):
             "const b = arguments[0].getBoundingClientRect(); return [b.x, b.y, b.width, b.height]", area
         )
         touch = {"x": bounds[0] + 0.5 * bounds[2], "y": bounds[1] + 0.5 * bounds[3]}
+        bar = driver.find_element(By.CSS_SELECTOR, ".explore")
+        assert (bar.size["height"], bar.text.split("\n")[0]) == (48, "Tap a figure.")  # px of 844
         driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [touch]})
         driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
         cursor = driver.find_element(By.CSS_SELECTOR, ".explore output")
         before = float(re.fullmatch(r"time (\S+) s", cursor.text)[1])
         assert 1500.0 < before < 2500.0
-        buttons = driver.find_elements(By.CSS_SELECTOR, ".explore button")
+        assert bar.size["height"] == 48
+        buttons = [each for each in driver.find_elements(By.CSS_SELECTOR, ".explore button") if each.is_displayed()]
+        assert len(buttons) == 6
         for button in buttons:
             assert button.size["height"] >= 40
             assert 0 <= button.location["x"] <= 390 - button.size["width"]

@@ -209,6 +209,17 @@ def test_a_sweep_into_instability(studies, page):
         assert sizes[item.quantity] == pytest.approx(limits[item.quantity], rel=5e-3)
 
 
+@pytest.mark.parametrize("where", ["settings", "parameters"])
+def test_a_frozen_plan_is_valid_for_its_time_to_go_at_most(studies, tmp_path, where):
+    report, frozen = studies.late, {"guidance.frozen_time_to_go": 10.0}
+    point = replace(report.points[0], holds=106600.0, settings=frozen if where == "settings" else {})
+    provenance = {**report.provenance, "parameters": frozen if where == "parameters" else {}}
+    page = write(replace(report, points=(point,), provenance=provenance), tmp_path / "page.html")
+    assert rows_under(page, "Operating points")[0][-1] == "10 (frozen plan)"
+    free = write(replace(report, points=(replace(point, settings={}),)), tmp_path / "free.html")
+    assert float(rows_under(free, "Operating points")[0][-1]) == 106600.0
+
+
 def test_provenance(report, page):
     text = text_of(page)
     provenance = report.provenance

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 
+from .....fmus_src.roles import FROZEN
 from ....stability.results.report import PointReport
 from ...cell import Cell, Inline, Phrase
 from ...common.quantities import display_unit
 from ...model import Fold, Missing, Node, Note, Table
 from .words import fold_long, names, numbers, numeral, per_cent, sentences
 
+FROZEN_TIME = f"{FROZEN}time_to_go"  # parameter (s) of guidance laws
 
-def point_nodes(points: Sequence[PointReport]) -> list[Node]:
-    """Return the table of operating points, and folded tables of trims and settings."""
+
+def point_nodes(points: Sequence[PointReport], parameters: Mapping[str, object]) -> list[Node]:
+    """Return the table of operating points, and folded trims and settings; ``parameters`` hold at all points."""
     if not points:
         return [Missing("no operating point")]
     trims = trim_table(points)
@@ -21,11 +25,12 @@ def point_nodes(points: Sequence[PointReport]) -> list[Node]:
         *(Note(_settings(point)) for point in points if point.settings),
     ]
     return [
-        fold_long(point_table(points), "operating points"),
+        fold_long(point_table(points, parameters), "operating points"),
         *([Fold("Trim residuals and settings", folded)] if folded else []),
         Note(
             "Linearised about the flight frozen at each point. The drift is the largest relative change of the "
-            "response over one further period; the linearisation counts as valid until it would be 10 %."
+            "response over one further period; the linearisation counts as valid until it would be 10 %. "
+            "A frozen plan does not drift: it is valid for the frozen time to go at most, since in flight it changes."
         ),
     ]
 
@@ -37,7 +42,7 @@ def _settings(point: PointReport) -> list[Inline]:
     return [f"Set at {point.name}: ", *values[1:], "."]
 
 
-def point_table(points: Sequence[PointReport]) -> Table:
+def point_table(points: Sequence[PointReport], parameters: Mapping[str, object]) -> Table:
     """Return, for each point, the state that drifts most, and how long the frozen-time linearisation is valid."""
     rows: list[tuple[Cell, ...]] = []
     for point in points:
@@ -45,7 +50,7 @@ def point_table(points: Sequence[PointReport]) -> Table:
         if point.trim:
             name, _, change, unit = point.trim[0]
             fastest = Phrase([f"{name} by ", numeral(change, unit), f" {display_unit(unit)}"])
-        holds = numeral(point.holds, infinite="does not change")
+        holds = _validity(point, parameters)
         rows.append((point.name, point.phase, numeral(point.time, digits=6), fastest, per_cent(point.drift), holds))
     heads = (
         names("operating point"), sentences("phase"), numbers("time, s"),
@@ -53,6 +58,16 @@ def point_table(points: Sequence[PointReport]) -> Table:
         numbers("drift of the response, %", "frozen-time linearisation valid for, s"),
     )  # fmt: skip
     return Table([head for group in heads for head in group], rows)
+
+
+def _validity(point: PointReport, parameters: Mapping[str, object]) -> Cell:
+    """Return how long the linearisation is valid, of a frozen plan at most its time to go."""
+    settings = {**parameters, **point.settings}
+    times = [float(str(value)) for name, value in settings.items() if name.endswith(f".{FROZEN_TIME}")]
+    frozen = min((time for time in times if time > 0.0), default=math.inf)
+    if point.holds is None or point.holds <= frozen:
+        return numeral(point.holds, infinite="does not change")
+    return Phrase([numeral(frozen), " (frozen plan)"])
 
 
 def trim_table(points: Sequence[PointReport]) -> Table:

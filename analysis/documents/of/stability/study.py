@@ -41,7 +41,7 @@ def stability_document(report: StabilityStudy, command: str = "") -> Document:
         ("Undeclared dependencies", partial(_order_nodes, report), bool(_order_notes(report))),
         ("Without margins", partial(_unstudied_nodes, report), bool(report.unstudied)),
         ("Margins", partial(_margin_nodes, report), True),
-        ("Operating points", partial(point_nodes, report.points), True),
+        ("Operating points", partial(point_nodes, report.points, report.provenance.get("parameters", {})), True),
         ("Loops", partial(loop_nodes, report), True),
         ("Over parameters", partial(sweep_nodes, report), bool(report.sweeps)),
         ("What was studied", partial(origin_nodes, report), True),

@@ -102,5 +102,5 @@ def _row(limit: Limit, verdict: LimitVerdict, result: Flight, *, is_tightest: bo
         NONE if verdict is LimitVerdict.NOT_EVALUATED else Quantity(limit.value(result), unit, is_bare=True),
         value_range(limit.least, limit.most, unit),
         display_unit(unit),
-        Phrase([judged, f", {TIGHTEST}"]) if is_tightest else judged,
+        Phrase([judged, f", {TIGHTEST}"], is_unbroken=False) if is_tightest else judged,
     )
