@@ -41,12 +41,13 @@ class Description(Documented, dict[str, Any]):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune describe --report`, one HTML file. Raises InputError without a block diagram."""
-        from ..documents.diagram.page import write_system_page  # doubles the start-up time of describe
+        from ..documents.of.system import system_document  # doubles the start-up time of describe
+        from ..documents.render.html import write_document
 
         if self.prepare is None:
             problem = "only a system and an FMU have a block diagram"
             raise InputError("`report`", os.fspath(path), problem, "describe one of them, or leave it out")
-        write_system_page(self.prepare(), Path(path))
+        write_document(system_document(self.prepare()), Path(path))
 
     def document(self) -> Document:
         """Return the description as a document of lists."""

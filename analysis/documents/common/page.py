@@ -1,11 +1,10 @@
-"""Pages from jinja2 templates, and their tables: one style sheet, no external resources."""
+"""Pages from jinja2 templates: one style sheet, no external resources."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from markupsafe import Markup
 
@@ -82,11 +81,3 @@ def answering(figure: Drawing, embedded: Embedded) -> Markup:
 def write_page(path: Path, template: Path, **content: Any) -> None:
     """Write a page and, if necessary, its folder."""
     write_atomically(path, render_page(template, **content).encode())
-
-
-class PageTable(NamedTuple):
-    """Headings and rows of cells; the columns ``numbers`` are aligned to the right."""
-
-    heads: Sequence[str]
-    rows: Sequence[Sequence[Markup | str]]
-    numbers: Sequence[int]

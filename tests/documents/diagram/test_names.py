@@ -10,12 +10,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from lxml import etree, html
 
-from perilune.analysis.documents.common.page import PageTable, render_page
-from perilune.analysis.documents.diagram.diagram import BlockDiagram, block_table, connection_table
+from perilune.analysis.documents.diagram.diagram import BlockDiagram
 from perilune.analysis.documents.diagram.drawing import draw
 from perilune.analysis.documents.diagram.layout import lay_out
-from perilune.analysis.documents.diagram.page import TEMPLATE
 from perilune.analysis.documents.font.text import shorten
+from perilune.analysis.documents.model import Table
+from perilune.analysis.documents.of.system import diagram_document
+from perilune.analysis.documents.render.html import write_document
 from tests.support.diagrams.geometry import Drawing, assert_readable
 from tests.support.diagrams.graphs import block_of, connect
 
@@ -59,14 +60,11 @@ def test_any_names(engine, one, other, unit):
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_a_page_with_hostile_names(engine, name):
+def test_a_page_with_hostile_names(engine, name, tmp_path):
     graph, svg = check_svg(engine, name, f"{name}2", name)
-    page = render_page(
-        TEMPLATE,
-        title=name, file=name, step=0.1, stop_time=1.0, algorithm="jacobi", diagram=BlockDiagram(graph, svg),
-        blocks=block_table(graph), connections=connection_table(graph), parameters=PageTable((), (), ()),
-    )  # fmt: skip
-    root = html.document_fromstring(page)
+    page = tmp_path / "page.html"
+    write_document(diagram_document(name, name, {}, BlockDiagram(graph, svg), Table((), ())), page)
+    root = html.document_fromstring(page.read_text(encoding="utf-8"))
     assert not root.xpath("//script | //iframe | //img | //comment()")
     edges = root.xpath("//*[@class='edge']")
     assert [json.loads(edge.get("data-signals")) for edge in edges] == [[f"a.{name}"], [f"b.{name}2"]]

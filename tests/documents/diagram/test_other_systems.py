@@ -7,7 +7,8 @@ from collections import Counter
 
 import pytest
 
-from perilune.analysis.documents.diagram.diagram import connection_table, make_diagram
+from perilune.analysis.documents.diagram.diagram import make_diagram
+from perilune.analysis.documents.of.system import connection_table
 from perilune.analysis.options.fault import parse_fault
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
@@ -89,7 +90,7 @@ def test_a_signal_dictionary(figure):
     )  # fmt: skip
     drawing, rows = figure(root)
     assert Counter(drawing.connections()) == Counter([("ramp.y", "bus.length"), ("bus.length", "delay.u")])
-    assert [row[:2] for row in rows] == [["ramp.y", "signals.length"], ["signals.length", "delay.u"]]
+    assert [row[:2] for row in rows] == [("ramp.y", "signals.length"), ("signals.length", "delay.u")]
 
 
 def test_what_happens_on_the_way(figure):
@@ -116,7 +117,7 @@ def test_elements_of_vectors(native, tmp_path):
     assert_readable(drawing)
     assert Counter(drawing.connections()) == Counter(wires)
     assert [row[2:] for row in connection_table(diagram.system).rows] == [
-        ["2", "", "[3..4] → [1..2]"], ["1", "", "[10]"], ["1", "", "[1]"], ["10", "", "[10 elements] → [1..10]"],
+        (2, "", "[3..4] → [1..2]"), (1, "", "[10]"), (1, "", "[1]"), (10, "", "[10 elements] → [1..10]"),
     ]  # fmt: skip
     assert {"a [3..4] → [1..2]", "c [10]"} <= set(texts(drawing))
 

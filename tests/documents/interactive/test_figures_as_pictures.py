@@ -148,7 +148,6 @@ TEMPLATES = {
         write_bound,
     ],
     "demo.html": [write_demo],
-    "system.html": [],  # a block diagram, the same with scripts: tests/documents/diagram
     "show.html": [],  # without scripts it has no figure: tests/show
 }
 
