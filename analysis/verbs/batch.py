@@ -18,14 +18,14 @@ from ..campaigns.execute.runner import fly_campaign
 from ..campaigns.summary_text import select_metrics
 from ..documents.model import Document
 from ..documents.of.batch.batch import batch_document
+from ..documents.of.batch.printed import campaign_problems
 from ..options.declared.campaigns import BATCH, BatchOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..runtime.flight.results import require_pandas
 from ..studies.sobol import rank_correlations
 from ..traceability.campaign_task import write_task
-from .common.campaign_text import campaign_problems, campaign_requirements
-from .common.campaigns import name_foreign, read_campaign, resume_hint
+from .common.campaigns import campaign_requirements, name_foreign, read_campaign, resume_hint
 from .common.documented import Documented
 
 if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import

@@ -13,6 +13,7 @@ from ..campaigns.execute.replay import ReplayedTrial, replay_plan, replay_trial
 from ..campaigns.plain_text import faults_line
 from ..commands.campaigns import replay_command, replay_of_folder
 from ..documents.figures.reading import read_figures
+from ..documents.of.batch.printed import outcome_lines
 from ..documents.of.simulation.run import RunContext
 from ..options.command import record_options
 from ..options.declared.campaigns import REPLAY, ReplayOptions
@@ -22,7 +23,6 @@ from ..options.verb import verb
 from ..runtime.flight.interruptible import StuckError
 from ..runtime.system.options import trust_of
 from .common.arguments import read_requirements
-from .common.campaign_text import outcome_lines
 from .common.campaigns import read_campaign
 from .run import STUCK, Result
 

@@ -15,6 +15,8 @@ from ..campaigns.plain_text import faults_line
 from ..documents.figures.declared import FigureDeclaration
 from ..documents.figures.reading import read_figures
 from ..documents.model import Document
+from ..documents.of.reserve import requirement_problems
+from ..documents.of.simulation.ending import flight_lines, flight_problems, note_lines
 from ..documents.of.simulation.figures.limits import limit_document
 from ..documents.of.simulation.run import RunContext, run_document
 from ..options.command import write_command
@@ -31,9 +33,8 @@ from ..runtime.system.inputs import missing_outputs
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import PreparedSystem, prepare_system
 from ..runtime.system.series import read_series
-from .common.arguments import read_requirements, requirement_problems
+from .common.arguments import read_requirements
 from .common.documented import Documented
-from .common.flight_text import flight_lines, flight_problems, note_lines
 
 if TYPE_CHECKING:  # imported where needed: half of the time of a run without them
     from matplotlib.figure import Figure as Plot

@@ -16,14 +16,14 @@ from ..campaigns.execute.runner import fly_campaign, merge_rows
 from ..campaigns.folder.numbering import numbers_of
 from ..campaigns.summary_text import select_metrics
 from ..documents.model import Document
+from ..documents.of.batch.printed import failure_lines, find_failed
 from ..documents.of.campaign_folders import prepared_document, shards_document
 from ..options.declared.campaigns import MERGE, PREPARE, SHARD, MergeOptions, PrepareOptions, ShardOptions
 from ..options.option import FilePath
 from ..options.verb import verb
 from ..runtime.system.options import trust_of
 from .batch import BatchResult
-from .common.campaign_text import campaign_requirements, failure_lines, find_failed
-from .common.campaigns import name_foreign, read_campaign, resume_hint
+from .common.campaigns import campaign_requirements, name_foreign, read_campaign, resume_hint
 from .common.documented import Documented
 
 

@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import ClassVar, Unpack, overload
-
-from attrs import evolve
-from fmpy.validation import validate_model_description
 
 from ...common.bounds import bound_of
 from ...common.errors import ExitStatus, InputError
@@ -32,6 +28,7 @@ from ..documents.of.validation import validation_document
 from ..options.declared.library import VALIDATE, ValidateOptions
 from ..options.option import FilePath
 from ..options.verb import verb
+from ..runtime.fmi.rules import broken_rules
 from ..runtime.process.resets import find_verdict, renewal_note
 from ..runtime.ssp.archive import DEFAULT_VARIANT, open_system
 from ..runtime.ssp.parameter_sets import read_parameter_file
@@ -41,16 +38,12 @@ from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import prepare_system
 from ..runtime.system.times import MissingStopTimeError
-from ..stability.request.channels import channels_of
-from ..stability.request.declaration import Declaration
 from ..stability.request.reading import read_declaration
-from ..stability.request.request import Subject
+from ..stability.request.request import Subject, check_loops
 from .common.arguments import path_list
 from .common.documented import Documented
 from .compose import compose_file
 
-ELEMENT = r"[A-Za-z_][A-Za-z0-9_]*(\[[0-9]+(,[0-9]+)*\])?"
-PLAIN_NAME = re.compile(rf"{ELEMENT}(\.{ELEMENT})*")  # among names that FMI 2.0's structured naming convention allows
 FILES = (".ssv", ".json", ".toml")  # not systems
 
 
@@ -115,7 +108,9 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
             raise InputError(path, "system options", "it is no system, which they are for", "check it by itself")
         if names_fmu(path):
             fmu = load_fmu(_read(path), path)
-            violations = [f"{path}: modelDescription.xml: {rule}" for rule in _broken_rules(fmu)]
+            violations = [
+                f"{path}: modelDescription.xml: {rule}" for rule in fmu.flaws or broken_rules(fmu.description)
+            ]
             if options.chosen["strict"]:
                 problems += [f"{violation}; fix the FMU's modelDescription.xml" for violation in violations]
             else:
@@ -136,23 +131,6 @@ def _check(path: str, options: System, all_variants: bool, systems: Sequence[str
     except InputError as error:
         problems.append(error.text)
     return FileCheck(path, tuple(problems), tuple(notes))
-
-
-def _broken_rules(fmu: Fmu) -> list[str]:
-    """Return schema violations of an FMU's description; if none, violations of FMI's rules on names and structure."""
-    if fmu.flaws:
-        return fmu.flaws
-    # FMPy takes a millisecond per name, so it checks only names that are not plainly valid.
-    doubtful = [variable for variable in fmu.description.modelVariables if not PLAIN_NAME.fullmatch(variable.name)]
-    partial = evolve(fmu.description, modelVariables=doubtful)
-    others = validate_model_description(partial)
-    rules = [rule for rule in validate_model_description(partial, validate_variable_names=True) if rule not in others]
-    # FMPy requires aliases to be listed in the model structure
-    unnamed = evolve(
-        fmu.description, modelVariables=[each for each in fmu.description.modelVariables if not each.alias]
-    )
-    rules += validate_model_description(unnamed, validate_model_structure=True)
-    return [" ".join(rule.split()) for rule in rules]
 
 
 def _check_campaign(path: str, systems: Sequence[str]) -> list[str]:
@@ -191,7 +169,7 @@ def _check_system(path: str, options: System, all_variants: bool) -> list[str]:
             subject = Subject(path, subject.options.but(stop_time=error.earliest))
             prepared = prepare_system(path, subject.options, subject.fmus)
             notes.append(f"{error.file}: no {error.element}: `run` needs `stop_time`")
-        _check_loops(subject, read_declaration(prepared.network.description))
+        check_loops(subject, read_declaration(prepared.network.description))
         read_figures(prepared)
         bound = find_bound(prepared)
         notes += [f"bound: {bound.reason}"] if isinstance(bound, MissingBound) else []
@@ -206,14 +184,6 @@ def _reset_notes(fmu: Fmu, name: str, options: System) -> list[str]:
     """Return a note if the reset of an FMU fails; foreign FMUs are tested."""
     note = renewal_note(name, find_verdict(fmu, options))
     return [] if note is None else [note]
-
-
-def _check_loops(subject: Subject, declared: Declaration) -> None:
-    """Reject an operating point that cannot be set, and a loop without a signal at its cut. Raises InputError."""
-    points = {point.name: subject.at(point) for point in declared.points}
-    for loop in declared.loops:
-        for name in loop.points:
-            channels_of(loop, points[name].network, points[name].step)
 
 
 def _read(path: str) -> bytes:

@@ -16,6 +16,7 @@ from ...runtime.ssp.reading import read_description
 from ...runtime.system.fmu import Fmu
 from ...runtime.system.options import Layer, SystemOptions
 from ...runtime.system.prepared import PreparedSystem, prepare_system
+from .channels import channels_of
 from .declaration import Declaration, LoopDeclaration, PointDeclaration
 from .reading import read_declaration
 
@@ -190,3 +191,11 @@ class Subject:
         """Return the system prepared at a point, with ``study`` as the top layer. Raises InputError."""
         options = self.options.among(operating_point=point.layer, study=study or Layer())
         return prepare_system(self.system, options, self.fmus)
+
+
+def check_loops(subject: Subject, declared: Declaration) -> None:
+    """Reject an operating point that cannot be set, and a loop without a signal at its cut. Raises InputError."""
+    points = {point.name: subject.at(point) for point in declared.points}
+    for loop in declared.loops:
+        for name in loop.points:
+            channels_of(loop, points[name].network, points[name].step)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Mapping, Sequence
-
-import numpy as np
+from collections.abc import Collection, Sequence
 
 from ....common.errors import InputError, suggestion
 from ...campaigns.definition.expressions import Expression
@@ -20,16 +18,6 @@ def read_requirements(texts: Sequence[str], known: Collection[str], families: tu
             if not name.startswith(families or ("\0",)):
                 raise InputError("`require`", name, "no such number in the result", suggestion(name, known))
     return requirements
-
-
-def requirement_problems(requirements: Sequence[Expression], values: Mapping[str, float]) -> list[str]:
-    """Return a line for each requirement that is not met, or whose numbers are missing or not finite."""
-    return [
-        f"`require`: {requirement.text}: not met"
-        for requirement in requirements
-        if not all(np.isfinite(values.get(name, np.nan)) for name in requirement.names)
-        or not requirement.evaluate(values)
-    ]
 
 
 def path_list(entries: Sequence[FilePath | Sequence[FilePath]]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Plan of a campaign from the options of a verb, and commands that repeat its trials."""
+"""Plan of a campaign and requirements on it from the options of a verb, and commands that repeat its trials."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ import numpy as np
 
 from ....common.errors import EndedError, ExitStatus, InputError
 from ....common.machine.os_errors import line_of
+from ...campaigns.columns import describe_metrics
+from ...campaigns.definition.expressions import Expression
 from ...campaigns.definition.file import parse_campaign
 from ...campaigns.definition.plan import BatchPlan, read_plan
 from ...campaigns.definition.sweeps import part_sweeps
@@ -21,12 +23,15 @@ from ...campaigns.draws.given import ALL, GivenDraws
 from ...campaigns.execute.campaign import LoadedCampaign
 from ...campaigns.execute.cluster.tasks import WorkersDiedError
 from ...campaigns.folder.manifest import FILE as MANIFEST
+from ...campaigns.summary import requirement_values, summarise
+from ...campaigns.trials import TrialTable
 from ...commands.campaigns import campaign_command, replay_command
 from ...options.fault import faults_of
 from ...options.option import FilePath
 from ...runtime.system.options import Watch, system_options
 from ...runtime.system.series import read_series
 from ...studies.flown import StudyCommands
+from .arguments import read_requirements
 
 
 def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, Any]) -> BatchPlan:
@@ -68,6 +73,25 @@ def _read_compare(compare: Mapping[str, FilePath | Sequence[FilePath]]) -> dict[
         slot: [os.fspath(fmus)] if isinstance(fmus, str | os.PathLike) else [os.fspath(fmu) for fmu in fmus]
         for slot, fmus in compare.items()
     }
+
+
+def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Expression]:
+    """Read requirements before any simulation. Raises InputError for numbers that the summary will not contain."""
+    nothing = np.full(1, np.nan)
+    metrics = {f"metric.{metric.name}": nothing for metric in plan.campaign.metrics}
+    blank = TrialTable.of({"status": [""], "success": np.zeros(1, dtype=bool), **metrics})
+    blank = blank.described(describe_metrics(plan.campaign.metrics))
+    variants = [variant.name for variant in plan.campaign.variants()]
+    columns = dict.fromkeys(variants, blank)
+    summary = {
+        name: replace(
+            entry, groups={group.label: replace(entry, value=group.value, requirements={}) for group in plan.groups}
+        )
+        for name, entry in summarise(columns, requirements=plan.campaign.requirements).items()
+    }
+    known = requirement_values(summary)
+    statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))
+    return read_requirements(texts, known, statuses)
 
 
 def commands_of(plan: BatchPlan) -> StudyCommands:

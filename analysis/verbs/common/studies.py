@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Protocol, TypedDict, TypeVar
 from ....common.errors import UnwrittenError
 from ....common.targets import check_folder
 from ...campaigns.definition.expressions import Expression
+from ...documents.of.reserve import requirement_problems
 from ...documents.render.words import lead_text
 from ...options.declared.studies import ConditionOptions
 from ...studies.flown import StudyResult
-from .arguments import requirement_problems
 from .documented import Documented
 
 if TYPE_CHECKING:  # imported where needed: matplotlib is slow to import

@@ -1,16 +1,16 @@
-"""Text about one simulation: limits, statuses, problems; notes on its system."""
+"""Lines on the end of a simulation: limits, statuses, problems; notes on its system."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
 
-from ....common.paths import SYSTEMS
-from ....fmus_src.roles import FINISHED
-from ...documents.figures.declared import FigureDeclaration, LimitsFigure, UnavailableFigure
-from ...documents.of.simulation.figures.limits import LimitVerdict, evaluate, limit_lines
-from ...runtime.flight.results import Flight, FlightResult, status_lines
-from ...runtime.system.prepared import PreparedSystem
+from .....common.paths import SYSTEMS
+from .....fmus_src.roles import FINISHED
+from ....runtime.flight.results import Flight, FlightResult, status_lines
+from ....runtime.system.prepared import PreparedSystem
+from ...figures.declared import FigureDeclaration, LimitsFigure, UnavailableFigure
+from .figures.limits import LimitVerdict, evaluate, limit_lines
 
 REMEDIES = {
     "nonfinite": "see what drives it with `output`",
