@@ -15,7 +15,7 @@ class ExitStatus(IntEnum):
     """Exit status of any verb."""
 
     MET = 0  # done, and everything that was to hold does
-    NOT_MET = 1  # done, and something is violated, withheld or not evaluated, or a flight did not finish
+    NOT_MET = 1  # completed, but something is violated, withheld or not evaluated, or a simulation did not finish
     REFUSED = 2  # wrong input, or a result could not be written
 
 
@@ -117,7 +117,7 @@ def warn_in_one_line() -> None:
 
 
 FEW, NEAREST, ALL = 6, 4, 12  # names: up to FEW are all shown, NEAREST of more, ALL where none is near
-NEAR = 0.6  # of difflib's ratio, 1 for the same
+NEAR = 0.6  # least ratio of difflib, which is 1 for equal texts
 
 
 def suggestion(name: str, known: Iterable[str]) -> str:
@@ -129,7 +129,7 @@ def suggestion(name: str, known: Iterable[str]) -> str:
         other: 1.0 if name and other.startswith(name) else difflib.SequenceMatcher(None, other, name).ratio()
         for other in names
     }
-    ranked = sorted(names, key=lambda other: -likeness[other])  # which keeps the order of those that are as near
+    ranked = sorted(names, key=lambda other: -likeness[other])  # keeps the order of equally similar names
     near = [other for other in ranked if likeness[other] >= NEAR][:NEAREST]
     if len(names) <= FEW:
         return f"use one of {', '.join(near + [other for other in names if other not in near])}"

@@ -18,8 +18,8 @@ SYSTEMS = ROOT / "ssp_systems"
 LAWS = ROOT / "laws"
 SEARCHES = LAWS / "searches"
 BUILD = ROOT / "build"
-Build = Literal["native", "python"]  # of Perilune's FMUs
-FLAVOURS: tuple[Build, ...] = get_args(Build)  # in this order where none is requested
+Build = Literal["native", "python"]  # build of Perilune's FMUs
+FLAVOURS: tuple[Build, ...] = get_args(Build)  # preferred in this order
 CACHE = BUILD / "cache" if IS_CHECKOUT else user_cache_path("perilune", appauthor=False)
 
 

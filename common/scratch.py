@@ -15,7 +15,7 @@ from filelock import FileLock, Timeout
 from .process import at_end
 
 PREFIX = "perilune_"
-LOCK = "lock"  # in each process's folder, locked as long as it lives
+LOCK = "lock"  # in each process's folder, locked while the process exists
 YOUNG = 60.0  # s, in which a folder may not be locked yet
 
 

@@ -12,7 +12,7 @@ from .atomic import PARTIAL
 from .errors import InputError
 from .machine.os_errors import line_of
 
-DEVICES = Path("/dev")  # whose links, /dev/stdout for one, may lead to ordinary files
+DEVICES = Path("/dev")  # its links, such as /dev/stdout, may lead to ordinary files
 LONGEST_NAME = 255  # bytes, on all common file systems
 PAGES = (".html", ".htm")
 RESULTS = (

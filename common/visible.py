@@ -39,7 +39,7 @@ def _escape(match: re.Match[str]) -> str:
 
 
 FORMULAS = ("=", "+", "-", "@")  # beginnings of what a spreadsheet computes
-QUOTE = "'"  # what follows it is text to a spreadsheet
+QUOTE = "'"  # spreadsheets read the rest as text
 
 
 def quote_formula(name: str) -> str:

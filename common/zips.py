@@ -13,11 +13,11 @@ from collections.abc import Iterator, Mapping
 from .bounds import ARCHIVE_BYTES, ARCHIVE_ENTRIES, bound_of
 from .errors import InputError
 
-END = b"PK\5\6"  # of the directory's last record
+END = b"PK\5\6"  # signature of the directory's last record
 REMEDY = "build or copy the file again"
 BACKSLASH = "repack it with / between the names of folders"
 LINK = "repack it with the file or folder itself in the link's place"
-# what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
+# errors of zipfile and its decompressors for damaged archives and other files
 UNREADABLE = (
     zipfile.BadZipFile,
     zlib.error,

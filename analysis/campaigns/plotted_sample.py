@@ -12,7 +12,7 @@ from ...common.machine.arrow import numpy_of
 from .trials import TrialTable
 
 FIRST = 100_000  # trials of a variant
-FAILURES = 20_000  # behind those
+FAILURES = 20_000  # later failures
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ import numpy as np
 from .verdicts.order_statistics import Blocks, column_quantiles
 
 QUANTILES = {"p5": 5, "p50": 50, "p95": 95, "p99": 99}  # %
-STATISTICS = ("mean", "std", "rms", "min", *QUANTILES, "max")  # as tables show them
+STATISTICS = ("mean", "std", "rms", "min", *QUANTILES, "max")  # in the order of tables
 IN_MEMORY = 2**20  # values of a column that are read once, 8 MB
 
 

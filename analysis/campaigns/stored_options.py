@@ -41,7 +41,7 @@ def store_options(options: SystemOptions) -> dict[str, Any]:
     stored = {name: setting for name, setting in options.by_name.items() if name in STORED}
     # Native FMUs are the default, and their fused steps have the same bits: these may change under way.
     stored["flavour"] = "python" if options.chosen["flavour"] == "python" else None
-    stored["open_inputs"] = options.chosen["open_inputs"] or REFUSE  # as folders had it before there was None
+    stored["open_inputs"] = options.chosen["open_inputs"] or REFUSE  # as in folders from before None was permitted
     return stored
 
 
@@ -61,5 +61,7 @@ def restore_options(stored: Mapping[str, Any], file: Path, remedy: str, *, of_fm
         raise InputError(file, name, f"{problem[:1].lower()}{problem[1:]}", remedy) from error
     options = SystemOptions(**{name: getattr(converted, name) for name in stored})
     if of_fmu and options.chosen["open_inputs"] == REFUSE:
-        return options.but(open_inputs=None)  # what is refused of an FMU alone was refused before it was written
+        return options.but(
+            open_inputs=None
+        )  # invalid options of a stand-alone FMU were rejected before this was written
     return options

@@ -13,7 +13,7 @@ from .tables import requirement_lines, who_cells, who_heads
 
 ALL = "all"
 WIDTH = 100  # columns
-LEFT_OUT = ("rms", "p99", "p5", "min", "std", "p50", "p95")  # in this order where lines would be longer
+LEFT_OUT = ("rms", "p99", "p5", "min", "std", "p50", "p95")  # omitted in this order if lines would be too long
 
 
 def select_metrics(named: Sequence[str], known: Sequence[str], needed: Collection[str]) -> list[str]:

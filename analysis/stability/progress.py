@@ -13,7 +13,7 @@ from ...common.progress import progress_bar
 
 Tell = Callable[[int, int], None]  # numbers of added and of completed steps
 
-_pipe: Connection | None = None  # of a worker process
+_pipe: Connection | None = None  # pipe of a worker process
 
 
 @contextmanager

@@ -24,7 +24,7 @@ CROSSING = 1e-3  # relative, of the value at which a limit is reached
 FAR = 1e3  # dB, deg: what an infinite margin counts as
 
 At = Callable[[float], LoopMargins]
-FACTORS = (0.5, 1.0, 2.0)  # of the communication step
+FACTORS = (0.5, 1.0, 2.0)  # factors on the communication step
 
 
 def run_sweep(

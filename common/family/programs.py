@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from . import keeper
 
-POLLING = 0.1  # s between looks whether a program is still needed
+POLLING = 0.1  # s between checks whether a program is still needed
 
 
 class Ended(NamedTuple):

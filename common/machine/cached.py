@@ -16,10 +16,10 @@ from ..paths import CACHE
 from ..scratch import make_folder
 from .os_errors import reason_of, remedy_of
 
-CHECKSUM = ".sha256"  # of the file next to one that other programs open
-_substitutes: dict[Path, Path] = {}  # of files that cannot be kept: temporary ones of this process
+CHECKSUM = ".sha256"  # suffix of the checksum next to a file that other programs open
+_substitutes: dict[Path, Path] = {}  # temporary files of this process for those that cannot be stored
 _warned: set[str] = set()
-_writing = threading.Lock()  # of threads that make one file at once
+_writing = threading.Lock()  # held by a thread that writes a file
 
 
 def cached_file(path: Path, make: Callable[[], bytes]) -> Path:

@@ -10,7 +10,7 @@ from pathlib import Path
 from ..paths import IS_CHECKOUT, ROOT
 
 DIGITS = 12
-ORIGIN = "direct_url.json"  # what pip installed a package from (PEP 610)
+ORIGIN = "direct_url.json"  # file with the origin of a package that pip installed (PEP 610)
 
 
 def known_commit() -> str:

@@ -81,7 +81,7 @@ class _UniformDesign(_Interval, Design):
         whole = {}
         for index, draw in enumerate(draws):
             interval = draw.distribution
-            assert isinstance(interval, _Interval)  # as all draws of this kind
+            assert isinstance(interval, _Interval)  # true of all draws of this kind
             whole[draw.name] = interval.low + (interval.high - interval.low) * points[index]
         return lambda part: {name: column[part.start : part.stop] for name, column in whole.items()}
 

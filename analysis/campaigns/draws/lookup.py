@@ -25,7 +25,7 @@ DIGITS = 16  # hexadecimal digits of SHA-256
 MADE_BY, INPUT = "# made by: ", "# input: "
 WRITE = "write it again; perilune design bounds writes that of [lookup.bound]"
 
-InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name one or more numbers, each an array (trials,)
+InputColumns = Mapping[str, Sequence[np.ndarray]]  # by name, one or more arrays (trials,)
 
 
 def input_hashes(columns: InputColumns) -> list[str]:

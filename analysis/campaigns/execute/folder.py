@@ -32,7 +32,7 @@ def resume_folder(
 ) -> CampaignManifest:
     """Resume a folder that contains this campaign or its first trials. Raises InputError for another campaign."""
     held = read_manifest(folder)
-    manifest = replace(manifest, shard_size=held.shard_size)  # which followed from fewer trials
+    manifest = replace(manifest, shard_size=held.shard_size)  # determined by fewer trials
     difference = differences(held, manifest)
     if difference:
         problem = f"another campaign than the one asked for: {difference}"

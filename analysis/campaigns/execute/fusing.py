@@ -8,7 +8,7 @@ import warnings
 from ....common.errors import InputError
 from ...runtime.flight.base_simulation import BaseSimulation
 
-GAIN = 0.1  # of a trial's time, in most shipped systems (benchmarks/one_fmu.py)
+GAIN = 0.1  # share of a trial's time saved, in most shipped systems (benchmarks/one_fmu.py)
 COMPILATION = 0.4  # s, of a component
 MARGIN = 3.0  # how many times over compilation is to pay: a campaign may end early
 _compiling = threading.Lock()  # one worker at a time, while the others go on
@@ -25,7 +25,7 @@ class Fusing:
         self._trials = trials
         self._workers = workers
         self._is_open = flavour is None
-        self._simulated: dict[str, int] = {}  # by this worker, of each variant
+        self._simulated: dict[str, int] = {}  # trials of each variant simulated by this worker
         self._decided: set[str] = set()  # variants
 
     def consider(self, variant: str, simulation: BaseSimulation, count: int, seconds: float) -> None:

@@ -13,7 +13,7 @@ from ..folder.manifest import CampaignManifest
 
 LIMITS = ("call_timeout", "memory")  # options that end trials, and change none
 MOST_DIFFERENCES = 3  # named in one line
-SCRIPT = "resources/slavemodule.txt"  # of pythonfmu: the name of the module that an FMU runs
+SCRIPT = "resources/slavemodule.txt"  # file of pythonfmu with the name of the module that an FMU runs
 
 
 def identity_of(fmu: Fmu) -> str:

@@ -72,7 +72,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Camp
     """
     campaign, contents, given, series = plan.campaign, _Contents(), plan.given, plan.series
     fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
-    with chdir(plan.options.folder):  # from which paths are meant
+    with chdir(plan.options.folder):  # to which paths are relative
         system = _system_document([prepared.archive for prepared in systems.values()], contents)
         elsewhere = {
             requested: contents.keep(read(), requested)

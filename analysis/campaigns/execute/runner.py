@@ -22,7 +22,7 @@ from .results import CampaignResult
 from .store import ShardStore
 from .workers import FlyerPool, in_threads, worker_count
 
-# What flies shards of a campaign: each one's trials by variant, as soon as all are there, in any order of shards.
+# Simulates shards of a campaign; yields each one's number and trials by variant on completion, in any order.
 Elsewhere = Callable[[LoadedCampaign, Sequence[int]], Generator[tuple[int, dict[str, TrialTable]]]]
 
 
@@ -134,8 +134,8 @@ class CampaignDecision:
 
     def __init__(self, plan: BatchPlan) -> None:
         self._plan = plan
-        self._ahead: dict[int, dict[str, list[np.ndarray]]] = {}  # of shards behind one that is missing
-        self._kept: dict[str, list[np.ndarray]] = {}  # by variant, for each requirement
+        self._ahead: dict[int, dict[str, list[np.ndarray]]] = {}  # shards after one that is missing
+        self._kept: dict[str, list[np.ndarray]] = {}  # satisfied trials by variant, for each requirement
         self._looked = 0
         self.shards: int | None = None
 

@@ -162,7 +162,7 @@ COLUMNS = ("variant", "trial", "status", "success", "end_time")
 FLIGHT = ("trial", "status", "success", "message", "end_time")
 
 
-IDENTITY = ("variant", "trial")  # the columns that say which simulation a row is of
+IDENTITY = ("variant", "trial")  # columns that identify the simulation of a row
 TEXTS = ("variant", "status", "message")
 NUMBERS = ("trial", "success", "end_time")
 NUMBER_PREFIXES = ("draw.", "fault.", "final.", "metric.")

@@ -22,7 +22,7 @@ from .files import read_table
 from .provenance import CampaignProvenance
 from .traces import trace_dataset
 
-UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # what Arrow says of a column that there is not
+UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # Arrow's message for a missing column
 
 
 class OpenedResults:
@@ -156,5 +156,5 @@ class OpenedResults:
             if unknown is not None:
                 self._check([unknown[1]])
             for shard in self.source.shards:
-                read_table(shard.path)  # which names the damaged one
+                read_table(shard.path)  # raises with the name of the damaged one
             raise

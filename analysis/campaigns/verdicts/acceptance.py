@@ -16,7 +16,7 @@ from enum import StrEnum
 import numpy as np
 import scipy
 
-ROUNDING = 1e-12  # of a risk, relative: 1 - 0.9 is less than 0.1
+ROUNDING = 1e-12  # relative tolerance of a risk: 1 - 0.9 is less than 0.1
 FURTHER = (0, 1, 2)  # numbers of further failures for which the required flights are reported
 
 

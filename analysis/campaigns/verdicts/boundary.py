@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 TAIL = 1e-18  # probability cut off at either end of a distribution: negligible against any risk
-SPENT = 1.0 - 1e-9  # of the risk that is permitted: the rest is for rounding and for those tails
+SPENT = 1.0 - 1e-9  # share of the permitted risk: the rest is for rounding and for those tails
 
 
 def spending(flights: int, risk: float, half: int) -> float:

@@ -83,7 +83,7 @@ def _parser(schema: etree.XMLSchema | None = None) -> etree.XMLParser:
     return etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False, schema=schema)
 
 
-MOST_VIOLATIONS = 100  # of which lxml looks for the place, each time among all elements before it
+MOST_VIOLATIONS = 100  # lxml locates each of them by counting all elements before it
 
 
 def check_violations(schema: etree.XMLSchema, document: bytes, file: str) -> bool:

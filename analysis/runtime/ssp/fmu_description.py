@@ -14,8 +14,8 @@ from .documents import check_violations, parse_xml
 
 DESCRIPTION = "modelDescription.xml"
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
-STATE_ANNOTATION = "org.perilune.state"  # of FMUs that declare how they serialise their memory, or that they do not
-MANY_BYTES = 1_000_000  # of a description that may have many violations
+STATE_ANNOTATION = "org.perilune.state"  # in FMUs that declare how they serialise their memory, or that they do not
+MANY_BYTES = 1_000_000  # size of a description that may have many violations
 FIX = f"fix the FMU's {DESCRIPTION}"
 VARIABLE = "ModelVariables/ScalarVariable"
 ITEM = "TypeDefinitions/SimpleType/Enumeration/Item"
@@ -41,7 +41,7 @@ NUMBERS: dict[str, tuple[Callable[[str], object], str, tuple[str, ...]]] = {
     f"{VARIABLE}/Integer": (int, "an integer", ("start", "min", "max")),
     f"{VARIABLE}/Enumeration": (int, "an integer", ("start", "min", "max")),
     f"{VARIABLE}/Boolean": (_truth, "true or false", ("start",)),
-}  # attributes as they are read, where they are there
+}  # readers of attributes, if present
 INDICES = {"ModelStructure/*/Unknown": ("index", "dependencies"), f"{VARIABLE}/Real": ("derivative",)}
 
 

@@ -26,7 +26,9 @@ def parse_value(text: str, type_name: str, file: str, element: str) -> Parameter
         raise InputError(file, element, f"{text!r} is not of type {type_name}", "write a number") from None
     if kind == "Integer":
         low, high = integer_range(type_name)
-        if type_name not in ("Integer", "Int32") and not low <= number <= high:  # of those the target has the bounds
+        if (
+            type_name not in ("Integer", "Int32") and not low <= number <= high
+        ):  # for other types the target has the bounds
             raise InputError(file, element, f"{number} is not of type {type_name}", f"give {low} to {high}")
         return number
     if kind == "Boolean":

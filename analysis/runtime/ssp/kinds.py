@@ -6,7 +6,7 @@ It includes that of SSP 1.0. The system is the one that contains the connection;
 from __future__ import annotations
 
 PARAMETERS = ("parameter", "structuralParameter")  # have their value before a flight
-LED_OUT = ("output", "local", "calculatedParameter", "constant")  # what a system gives outwards
+LED_OUT = ("output", "local", "calculatedParameter", "constant")  # kinds that lead out of a system
 OUT = ("output", "local")
 VALUES = ("calculatedParameter", *OUT)
 IN = ("input", "inout")

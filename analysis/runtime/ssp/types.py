@@ -13,7 +13,7 @@ RUNTIME_TYPES = {
     "Enumeration": "Enumeration",
     "Binary": "Binary",
 }
-WHOLE = ("Integer", "Enumeration")  # the runtime's types of whole numbers
+WHOLE = ("Integer", "Enumeration")  # the runtime's integer types
 GENERAL = ("Real", "Integer")  # the only ones of SSP 1.0, whatever an FMU of FMI 3.0 has
 
 

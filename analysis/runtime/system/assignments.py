@@ -26,7 +26,7 @@ from .passing.settings import SystemSettings
 from .passing.units import check_offset
 
 SETTABLE = (*PARAMETERS, "input")
-SINGLE = "`set`"  # where single values come from, unless a file says them
+SINGLE = "`set`"  # origin of single values, unless a file sets them
 TEXT = "Text"  # type of a single value, which takes that of its target
 ELEMENTS = ","  # between the values of a vector
 RANGE = ":"  # between the numbers of a sweep, which is no single value

@@ -37,9 +37,9 @@ class ComponentFmus:
         self.options = options
         self._loaded = loaded
         self.elsewhere: dict[str, Read] = {}  # files that are not the system's, as in `PreparedSystem`
-        self.retired: dict[str, tuple[str, Retired]] = {}  # by component: the name in use, and what replaces it
-        self.notes: list[str] = []  # of parameter files
-        self._used: dict[str, Component] = {}  # whose FMU an option names
+        self.retired: dict[str, tuple[str, Retired]] = {}  # by component: the name in use, and its replacement
+        self.notes: list[str] = []  # notes on parameter files
+        self._used: dict[str, Component] = {}  # components whose FMU an option names
 
     def load(self, name: str, component: Component) -> Fmu:
         """Return the FMU of a component, with its array sizes."""

@@ -50,7 +50,7 @@ class Fmu:
     external_state: tuple[str, ...] = ()  # names of a block's objects that its FMU state does not contain
     flaws: list[str] = field(default_factory=list)  # rules of FMI that its description breaks, though it is readable
     sizes: Mapping[str, int] = field(default_factory=dict)  # structural parameters that are not as declared
-    origin: Fmu | None = None  # as it was loaded, of one with other sizes
+    origin: Fmu | None = None  # the FMU as loaded, if sizes were changed
     content: bytes = field(default=b"", repr=False, compare=False)  # the file, of one built by Perilune
 
     @property

@@ -62,7 +62,7 @@ def settle_open_inputs(network: Network, settings: SystemSettings, *, keep_start
         if node.component is not None:
             start = network.fmus[node.component].variables[node.variable].start
             network.notes.append(f"{node.name}: open input, keeps {start}")
-        for link in readers.get(node.name, ()):  # of a system's own input: what it leads to is open, too
+        for link in readers.get(node.name, ()):  # targets of a system's open input are open, too
             del network.driver[link.target.name]
             if link.target.name not in without:
                 without.add(link.target.name)
@@ -104,7 +104,7 @@ def check_signals(network: Network, settings: SystemSettings) -> None:
         if node.component is None and node.kind in LED_OUT and node.name not in network.driver:
             network.notes.append(f"{node.name}: output without a source, not recorded")
     if names_fmu(network.file):
-        return  # of an FMU alone all inputs are declared
+        return  # a stand-alone FMU declares all inputs
     for component, fmu in network.fmus.items():
         for name, variable in fmu.variables.items():
             full = f"{component}.{name}"
@@ -115,8 +115,8 @@ def check_signals(network: Network, settings: SystemSettings) -> None:
 
 
 HELD = ("discrete", "tunable")  # variabilities of Reals that are held, not interpolated
-POINTS = 1_000_000  # that are interpolated at once, which takes ten times their memory
-CLOSE = 1e-9  # of the greater of two times that are one: FMPy's, which is that of math.isclose
+POINTS = 1_000_000  # points interpolated at once, which takes ten times their memory
+CLOSE = 1e-9  # relative difference of equal times, as in FMPy and math.isclose
 
 
 class DrivenInput(TypedDict):

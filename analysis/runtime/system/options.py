@@ -15,7 +15,7 @@ from ...options.choices import FUSED, LogLevel
 from ...options.option import SetValue, options_of
 from ...options.values import complete_options
 
-STEP_ROUNDING = 1e-9  # of a step, by which a time, a period or a range may miss whole steps
+STEP_ROUNDING = 1e-9  # fraction of a step by which a time, a period or a range may miss whole steps
 
 
 # Sources of options of a system, from the lowest to the highest: a later one wins. Below all of them are the
@@ -40,7 +40,7 @@ class Layer:
 
 def _assign(options: Layer | Trust, **fields: object) -> None:
     for name, each in fields.items():
-        object.__setattr__(options, name, each)  # of a frozen instance in its __init__
+        object.__setattr__(options, name, each)  # fields of a frozen instance are set in its __init__
 
 
 NETWORK, WRITE = "network", "write="

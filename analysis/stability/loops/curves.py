@@ -19,7 +19,7 @@ _PER_DECADE = 60
 _UNIFORM = 200  # further points, evenly spaced: near the Nyquist frequency a logarithmic grid is coarse in z
 _CLOSEST = 1e-10  # least relative distance of neighbours; a pole on the unit circle is not resolved further
 _SILENT = 1e-9  # gain below which nothing is resolved: a zero on the unit circle
-_HALVINGS = 16  # of the intervals around a crossing
+_HALVINGS = 16  # halvings of the intervals around a crossing
 _NEAR = 0.5  # distance (rad, in log gain, or of -1) within which a closest approach is looked at
 _ROUNDING = 1e-9  # distance below which closest approaches are noise
 

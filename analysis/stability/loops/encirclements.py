@@ -8,7 +8,7 @@ import numpy as np
 
 from .curves import Response, cache_response, dense
 
-_LARGEST_STEP = 0.5 * np.pi  # of the phase between neighbours: beyond it the turn could go either way
+_LARGEST_STEP = 0.5 * np.pi  # largest phase between neighbours: beyond it the direction of the turn is ambiguous
 _NOT_A_COUNT = 0.1  # largest distance of the number of turns from an integer
 _NOT_A_SLOPE = 0.2
 _BESIDE = 1e-5  # relative distance from an undamped pole at which the path leaves the unit circle

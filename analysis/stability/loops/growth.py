@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-WINDOWS = 4  # of equal length, in which a deviation's size is compared
-MINIMUM = 0.05  # of the logarithm from window to window
+WINDOWS = 4  # windows of equal length in which a deviation's size is compared
+MINIMUM = 0.05  # least growth of the logarithm from window to window
 STEADY = 0.05  # spread of these over their mean; that of a power of time is 0.3 over the fifth to the eighth window
 HUGE = 1e100  # the size of a deviation that overflows, whether or not it has grown steadily before
 

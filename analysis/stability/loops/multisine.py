@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_GROUP = 4  # of this many successive candidates one, drawn at random, is not excited
-_DRAWS = 50  # of random phases, of which those with the lowest crest factor are taken
+_GROUP = 4  # one random line of this many successive candidates is not excited
+_DRAWS = 50  # number of random phases, of which those with the lowest crest factor are taken
 _SWAPS = 100  # between time, where the peaks are clipped to a share, and frequency, where the amplitudes are restored
 _CLIPPED = 0.8
 

@@ -20,7 +20,7 @@ from itertools import pairwise
 
 import numpy as np
 
-_RIPPLE = 0.25  # of the half peak to peak
+_RIPPLE = 0.25  # fraction of the half peak to peak
 _ROUNDING = 1e-9
 _DRIFT = 0.2
 _UNEVEN = 0.2
@@ -35,7 +35,7 @@ class Oscillation:
     half_peak_to_peak: float
     period: float
     mean: float
-    cycles: int  # that were measured
+    cycles: int  # number of measured cycles
 
 
 def _upward_crossings(values: np.ndarray, ripple: float) -> np.ndarray:

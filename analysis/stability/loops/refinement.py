@@ -62,7 +62,7 @@ def refine(
         if not wanted:
             return Refined(curve, rounds, 0.0, 0.0)
         for frequency in wanted:
-            if _is_new(curve, frequency):  # behind the lines of this round, too
+            if _is_new(curve, frequency):  # with regard to the lines of this round, too
                 curve = _with_line(curve, *measure(frequency))
         before = classical
         classical, robust = margins_of(curve)

@@ -13,9 +13,9 @@ import numpy as np
 from scipy.sparse.csgraph import connected_components
 
 _ACCURACY = 1e-10  # relative, of the last norm; the bound is within a few of it, as the tests hold
-_GROWTH = 10.0  # of the order from norm to norm
+_GROWTH = 10.0  # factor on the order from norm to norm
 _MOST = 300  # Newton steps; 300 matrices together needed 91 at most, of six channels, real, with kinks
-_SHORTEST = 1e-12  # of a Newton step
+_SHORTEST = 1e-12  # fraction of a Newton step
 _FARTHEST = 3.0  # longest step of log D
 _FLAT = 1e-10  # curvature that is added: a channel that only answers to others is scaled without end, to no effect
 _ROUNDING = 1e-15
@@ -59,7 +59,7 @@ def _two(matrix: np.ndarray) -> np.ndarray:
 def _several(matrix: np.ndarray) -> np.ndarray:
     bounds = np.full(len(matrix), np.nan)
     logarithm = _balance(np.abs(matrix) ** 2)
-    half = np.full(len(matrix), 2.0)  # of the norm's order; the balance has minimised that of order 2
+    half = np.full(len(matrix), 2.0)  # half the norm's order; balancing has minimised that of order 2
     active = np.arange(len(matrix))
     for _ in range(_MOST):
         now, x, q = matrix[active], logarithm[active], half[active]

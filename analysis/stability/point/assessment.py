@@ -14,8 +14,8 @@ from ..loops.readings import Classical, FrequencyResponse, Robust
 from ..request.declaration import MarginLimits
 from ..results.requirement import MarginRequirement, Scope, grows
 
-LOWEST = 1e-6  # of the Nyquist frequency: below, a linear model's integrators are not resolved
-BELOW = 0.02  # of the lowest gain crossover, from which on a loop is looked at
+LOWEST = 1e-6  # fraction of the Nyquist frequency, below which a linear model's integrators are not resolved
+BELOW = 0.02  # fraction of the lowest gain crossover, from which on a loop is studied
 COARSE = 600
 LOWER = 0.2  # step down where encirclements cannot be counted from there
 

@@ -8,7 +8,7 @@ from ...runtime.system.prepared import PreparedSystem
 from ..request.declaration import PointDeclaration
 from .bench import Bench
 
-SAME = 1e-6  # relative, of a value that is held
+SAME = 1e-6  # relative tolerance of a value that is held
 
 
 def frozen_outputs(prepared: PreparedSystem) -> dict[str, tuple[str, float]]:

@@ -25,7 +25,7 @@ from ..results.requirement import MarginVerdict
 from ..results.responses import Measured
 from .bench import Bench, LoopError, OverflowedError
 
-SEED = 1  # of the multisine's phases
+SEED = 1  # seed of the multisine's phases
 PERIODS = 1  # measured at least, after those that the transient takes
 MOST_ROUNDS = 12  # samples of a loop in a hyperperiod up to which the window is a whole number of hyperperiods
 FIRST = 2  # periods in which a transient may look like growth
@@ -35,7 +35,7 @@ STILL_MOVING = 1e-2  # and that above which a loop counts as unstable, or as one
 PER_DECADE = 20
 FEWEST, MOST = 128, 65536  # samples in a period
 DEFAULT_SHARE = 0.01  # amplitude where none is declared, of the signal's own size
-FLIGHT_POINTS = 2_000_000  # communication points of one flight at most
+FLIGHT_POINTS = 2_000_000  # largest number of communication points of one simulation
 
 
 class NotMeasurableError(RuntimeError):
@@ -138,7 +138,7 @@ class Injector:
 
         Raises as `measure`.
         """
-        cycles = frequency * self.seconds / (2.0 * np.pi)  # of a period in a sample
+        cycles = frequency * self.seconds / (2.0 * np.pi)  # periods per sample
         rounds = self.bench.period // self.channel.period
         lengths = np.arange(
             max(FEWEST, math.ceil(1.0 / cycles)), max(FEWEST, self.samples, math.ceil(2.0 / cycles)) + 1

@@ -9,9 +9,9 @@ import numpy as np
 from .bench import OperatingPoint, StudyError
 from .lifted import SampledChannel
 
-STEPS = tuple(10.0**-power for power in range(3, 15))  # of a cell's scale or a signal's size
-LEVELS = 4  # steps in a row, from the largest on that the flight survives
-SCREEN = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)  # the first of these that the flight survives tells which cells matter at all
+STEPS = tuple(10.0**-power for power in range(3, 15))  # in units of a cell's scale or a signal's size
+LEVELS = 4  # successive steps, from the largest one with which the simulation completes
+SCREEN = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)  # the first with which the simulation completes determines the relevant cells
 GOOD = 1e-3  # relative change between neighbouring steps below which a derivative has a plateau
 
 

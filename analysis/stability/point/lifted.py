@@ -21,7 +21,7 @@ import scipy.linalg
 
 from ..request.channels import Channel
 
-RANK = 1e-6  # of the largest singular value: below, a direction counts as forgotten within a period
+RANK = 1e-6  # fraction of the largest singular value, below which a direction vanishes within a period
 SHARE = 1e-7
 LOWEST, LOOKS = 1e-4, 24  # frequencies, over the Nyquist frequency, at which shares are looked at
 QUIET = 1e-6  # response below which nothing has a share

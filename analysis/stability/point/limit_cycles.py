@@ -22,7 +22,7 @@ from .bench import StudyError
 
 POINTS = 400
 LARGEST_GAIN = 1e3
-FEWEST = 100  # communication points of a flight that could show an oscillation
+FEWEST = 100  # least number of communication points of a simulation that could show an oscillation
 
 
 def element_report(

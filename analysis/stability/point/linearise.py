@@ -65,7 +65,7 @@ def linearise(
         for cell, column in zip(cells, remembered, strict=True):
             matrix[:, cell] = column[index]
         matrices.append(matrix)
-        # the first matrix says which cells, so that both models have the same
+        # the first matrix determines the cells, so that both models have the same
         inside = np.flatnonzero(_in_between(matrices[0], driven))
         models.append(_model(jacobian, inside, matrix, np.column_stack([column[index] for column in driven])))
     change = jacobian.end - jacobian.start

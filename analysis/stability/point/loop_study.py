@@ -27,11 +27,11 @@ from .silence import silence_of
 
 SILENT = "nothing of what is added comes back: L is 0"
 RETURN_LIMIT = 1e-9  # gain below which nothing comes back
-FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, in addition to 1
-FIRST_LOOK = 1e-3  # of the Nyquist frequency: where a measurement without a linearisation begins
+FACTORS = (0.25, 4.0, 16.0)  # factors on the declared amplitude, in addition to 1
+FIRST_LOOK = 1e-3  # fraction of the Nyquist frequency at which a measurement without a linearisation begins
 TEST_POINTS = 40  # frequencies at which a model is looked at
 LOOP_GAIN = 5.0  # a measurement begins low enough when the gain of its lowest line is at least this
-LINES_FROM = 10.0  # of the lowest frequency that is looked at: a fifth of the lowest gain crossover
+LINES_FROM = 10.0  # factor on the lowest frequency: a fifth of the lowest gain crossover
 STEP_LENGTH = 12.0  # over the lowest crossover: length of a step response
 
 
@@ -47,7 +47,7 @@ class LoopStudy:
     injector: Injector | None = None
     measured: Measured | None = None
     refined: FrequencyResponse | None = None  # the measured response with lines at its crossings
-    unstable: UnstableError | None = None  # as the flight of a measurement has it
+    unstable: UnstableError | None = None  # growth in the simulation of a measurement
 
     def __post_init__(self) -> None:
         self.seconds = self.channel.period * self.bench.prepared.step
@@ -82,7 +82,7 @@ class LoopStudy:
 
         try:
             refined = refine(self.measured.curve, margins_of, self.injector.near)
-        except ValueError:  # a curve without margins: what says so is `assessed`
+        except ValueError:  # a curve without margins, which `assessed` reports
             return
         except (NotMeasurableError, StudyError) as error:
             self.notes["margins"] = f"they lie between test frequencies: {error}"

@@ -18,9 +18,9 @@ from scipy.sparse.csgraph import connected_components
 from ..results.responses import Mode, Structure
 from .lifted import LiftedModel, SampledChannel
 
-APART = 1e-4  # of the largest: a mode that answers less does not belong to the loop, or it is rounding
+APART = 1e-4  # fraction of the largest: a mode with a smaller response is outside the loop, or rounding
 KINDS = {(True, True): "loop", (False, True): "not controllable", (True, False): "not observable"}
-RANK = 1e-9  # of the largest singular value
+RANK = 1e-9  # fraction of the largest singular value
 ADDS_UP = 1e-6  # from 1: a cell that depends on itself so nearly only adds up, or holds, whatever parameters say
 
 

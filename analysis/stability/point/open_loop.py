@@ -18,7 +18,7 @@ from ..results.responses import StateSpace
 from .lifted import LiftedModel, SampledChannel
 
 LOWEST, HIGHEST, COUNT = 1e-3, 0.97, 60  # frequencies, over the Nyquist frequency, at which L is compared
-SMALLEST_GAIN = 0.03  # of |L|, and 1/33 the other way: margins are decided where L is about 1
+SMALLEST_GAIN = 0.03  # least |L|, and its inverse the largest: margins are determined where L is about 1
 SAME = 1e-3  # relative difference of L up to which one state space stands for all samples
 NEGLIGIBLE = 1e-11  # relative size of singular values that carry no information on A
 

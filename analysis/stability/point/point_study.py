@@ -24,7 +24,7 @@ from .loop_study import LoopStudy
 from .open_loop import open_loop
 from .responses import ONE_STEP, LoopModel, loop_model
 
-MOST_TRIM = 8  # of the memory that changes most
+MOST_TRIM = 8  # number of cells that change most
 TENTH = 0.1  # relative change of L at which the frozen-time linearisation is no longer valid
 
 

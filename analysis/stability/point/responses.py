@@ -24,7 +24,7 @@ NOT_LINEAR = 0.01  # change of L at half the amplitude
 DOUBTFUL = 0.01  # change of L with the next smaller steps of the differences
 LEAST_LOOK = 0.03
 MOST_BLUR = 1e-3
-INTEGRATOR = 0.1  # of the lowest frequency that is looked at: 0.002 of the lowest gain crossover
+INTEGRATOR = 0.1  # fraction of the lowest frequency: 0.002 of the lowest gain crossover
 SLOW_ANGLE = np.pi / 8  # rad
 # Steps of differences at a point whose plateau is known: near the cube root of the rounding of a double, where
 # central differences err least

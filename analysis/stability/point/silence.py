@@ -16,9 +16,9 @@ from ..request.channels import Channel
 from .bench import Bench, OverflowedError, StudyError
 
 PERIODS = 4  # hyperperiods in which a component's outputs are to move
-SMALL = 1e-6  # of a signal's size: what the linearisation changes
+SMALL = 1e-6  # fraction of a signal's size, as in the linearisation
 NUMBERS = ("Real", "Integer", "Boolean", "Enumeration")  # types of outputs that can move
-ROUNDING = 1e-12  # of an output's size, below which it is rounding
+ROUNDING = 1e-12  # fraction of an output's size, below which a change is rounding
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ def _disturb(
         for name in names:
             signal = disturbed[name]
             deviation = (signal - base[name][: len(signal)])[bench.origin + 1 :]
-            if name in injected:  # what was added is not what comes back
+            if name in injected:  # the excitation itself is no response
                 deviation = deviation - injected[name][: len(deviation)]
             deviation = deviation[:: channel.period]
             size = float(np.max(abs(base[name]), initial=0.0))

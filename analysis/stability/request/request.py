@@ -83,7 +83,9 @@ def read_request(
         return request
     plan = read_plan(system, campaign, options, configuration=configuration, trials=trials, seed=seed, draws=draws)
     if configuration is None:
-        plan = replace(plan, campaign=replace(plan.campaign, compare={}))  # of FMUs; a study is of one system
+        plan = replace(
+            plan, campaign=replace(plan.campaign, compare={})
+        )  # without compared FMUs: a study is of one system
     if len(names := [each.name for each in plan.campaign.variants()]) > 1:
         problem = f"the campaign has {len(names)}, and a study is of one"
         raise InputError(plan.campaign.file, "`configuration`", problem, f"give `configuration` {names[0]}")

@@ -31,7 +31,7 @@ class LoopReport:
     curve: FrequencyResponse
     classical: Classical
     robust: Robust
-    stable: bool | None  # of the whole system, all loops closed; None: not known
+    stable: bool | None  # the whole system with all loops closed; None: unknown
     largest: float | None  # multiplier of the loop's modes and of what grows outside of it; None: not known
     unstable_open: int | None  # poles of the open loop outside the unit circle
     outside: tuple[str, ...] = ()  # memory that grows outside of this loop, while all loops are closed

@@ -35,8 +35,8 @@ class Mode:
 class Structure:
     """Ranks of the controllability and observability matrices, and their smallest retained singular values."""
 
-    states: int  # of the complete memory
-    order: int  # of the memory that the cut both moves and is moved by
+    states: int  # number of states of the complete memory
+    order: int  # number of states that affect the cut and are affected by it
     controllable: int
     observable: int
     least_controllable: float
@@ -58,7 +58,7 @@ class Linearised:
 class Measured:
     """Properties of the injection that tell whether it can be trusted."""
 
-    amplitude: float  # of one line, in the cut's unit
+    amplitude: float  # amplitude of one line, in the cut's unit
     lines: int
     periods: int
     period: float  # s, of the multisine
@@ -101,7 +101,7 @@ class StateSpace:
     state_units: tuple[str | None, ...]
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
-    signal_units: tuple[str | None, ...]  # of inputs and outputs alike
+    signal_units: tuple[str | None, ...]  # units of inputs and outputs
     error: float
 
     def response(self, frequency: np.ndarray) -> np.ndarray:
@@ -127,7 +127,7 @@ class LimitCycle:
     amplitude: float
     period: float  # s
     stable: bool
-    simulated_amplitude: float | None  # None: the flight has no oscillation that lasts
+    simulated_amplitude: float | None  # None: the simulation has no sustained oscillation
     simulated_period: float | None
 
 
@@ -138,7 +138,7 @@ class Nonlinearity:
     name: str
     kind: str
     parameters: dict[str, float]
-    unit: str | None  # of the amplitude
+    unit: str | None  # unit of the amplitude
     amplitude: np.ndarray
     gain: np.ndarray  # complex N over amplitude
     cycles: tuple[LimitCycle, ...]

@@ -9,7 +9,7 @@ import numpy as np
 from ..loops.margin_values import LoopMargins, MarginQuantity, order_statistic
 from .requirement import MarginRequirement
 
-LEVELS = {"least": 0.0, "5 %": 0.05, "50 %": 0.5}  # of dispersed margins
+LEVELS = {"least": 0.0, "5 %": 0.05, "50 %": 0.5}  # quantiles of dispersed margins
 
 
 @dataclass(frozen=True)

@@ -62,7 +62,7 @@ class _StructureReader:
         for element in root.iterchildren(etree.Element):
             if tag(element) == ECCO:
                 self.notes.append(f"{ECCO} (line {element.sourceline}): without effect in the algorithm fixedStep")
-            elif tag(element) not in ELEMENTS:  # of drafts before 0.1, or of later versions
+            elif tag(element) not in ELEMENTS:  # from drafts before 0.1, or later versions
                 raise self.refuse(element, "is not part of an OspSystemStructure 0.1", f"use {', '.join(ELEMENTS)}")
         for simulator in root.findall("{*}Simulators/{*}Simulator"):
             self.simulator(simulator)

@@ -44,7 +44,9 @@ def convert_package(files: Mapping[str, bytes], label: str) -> dict[str, bytes]:
         return enumerations_of_fmu(fmu(source))
 
     converted = dict(files)
-    by_set: dict[str, list[Mapping[str, Shape]]] = {}  # what the names of a parameter set mean wherever it is bound
+    by_set: dict[
+        str, list[Mapping[str, Shape]]
+    ] = {}  # arrays that the names of a parameter set may mean, for each binding
     whole: list[Mapping[str, Shape]] = []
     for name in files:
         if name.endswith(".ssd") and "/" not in name:

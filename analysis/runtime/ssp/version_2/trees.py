@@ -28,7 +28,7 @@ def content(element: etree._Element, without: Collection[str]) -> bytes:
 def remove(element: etree._Element) -> None:
     """Remove an element and the white space before it."""
     parent, before = element.getparent(), element.getprevious()
-    if element.getnext() is None:  # what is in front of the parent's end stays there
+    if element.getnext() is None:  # the white space before the parent's end stays
         if before is not None:
             before.tail = element.tail
         else:

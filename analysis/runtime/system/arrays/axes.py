@@ -30,7 +30,7 @@ def read_frames(network: Network, substituted: Collection[str]) -> None:
     children = reader.parts(reader.content(annotation, "Frames"), ("Frame", "Vector"))
     for element in children["Frame"]:
         reader.read_frame(element)
-    for element in children["Frame"]:  # what is listed goes before what is described
+    for element in children["Frame"]:  # listed vectors take precedence over described ones
         reader.read_listed(element, "axes")
     for element in children["Vector"]:
         reader.attributes(element, ("signals", "elements"))

@@ -22,7 +22,7 @@ REMEDIES = {
     MODULE: "rename it, or put it into a package of another name",
     "library": "give it another file name and SONAME",
 }
-Files = Mapping[str, str | None]  # of modules, by name; None of those without a file
+Files = Mapping[str, str | None]  # files of modules by name; None for those without a file
 
 
 class _Loaded(NamedTuple):
@@ -30,7 +30,9 @@ class _Loaded(NamedTuple):
     fmu: Fmu
 
 
-_loaded: dict[tuple[str, str], _Loaded] = {}  # by kind and name, what FMUs have brought into this process: it stays
+_loaded: dict[
+    tuple[str, str], _Loaded
+] = {}  # code that FMUs have brought into this process, which stays, by kind and name
 
 
 def check_namesakes(fmus: Iterable[Fmu], *, in_process: bool) -> None:
